@@ -295,7 +295,8 @@ enum Command {
         #[arg(long)]
         simulated: bool,
         /// Let a second robot get the inputs of the first one, with parameters of its own: the page shows both, and
-        /// where they differ. The first one records its run to a temporary file for that.
+        /// where they differ. The first one records its run to a temporary file for that. In the second one sources
+        /// are not called, but all other nodes run: not for robots whose motors are driven by other nodes.
         #[arg(long, conflicts_with_all = ["connect", "replay"])]
         shadow: bool,
         /// Simulated seconds per second at the beginning.

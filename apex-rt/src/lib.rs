@@ -7,6 +7,7 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+pub mod bytes;
 mod cell;
 mod clock;
 mod ctx;

@@ -274,6 +274,13 @@ export class Timeline {
       this.look(/** @type {CustomEvent} */ (event).detail);
       this.go();
     });
+    canvas.addEventListener("look", (event) => {
+      const [from, to, cursor] = /** @type {CustomEvent} */ (event).detail;
+      this.stop();
+      Object.assign(this, { span: to - from, end: to, cursor });
+      this.request();
+      this.draw();
+    });
     addEventListener("resize", () => this.request());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }

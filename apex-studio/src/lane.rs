@@ -206,8 +206,8 @@ impl Lane {
         !self.spans.is_empty() || !self.marks.is_empty()
     }
 
-    /// Time of the first difference from another lane between two times, if there is one. What one of them has summed up
-    /// is compared as a sum.
+    /// Time of the first difference from another lane between two times, if there is one. What one of them has summed
+    /// up is compared as a sum.
     pub fn differs(&self, other: &Self, from: i64, until: i64) -> Option<i64> {
         let (bucket, grain) = (self.bucket.max(other.bucket), self.grain.max(other.grain));
         let (one, other) = (self.with(bucket, grain), other.with(bucket, grain));

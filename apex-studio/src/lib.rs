@@ -152,7 +152,10 @@ impl Studio {
                 let speed = if shadow_of.is_some() { Some(f64::INFINITY) } else { self.speed };
                 let following = Arc::clone(&shared);
                 let thread = thread::Builder::new().name("robot".to_owned());
-                threads.push(thread.spawn(move || follow(&mut *robot, &following, speed))?);
+                let comes_back = robot.comes_back();
+                let thread = thread.spawn(move || follow(&mut *robot, &following, speed))?;
+                // Robots that others have started are left alone at the end, also if they say nothing any more.
+                threads.extend((!comes_back).then_some(thread));
                 let own = shadow_of.and_then(|of| robots.get_mut(of));
                 let beside = own.map(|of| {
                     of.beside = Some(Beside { shared: Arc::clone(&shared), is_shadow: true });

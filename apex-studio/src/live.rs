@@ -67,6 +67,8 @@ pub struct Live {
     pub measured: u64,
     /// `true` if this run repeats an earlier one up to a point.
     pub repeats: bool,
+    /// `true` while it repeats that one: the robot does not obey pages meanwhile.
+    pub travels: bool,
     /// Number of times that this run went back to a checkpoint.
     pub returns: u64,
     /// Reason why there are no checkpoints.
@@ -173,6 +175,7 @@ impl Default for Live {
             calls: vec![],
             measured: 0,
             repeats: false,
+            travels: false,
             returns: 0,
             no_checkpoints: None,
             checkpoints: vec![],
@@ -187,12 +190,12 @@ impl Default for Live {
 impl Live {
     /// Begins a run of the robot that a message describes. Returns the run before it.
     pub fn begin(&mut self, about: About) -> Self {
-        let (runs, repeats) = (self.runs + 1, self.repeats);
+        let (runs, repeats, travels) = (self.runs + 1, self.repeats, self.travels);
         let mut before = self.before.take().filter(|_| repeats);
         let about = Arc::new(about);
         before.iter_mut().for_each(|before| before.map_to(&about));
         let steps = Steps::new(self.steps.store());
-        let next = Self { runs, repeats, before, steps, run: Run::Running, ..Self::default() };
+        let next = Self { runs, repeats, travels, before, steps, run: Run::Running, ..Self::default() };
         let last = std::mem::replace(self, next);
         self.nodes = vec![Node::default(); about.nodes.len()];
         self.lanes = about.nodes.iter().map(|_| Lane::of(about.nodes.len())).collect();
@@ -266,7 +269,7 @@ impl Live {
             Report::Pace { paused, speed, .. } => (self.paused, self.speed) = (paused, speed),
             Report::Checkpoints(all) => self.keep(&all),
             Report::NoCheckpoints(why) => (self.no_checkpoints, self.checkpoints) = (Some(why), vec![]),
-            Report::Ended => self.run = Run::Ended,
+            Report::Ended => self.end(Run::Ended),
         }
     }
 
@@ -391,6 +394,11 @@ impl Live {
         }
     }
 
+    /// The robot has ended, and its checkpoints with it.
+    pub fn end(&mut self, run: Run) {
+        (self.run, self.checkpoints, self.travels) = (run, vec![], false);
+    }
+
     /// `true` if there is a checkpoint that has at most this number of reactions before it.
     pub fn has_checkpoint(&self, reactions: u64) -> bool {
         self.checkpoints.first().is_some_and(|first| first.reactions <= reactions)
@@ -428,7 +436,7 @@ impl Live {
             let (steps, reactions) = (self.steps.clone(), self.reactions);
             self.before = Some(Before { lanes, about, steps, reactions, now: self.now });
         }
-        self.repeats = true;
+        (self.repeats, self.travels) = (true, true);
     }
 
     /// Number of reactions up to a time in ns, also in the future if that is known.

@@ -32,7 +32,7 @@ pub fn test(live: &Live, from: i64, to: i64, replayed: Option<&Replayed>) -> Res
     moment.feeds(replayed)?;
     moment.begin(from, to);
     moment.middle(from, to);
-    moment.end(to);
+    moment.end(from, to);
     if moment.lines == 0 {
         return Err("no node was active or inactive in this interval".to_owned());
     }
@@ -126,8 +126,15 @@ impl<'a> Moment<'a> {
         }
     }
 
-    /// The state at the end.
-    fn end(&mut self, to: i64) {
+    /// The state at the end, and what does not happen any more before it.
+    fn end(&mut self, from: i64, to: i64) {
+        let now = self.now;
+        for (node, lane) in self.nodes() {
+            let rests = |since: i64| !lane.is_active_at(since) && lane.spans_in(since, to).next().is_none();
+            if to > now && rests(now) && !rests(from) {
+                self.expectation(&format!("never active({});", node.name));
+            }
+        }
         if to > self.now {
             self.line(&format!("wait {};", duration(to - self.now)));
         }

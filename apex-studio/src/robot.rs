@@ -6,12 +6,12 @@ use crate::{
     live::{Live, Run},
 };
 use apex_rt::studio::{
-    Wire, connect,
+    connect,
     message::{self, About, Command, Report},
 };
 use std::{
     collections::{BTreeMap, VecDeque},
-    io::{BufReader, ErrorKind, Write as _},
+    io::{BufReader, ErrorKind, Read, Write},
     sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
     thread,
     time::{Duration, Instant},
@@ -95,7 +95,7 @@ const MAX_EARLIER: usize = 4;
 
 #[derive(Default)]
 struct Link {
-    wire: Option<Box<dyn Wire>>,
+    wire: Option<Box<dyn Write + Send>>,
     /// Number of pages that watch each channel.
     watches: BTreeMap<u32, usize>,
     /// Number of pages that want calls to be measured.
@@ -276,7 +276,10 @@ pub fn follow(robot: &mut dyn Robot, shared: &Arc<Shared>, mut speed: Option<f64
             shared.set(Run::Starting("building".to_owned()));
         }
         let journey = locked(&shared.link).journey.take();
-        shared.live().repeats = journey.is_some();
+        {
+            let (mut live, repeats) = (shared.live(), journey.is_some());
+            (live.repeats, live.travels) = (repeats, repeats);
+        }
         match robot.start(journey.as_ref().is_some_and(|journey| !journey.is_of_changed())) {
             Ok(address) => {
                 let travels = robot.repeats();
@@ -335,12 +338,16 @@ fn run(
         *speed = Some(live.speed);
     }
     if live.run != Run::Ended && journey.is_none() {
-        live.run = Run::Lost(reader.err().unwrap_or_else(|| "the robot has broken off".to_owned()));
+        live.end(Run::Lost(reader.err().unwrap_or_else(|| "the robot has broken off".to_owned())));
     }
     journey
 }
 
-fn connection(robot: &mut dyn Robot, address: &str, shared: &Shared) -> Option<(Box<dyn Wire>, Box<dyn Wire>)> {
+fn connection(
+    robot: &mut dyn Robot,
+    address: &str,
+    shared: &Shared,
+) -> Option<(Box<dyn Read + Send>, Box<dyn Write + Send>)> {
     // What an earlier run has shown, or why it was lost, stays until there is a new one.
     let is_first = matches!(shared.live().run, Run::Starting(_));
     if is_first {
@@ -361,18 +368,21 @@ fn connection(robot: &mut dyn Robot, address: &str, shared: &Shared) -> Option<(
 }
 
 /// Reads messages until the connection ends, and guides the robot on its journey.
-fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>, way: Way) -> Result<(), String> {
+fn read(from: Box<dyn Read + Send>, shared: &Shared, speed: Option<f64>, way: Way) -> Result<(), String> {
     let mut from = BufReader::with_capacity(1 << 16, from);
     let Way { travels, mut journey, mut returns } = way;
+    let mut has_begun = false;
     let mut wants = Wants { travels, params: 0, speed: speed.filter(|_| journey.is_none()) };
     while let Some(report) = next(&mut from)? {
         match &report {
             Report::About(about) => {
                 is_readable(about)?;
                 wants.params = about.params.len();
-                if returns {
+                // One without memory says so again for those who come later.
+                if returns || (has_begun && shared.live().about.as_deref() == Some(about)) {
                     continue;
                 }
+                has_begun = true;
                 let first = journey.as_mut().and_then(|journey| journey.begin(wants.params));
                 greet(shared, about, &wants, first);
             }
@@ -397,6 +407,7 @@ fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>, way: Way) -> R
             shared.tell(&command);
         } else if let Some(ended) = journey.take_if(|journey| journey.ends(&report)) {
             ended.last().inspect(|command| shared.tell(command));
+            shared.live().travels = false;
         }
         shared.note(report);
     }
@@ -404,7 +415,7 @@ fn read(from: Box<dyn Wire>, shared: &Shared, speed: Option<f64>, way: Way) -> R
 }
 
 /// Reads the next message. Returns `None` at the end of the connection.
-fn next(from: &mut BufReader<Box<dyn Wire>>) -> Result<Option<Report>, String> {
+fn next(from: &mut BufReader<Box<dyn Read + Send>>) -> Result<Option<Report>, String> {
     match message::read::<Report>(from) {
         Ok(report) => Ok(report),
         // It was killed in the middle of a message.

@@ -321,7 +321,7 @@ impl Session {
                 self.shared.restart();
                 return None;
             }
-            Asked::Back | Asked::Goto(_) if !self.travels => return None,
+            Asked::Back | Asked::Goto(_) if !self.travels || self.shared.live().travels => return None,
             Asked::Back => {
                 let last = self.shared.live().reactions.saturating_sub(1);
                 self.shared.travel(last);
@@ -348,7 +348,9 @@ impl Session {
             Asked::Step => Command::Step,
             Asked::Run { speed } => Command::Run { speed: speed.unwrap_or(f64::INFINITY) },
         };
-        self.shared.tell(&command);
+        if !self.shared.live().travels {
+            self.shared.tell(&command);
+        }
         None
     }
 
@@ -527,7 +529,9 @@ impl Seen {
             }
         }
         let speed = live.speed.is_finite().then_some(live.speed);
-        let (run, now) = (live.run.clone(), seconds(live.now));
+        let travels = live.travels && live.run == Run::Running;
+        let run = if travels { Run::Starting("repeating the run".to_owned()) } else { live.run.clone() };
+        let now = seconds(live.now);
         let (paused, forgotten) = (live.paused, live.steps.forgotten().map(seconds));
         Tick { run, now, paused, speed, lost: live.lost, forgotten, nodes, handled, awaited: live.waits.awaited() }
     }

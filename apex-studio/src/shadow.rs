@@ -34,8 +34,8 @@ impl Recorded {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Lets the robot that a command starts make a recording in `folder`. The shadow is started by a copy of the command
-    /// that `adapt` may change.
+    /// Lets the robot that a command starts make a recording in `folder`. The shadow is started by a copy of the
+    /// command that `adapt` may change.
     pub fn begin(&self, robot: &mut Command, folder: &Path, adapt: impl FnOnce(&mut Command)) {
         let mut run = self.run();
         // A shadow that still reads it can do so.

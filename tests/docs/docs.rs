@@ -26,6 +26,7 @@ mod prose;
 mod rates;
 mod readme;
 mod recording;
+mod studio;
 mod texts;
 mod tour;
 
@@ -191,6 +192,8 @@ fn the_rust_in_the_documentation_is_compiled_here() {
     assert_eq!(blocks(&page("docs/from/copper.md"), "rust"), [include_str!("from/copper.rs")]);
     assert_eq!(blocks(&page("docs/from/cs-apex.md"), "rust"), [include_str!("from/cs_apex.rs")]);
     assert_eq!(blocks(&page("docs/recording.md"), "rust"), [include_str!("recording.rs")]);
+    assert_eq!(blocks(&page("docs/studio.md"), "rust"), [include_str!("studio.rs")]);
+    studio::drive(readme::Parity::new(), |bytes| assert!(!bytes.is_empty()));
     readme::main();
     recording::main().expect("the file can be written and read");
     language::main();

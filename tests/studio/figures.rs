@@ -235,8 +235,9 @@ fn figures_of_an_hour_at_1_khz() {
         let count: u64 = all.filter_map(|tick| tick[1].as_u64()).sum();
         println!("lanes of {} s: {duration:.1?}, {count} firings of a node", to - from);
         assert_eq!(first["node"], 0);
-        let expected = ((to - from) * 1000.0) as u64;
-        assert!(count.abs_diff(expected) <= 64, "{count} instead of {expected}");
+        // Long windows are drawn from sums, and the first and the last of them may reach beyond the window.
+        let (expected, slack) = (((to - from) * 1000.0) as u64, if to - from > 10.0 { 1024 } else { 2 });
+        assert!(count.abs_diff(expected) <= slack, "{count} instead of {expected}");
     }
     fs::remove_file(path).expect("it is still there");
 }

@@ -1,13 +1,35 @@
 //! The pictures of the documentation: of robots that run, so that they are drawn on demand only.
 
-use crate::browser::Browser;
+use crate::{browser::Browser, socket};
 use base64::{Engine as _, prelude::BASE64_STANDARD};
 use std::{
     env, fs,
     io::{BufRead as _, BufReader},
-    path::Path,
+    path::{Path, PathBuf},
     process::{Child, Command, Stdio},
 };
+
+/// The folder of the workspace.
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the folder of the workspace")
+}
+
+/// Builds the command `apex`, and returns its path: beside that of the tests.
+fn apex() -> PathBuf {
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let built = cargo.args(["build", "--quiet", "--package", "apex-cli"]).current_dir(root()).status();
+    assert!(built.expect("cargo starts").success());
+    let own = env::current_exe().expect("a path");
+    own.ancestors().nth(2).expect("the folder of the build").join("apex")
+}
+
+/// Settings of builds as in the tests of the command, so that what these have built is used again.
+const SETTINGS: [(&str, &str); 4] = [
+    ("CARGO_INCREMENTAL", "0"),
+    ("CARGO_PROFILE_DEV_DEBUG", "0"),
+    ("CARGO_PROFILE_DEV_BUILD_OVERRIDE_OPT_LEVEL", "0"),
+    ("CARGO_PROFILE_RELEASE_BUILD_OVERRIDE_OPT_LEVEL", "0"),
+];
 
 /// A studio of `apex studio`, which ends with it.
 struct Studio {
@@ -16,12 +38,9 @@ struct Studio {
 }
 
 impl Studio {
-    fn open(arguments: &[&str]) -> Self {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the folder of the workspace");
-        let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        command.args(["run", "--quiet", "--release", "--package", "apex-cli", "--", "studio"]).args(arguments);
-        command.args(["--listen", "127.0.0.1:0"]);
-        let mut process = command.current_dir(root).stderr(Stdio::piped()).spawn().expect("cargo starts");
+    fn open(mut command: Command, folder: &Path, arguments: &[&str]) -> Self {
+        command.arg("studio").args(arguments).args(["--quiet", "--listen", "127.0.0.1:0"]).current_dir(folder);
+        let mut process = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
         let mut lines = BufReader::new(process.stderr.take().expect("it is piped")).lines().map_while(Result::ok);
         let address = lines.find_map(|line| Some(line.strip_prefix("studio: ")?.to_owned())).expect("an address");
         std::thread::spawn(move || lines.for_each(drop));
@@ -38,30 +57,112 @@ impl Drop for Studio {
 }
 
 fn save(page: &mut Browser, name: &str) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/images");
     let picture = BASE64_STANDARD.decode(page.picture()).expect("base 64");
-    fs::write(folder.join(name), picture).expect("a folder for pictures");
+    fs::write(root().join("docs/images").join(name), picture).expect("a folder for pictures");
+}
+
+fn time_is_over(page: &mut Browser, seconds: f64) {
+    page.wait_for(&format!("parseFloat(document.getElementById('now').textContent) > {seconds}"));
+}
+
+/// Clicks what a selector finds, once it is there.
+fn click(page: &mut Browser, selector: &str) {
+    page.wait_for(&format!("document.querySelector('{selector}')"));
+    page.value(&format!("document.querySelector('{selector}').click()"));
 }
 
 #[test]
 #[ignore = "draws docs/images/studio*.png: cargo test -p apex-tests --test studio -- --ignored pictures"]
 fn pictures() {
-    let studio = Studio::open(&["--simulated", "--release", "--speed", "4", "robots/rover/robot.afg"]);
+    let folder = socket("pictures");
+    fs::create_dir_all(&folder).expect("a new folder");
+    let robot = root().join("robots/rover/robot.afg");
+    let studio =
+        Studio::open(Command::new(apex()), &folder, &["--simulated", "--speed", "4", robot.to_str().expect("UTF-8")]);
     let mut page = Browser::open(&studio.address).expect("a browser");
     page.size(1280, 760, false);
-    page.value("document.querySelector('[data-tab=params]').click()");
+    click(&mut page, "[data-tab=params]");
     page.value("document.getElementById('params-filter').value = 'mission'");
     page.value("document.getElementById('params-filter').dispatchEvent(new Event('input'))");
-    page.wait_for("parseFloat(document.getElementById('now').textContent) > 44");
+    time_is_over(&mut page, 44.0);
     page.press("0");
     save(&mut page, "studio.png");
     page.size(1280, 760, true);
-    page.value("document.querySelector('[data-tab=values]').click()");
-    page.value("document.querySelector('[data-channel=\"sim.base.battery\"] input').click()");
-    page.value("document.querySelector('[data-channel=\"sim.laser.scan\"] input').click()");
+    click(&mut page, "[data-tab=values]");
+    click(&mut page, "[data-channel=\"sim.base.battery\"] input");
+    click(&mut page, "[data-channel=\"sim.laser.scan\"] input");
     let from = "document.querySelector('[data-channel=\"sim.laser.scan\"] select')";
     page.value(&format!("{{ {from}.value = 'sim.base.pose'; {from}.dispatchEvent(new Event('change')); }}"));
-    page.wait_for("parseFloat(document.getElementById('now').textContent) > 60");
+    time_is_over(&mut page, 60.0);
     page.press("0");
     save(&mut page, "studio_dark.png");
+    // Narrow, for a look only.
+    if let Some(place) = env::var_os("APEX_NARROW") {
+        page.size(640, 760, true);
+        page.press("0");
+        page.value("new Promise((done) => setTimeout(done, 500))");
+        let picture = BASE64_STANDARD.decode(page.picture()).expect("base 64");
+        fs::write(place, picture).expect("a place for it");
+    }
+    fs::remove_dir_all(folder).expect("it is still there");
+}
+
+/// Makes the robot of `docs/debugging.md` in a folder.
+fn robot_with_a_mistake(folder: &Path) {
+    fs::create_dir_all(folder).expect("a new folder");
+    let made = Command::new(apex()).args(["new", "rover"]).current_dir(folder).stdout(Stdio::null()).status();
+    assert!(made.expect("it starts").success());
+    let path = folder.join("rover/robot.afg");
+    let text = fs::read_to_string(&path).expect("the robot");
+    let wrong =
+        text.replace("free -> drive.free", "wide -> drive.free").replace("wide -> turn.free", "free -> turn.free");
+    assert!(text != wrong);
+    fs::write(path, wrong).expect("a file");
+}
+
+#[test]
+#[ignore = "draws docs/images/debugging*.png: cargo test -p apex-tests --test studio -- --ignored pictures"]
+fn pictures_of_a_mistake() {
+    let folder = socket("mistake");
+    robot_with_a_mistake(&folder);
+    let mut command = Command::new(apex());
+    command.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("made")).envs(SETTINGS);
+    let rover = folder.join("rover");
+    let studio = Studio::open(command, &rover, &["--simulated", "--speed", "4", "robot.afg"]);
+    let mut page = Browser::open(&studio.address).expect("a browser");
+    page.size(1280, 760, false);
+    time_is_over(&mut page, 13.5);
+    page.press(" ");
+    page.wait_for("document.getElementById('run').textContent === 'halted'");
+    page.value("import('./studio.js').then(({ select }) => select('sim.mission.turn'))");
+    // From 9.5 s to 12.5 s, with the cursor in it.
+    let look = |page: &mut Browser| {
+        page.value(
+            "document.getElementById('timeline').dispatchEvent(new CustomEvent('look', { detail: [9.5, 12.5, 10.52] }))",
+        );
+        page.value("new Promise((done) => setTimeout(done, 600))");
+    };
+    look(&mut page);
+    page.press("w");
+    page.wait_for("document.querySelector('#why button')");
+    page.press("0");
+    save(&mut page, "debugging.png");
+    page.size(1280, 760, true);
+    page.value("document.getElementById('timeline').dispatchEvent(new CustomEvent('goto', { detail: 10 }))");
+    page.wait_for(
+        "document.getElementById('run').textContent === 'halted' && parseFloat(document.getElementById('now').textContent) < 10.1",
+    );
+    click(&mut page, "[data-tab=params]");
+    page.value("document.getElementById('params-filter').value = 'mission.drive'");
+    page.value("document.getElementById('params-filter').dispatchEvent(new Event('input'))");
+    let text = "document.querySelector('[data-param=\"sim.mission.drive.near\"] input[type=text]')";
+    page.value(&format!("{{ {text}.value = '0.4'; {text}.dispatchEvent(new Event('change')); }}"));
+    page.wait_for("document.querySelector('[data-param=\"sim.mission.drive.near\"]').classList.contains('is-changed')");
+    page.press(" ");
+    time_is_over(&mut page, 13.0);
+    page.press(" ");
+    look(&mut page);
+    page.press("0");
+    save(&mut page, "debugging_dark.png");
+    fs::remove_dir_all(folder).expect("it is still there");
 }

@@ -1,6 +1,6 @@
 //! The robot of the tests in a process of its own: `apex-test-robot SOCKET [PAUSE [thread | slow]]`. Each reaction
-//! takes `PAUSE` in ms; with `thread` the program has a thread of its own, with `slow` another period. Without arguments
-//! the runtime drives it as the environment variables ask.
+//! takes `PAUSE` in ms; with `thread` the program has a thread of its own, with `slow` another period. Without
+//! arguments the runtime drives it as the environment variables ask.
 #![allow(missing_docs, reason = "a program of tests")]
 
 use apex_macros::graph;

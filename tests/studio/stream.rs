@@ -2,7 +2,7 @@
 
 use crate::{drive, open, socket};
 use apex_rt::studio::{
-    StreamedTime, Wire, connect,
+    StreamedTime, connect,
     message::{self, About, Command, Report, Test},
 };
 use std::{
@@ -13,8 +13,8 @@ use std::{
 
 /// A viewer of a program that runs on another thread.
 pub struct Viewer {
-    pub from: Box<dyn Wire>,
-    to: Box<dyn Wire>,
+    pub from: Box<dyn io::Read + Send>,
+    to: Box<dyn io::Write + Send>,
 }
 
 impl Viewer {

@@ -167,7 +167,8 @@ impl Robot for Launched {
     }
 }
 
-/// Lets a robot record its run for its shadow, which begins with the parameters that the robot keeps from the run before.
+/// Lets a robot record its run for its shadow, which begins with the parameters that the robot keeps from the run
+/// before.
 fn record(recorded: Option<&Recorded>, robot: &mut Command, folder: &Path) {
     let Some(recorded) = recorded else { return };
     recorded.begin(robot, folder, |shadow| {

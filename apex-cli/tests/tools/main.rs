@@ -6,6 +6,8 @@ use std::{process::Command, sync::Mutex};
 mod common;
 
 mod completions;
+#[cfg(unix)]
+mod debugging;
 mod doc;
 mod docs;
 mod explain;

@@ -76,14 +76,21 @@ fn robot(folder: &Folder) -> PathBuf {
 }
 
 /// A studio that runs.
-struct Studio {
+pub struct Studio {
     process: Child,
-    address: String,
+    /// Address of the page.
+    pub address: String,
 }
 
 impl Studio {
     fn open(arguments: &[&str]) -> Self {
+        Self::open_in(Path::new("."), arguments)
+    }
+
+    /// Opens a studio in a folder.
+    pub fn open_in(folder: &Path, arguments: &[&str]) -> Self {
         let mut command = apex();
+        command.current_dir(folder);
         command.arg("studio").args(arguments).args(["--listen", "127.0.0.1:0"]).env("CARGO_TARGET_DIR", TARGET);
         let mut process = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         let mut lines = BufReader::new(process.stderr.take().unwrap()).lines().map_while(Result::ok);
@@ -106,17 +113,19 @@ impl Drop for Studio {
     }
 }
 
+/// Longer than a build of the robot takes.
+const PATIENCE: Duration = Duration::from_secs(120);
+
 /// A page without a browser.
-struct Page(WebSocket<TcpStream>);
+pub struct Page(WebSocket<TcpStream>);
 
 impl Page {
-    fn open(address: &str) -> Self {
+    pub fn open(address: &str) -> Self {
         let (host, token) = address.strip_prefix("http://").and_then(|rest| rest.split_once("/#")).unwrap();
         let mut request = format!("ws://{host}/live").into_client_request().unwrap();
         request.headers_mut().insert("Origin", format!("http://{host}").parse().unwrap());
         let stream = TcpStream::connect(host).unwrap();
-        // Longer than a build of the robot takes.
-        stream.set_read_timeout(Some(Duration::from_secs(300))).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
         let (socket, _) = client(request, stream).unwrap();
         let mut page = Self(socket);
         page.say(token);
@@ -127,12 +136,12 @@ impl Page {
         self.0.send(Message::Text(text.to_owned().into())).unwrap();
     }
 
-    fn ask(&mut self, asked: &Value) {
+    pub fn ask(&mut self, asked: &Value) {
         self.say(&asked.to_string());
     }
 
     /// Waits for a message of a kind for which a condition holds.
-    fn until(&mut self, kind: &str, is: impl Fn(&Value) -> bool) -> Value {
+    pub fn until(&mut self, kind: &str, is: impl Fn(&Value) -> bool) -> Value {
         let start = Instant::now();
         let mut last = Value::Null;
         loop {
@@ -143,20 +152,20 @@ impl Page {
                 Some(value) => last = value.take(),
                 None => {}
             }
-            assert!(start.elapsed() < Duration::from_secs(300), "the last `{kind}`: {last}");
+            assert!(start.elapsed() < PATIENCE, "the last `{kind}`: {last}");
         }
     }
 
-    fn until_time(&mut self, seconds: f64) {
+    pub fn until_time(&mut self, seconds: f64) {
         self.until("tick", |tick| tick["now"].as_f64() > Some(seconds));
     }
 
-    fn until_value(&mut self, name: &str, value: &str) {
+    pub fn until_value(&mut self, name: &str, value: &str) {
         self.until("params", |params| params[name]["value"] == value);
     }
 
     /// Time at which the robot begins to differ from another one.
-    fn differs(&mut self) -> Option<f64> {
+    pub fn differs(&mut self) -> Option<f64> {
         self.ask(&json!({ "lanes": { "from": 0, "to": 1e4, "columns": 100, "also": [] } }));
         self.until("lanes", |_| true)["differs"].as_f64()
     }
@@ -211,9 +220,9 @@ fn a_recording_is_repeated_and_goes_back() {
     page.ask(&json!("back"));
     // By a checkpoint: a replay reads its file with a position of its own.
     page.until("back", |_| true);
-    page.until("tick", |tick| tick["paused"] == true && tick["now"].as_f64() < Some(now));
+    page.until("tick", |tick| tick["run"] == "running" && tick["paused"] == true && tick["now"].as_f64() < Some(now));
     page.ask(&json!({ "goto": 0.5 }));
-    page.until("tick", |tick| tick["paused"] == true && tick["now"].as_f64() < Some(0.51));
+    page.until("tick", |tick| tick["run"] == "running" && tick["paused"] == true && tick["now"].as_f64() < Some(0.51));
     // The same again, but for a parameter.
     page.ask(&json!({ "set": { "name": "high.limit", "value": "99" } }));
     page.until_value("high.limit", "99");

@@ -25,6 +25,6 @@ mod times;
 
 #[cfg(feature = "studio")]
 pub use run::{StreamedTime, Studio};
-pub use socket::{Wire, connect};
+pub use socket::connect;
 #[cfg(feature = "studio")]
 pub use stream::Stream;

@@ -1,22 +1,26 @@
 //! Sockets of the machine's network and, on Unix, of the file system.
 
+use super::message;
 use std::{
     boxed::Box,
+    fs,
     io::{self, Read, Write},
     net::TcpStream,
     path::Path,
 };
 #[cfg(feature = "studio")]
 use std::{
-    format, fs,
+    format,
     net::TcpListener,
     path::PathBuf,
     string::{String, ToString as _},
 };
 
-/// A connection.
+/// A connection to a viewer.
+#[cfg(feature = "studio")]
 pub trait Wire: Read + Write + Send {}
 
+#[cfg(feature = "studio")]
 impl<T: Read + Write + Send> Wire for T {}
 
 /// A socket that waits for viewers.
@@ -91,12 +95,27 @@ impl Drop for Listener {
     }
 }
 
-/// Connects to a robot at `address`. Returns a reader and a writer.
+/// Connects to a robot at `address`: `HOST:PORT`, or the path of a socket or a serial device. After `bytes:`, it is a
+/// stream of bytes that may be joined in the middle ([`ByteStream`](crate::bytes::ByteStream)): everything before the
+/// next description of the robot is skipped, and no commands are sent. Returns a reader and a writer.
 ///
 /// # Errors
 /// There is none.
-pub fn connect(address: &str) -> io::Result<(Box<dyn Wire>, Box<dyn Wire>)> {
+pub fn connect(address: &str) -> io::Result<(Box<dyn Read + Send>, Box<dyn Write + Send>)> {
+    let Some(address) = address.strip_prefix("bytes:") else { return open(address) };
+    let (from, mut to) = open(address)?;
+    // Whatever comes from here lets the robot describe itself.
+    to.write_all(&[0])?;
+    Ok((Box::new(message::Joined::new(from)), Box::new(io::sink())))
+}
+
+fn open(address: &str) -> io::Result<(Box<dyn Read + Send>, Box<dyn Write + Send>)> {
     match path(address) {
+        #[cfg(unix)]
+        Some(path) if is_device(path) => {
+            let file = fs::File::options().read(true).write(true).open(path)?;
+            Ok((Box::new(file.try_clone()?), Box::new(file)))
+        }
         #[cfg(unix)]
         Some(path) => {
             let stream = std::os::unix::net::UnixStream::connect(path)?;
@@ -110,6 +129,12 @@ pub fn connect(address: &str) -> io::Result<(Box<dyn Wire>, Box<dyn Wire>)> {
             Ok((Box::new(stream.try_clone()?), Box::new(stream)))
         }
     }
+}
+
+#[cfg(unix)]
+fn is_device(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    fs::metadata(path).is_ok_and(|file| file.file_type().is_char_device())
 }
 
 /// Returns the path, if the address is one.
