@@ -9,11 +9,8 @@
 #[allow(dead_code)]
 mod recordings;
 
-use apex_nodes::{
-    optim::{Axis, Scale},
-    slam::{Settings, Window},
-};
-use apex_tune::{Goal, Journal, Method, Objective, Parameter, Report, Study, Summary};
+use apex_nodes::slam::{Settings, Window};
+use apex_tune::{Axis, Goal, Journal, Method, Objective, Parameter, Report, Scale, Study, Summary};
 use recordings::{Recording, errors, intel, play};
 use std::{
     error::Error,

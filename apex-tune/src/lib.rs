@@ -13,7 +13,7 @@ mod report;
 mod study;
 mod summary;
 
-pub use apex_nodes::optim::{Axis, BadAxis, Best, Scale};
+pub use apex_optim::{Axis, BadAxis, Best, Scale};
 pub use goal::{Goal, Point};
 pub use journal::{Journal, JournalError, Run};
 pub use report::{Report, Score};

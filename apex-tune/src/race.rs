@@ -1,5 +1,5 @@
 use crate::goal::{Fitness, Goal, Runs, costs};
-use apex_nodes::optim::Selection;
+use apex_optim::Selection;
 
 /// Minimum number of runs of a round. It does not depend on the number of threads, so that the same runs are saved on
 /// any number.

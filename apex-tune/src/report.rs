@@ -3,7 +3,7 @@ use crate::{
     goal::{Fitness, add_to_front},
     picture,
 };
-use apex_nodes::optim::Best;
+use apex_optim::Best;
 use std::{fmt::Write, fs, io, path::Path};
 
 /// Costs by goal, on the seeds of the study and on those that it has not seen.

@@ -3,7 +3,7 @@ use crate::{
     goal::{Fitness, Runs, add_to_front, costs},
     race::Race,
 };
-use apex_nodes::optim::{Axis, Best, CmaSearch, DeSearch, Search, Selection, Space};
+use apex_optim::{Axis, Best, CmaSearch, DeSearch, Search, Selection, Space};
 use rayon::prelude::*;
 use std::{fmt, sync::Mutex};
 

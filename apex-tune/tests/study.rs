@@ -1,6 +1,6 @@
 //! Studies of a function with noise by seed.
 
-use apex_nodes::optim::{Axis, Scale};
+use apex_optim::{Axis, Scale};
 use apex_tune::{Found, Goal, Journal, Method, Objective, Parameter, Report, Study, Summary};
 use std::{
     fs,

@@ -6,7 +6,7 @@
 
 mod functions;
 
-use apex_nodes::optim::{Axis, CmaSearch, DeSearch, Scale, Search, Space};
+use apex_optim::{Axis, CmaSearch, DeSearch, Scale, Search, Space};
 use functions::{FUNCTIONS, Function};
 use std::{
     fs,

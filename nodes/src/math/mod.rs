@@ -7,12 +7,11 @@ mod angle;
 mod arithmetic;
 mod compare;
 mod filter;
-mod random;
 mod several;
 
 pub use angle::{angle_difference, atan2, cos, degrees, hypot, normalize_angle, radians, sin};
+pub use apex_optim::Random;
 pub use arithmetic::{abs, add, clamp, div, lerp, mul, neg, scale, sqrt, sub};
 pub use compare::{Hysteresis, above, below, not, within};
 pub use filter::{LowPass, MAX_WINDOW, MovingAverage, RateLimit};
-pub use random::Random;
 pub use several::{all, any, max, mean, median, min, sum, vote};

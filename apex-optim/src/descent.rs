@@ -1,5 +1,5 @@
-use super::{Space, eigen::eigen};
-use crate::math::Random;
+use crate::Random;
+use crate::{Space, eigen::eigen};
 use serde::{Deserialize, Serialize};
 
 /// Relative difference of fitness below which a descent has converged.

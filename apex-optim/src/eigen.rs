@@ -38,7 +38,7 @@ fn rotate(a: &mut [f64], v: &mut [f64], n: usize, p: usize, q: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Random;
+    use crate::Random;
 
     #[test]
     fn a_matrix_is_the_product_of_its_parts() {

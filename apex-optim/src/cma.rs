@@ -1,9 +1,9 @@
-use super::{
+use crate::Random;
+use crate::{
     Best, Search, Selection, Space,
     descent::Descent,
     search::{complete, keep_best},
 };
-use crate::math::Random;
 use serde::{Deserialize, Serialize};
 
 /// Standard deviation of the first generation of a descent, as a share of each axis.

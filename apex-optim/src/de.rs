@@ -1,9 +1,9 @@
-use super::{
+use crate::Random;
+use crate::{
     Best, Search, Selection, Space,
     search::{complete, keep_best},
     space::below,
 };
-use crate::math::Random;
 use serde::{Deserialize, Serialize};
 
 /// Members of the first population per dimension.

@@ -1,4 +1,4 @@
-use super::Space;
+use crate::Space;
 use serde::{Deserialize, Serialize};
 
 /// Best candidate so far.

@@ -1,4 +1,4 @@
-use super::{Axis, CmaSearch, DeSearch, Scale, Search, Selection, Space};
+use crate::{Axis, CmaSearch, DeSearch, Scale, Search, Selection, Space};
 use core::fmt::Debug;
 use serde::{Serialize, de::DeserializeOwned};
 

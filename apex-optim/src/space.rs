@@ -1,4 +1,4 @@
-use crate::math::Random;
+use crate::Random;
 use core::fmt;
 use serde::{Deserialize, Serialize};
 

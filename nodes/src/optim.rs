@@ -1,4 +1,6 @@
-use super::{Axis, BadAxis, CmaSearch, DeSearch, Scale, Search, Space};
+//! Optimization of parameters by evolution within the flow (feature `optim`; thesis 3.6.4, 9.3.1).
+
+use apex_optim::{Axis, BadAxis, CmaSearch, DeSearch, Scale, Search, Space};
 use apex_rt::{Event, node};
 use core::fmt;
 
