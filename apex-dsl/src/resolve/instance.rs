@@ -36,7 +36,7 @@ pub struct Builder<'a> {
     pub arrays: BTreeSet<WireEnd>,
     /// Unknown names of nodes or ports in each graph, which have been reported.
     pub unknown: BTreeSet<(GraphId, String)>,
-    /// What the instances at each place of a text are made by: a graph that is used many times names the same.
+    /// Constructors of the instances at each place of a text, which a graph that is used many times names many times.
     made: BTreeMap<Span, Result<Constructor, Option<Box<Diagnostic>>>>,
     /// The initial tokens of delays, as written.
     pub delays: Vec<(graph::NodeId, Expr)>,

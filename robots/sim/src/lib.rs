@@ -1,5 +1,6 @@
 //! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, cameras
-//! (feature `camera`), time-of-flight cameras (feature `tof`), buildings from plans (feature `building`), and people.
+//! (feature `camera`), time-of-flight cameras (feature `tof`), buildings from plans (feature `building`), and people
+//! (feature `people`).
 //!
 //! Available as nodes: a [`DifferentialBase`], a [`TractorBase`] with trailer and lift, and a [`LaserScanner`] in a
 //! world drawn with characters ([`FloorPlan`]), and a [`LiveView`] of it. `apex new` creates a robot with such nodes.
@@ -21,6 +22,7 @@ mod odometry;
 #[cfg(feature = "building")]
 mod office;
 mod payload;
+#[cfg(feature = "people")]
 mod people;
 mod plan;
 mod scanner;
@@ -48,6 +50,7 @@ pub use odometry::{Odometry, OdometryNoise};
 #[cfg(feature = "building")]
 pub use office::OfficePlan;
 pub use payload::{Footprint, Lift};
+#[cfg(feature = "people")]
 pub use people::{Crowd, Pedestrian};
 pub use plan::{FloorPlan, PlanError};
 pub use scanner::LaserScanner;
