@@ -104,6 +104,11 @@ impl Timeline {
         }
     }
 
+    /// The list of what happens now; none in a study.
+    fn listed(&mut self) -> Option<&mut Moment> {
+        self.goals.is_none().then_some(&mut self.now)
+    }
+
     /// Adds a token at a place that the test observes.
     pub fn token(&mut self, port: &str, token: &str) {
         match token.char_indices().nth(LONGEST) {
@@ -139,32 +144,28 @@ impl Timeline {
 
 impl Observer for Timeline {
     fn fired(&mut self, node: usize) {
-        if self.goals.is_some() {
-            return;
-        }
         let name = self.names[node];
-        if !self.now.fired.contains(&name) {
-            self.now.fired.push(name);
+        if let Some(now) = self.listed().filter(|now| !now.fired.contains(&name)) {
+            now.fired.push(name);
         }
     }
     fn activity(&mut self, node: usize, active: bool) {
-        if self.goals.is_some() {
-            return;
-        }
         let name = self.names[node];
-        self.now.notes.push(format!("{name} is {}", if active { "active" } else { "no longer active" }));
+        if let Some(now) = self.listed() {
+            now.notes.push(format!("{name} is {}", if active { "active" } else { "no longer active" }));
+        }
     }
     fn failed(&mut self, node: usize, error: &impl Display) {
-        if self.goals.is_some() {
-            return;
+        let name = self.names[node];
+        if let Some(now) = self.listed() {
+            now.notes.push(format!("{name} failed: {error}"));
         }
-        self.now.notes.push(format!("{} failed: {error}", self.names[node]));
     }
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
-        if self.goals.is_some() {
-            return;
+        let name = self.names[node];
+        if let Some(now) = self.listed() {
+            now.notes.push(format!("{name} refused {value:?} for {parameter}"));
         }
-        self.now.notes.push(format!("{} refused {value:?} for {parameter}", self.names[node]));
     }
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
         let names = nodes.iter().zip(counts).filter(|(_, count)| **count > 0).map(|(node, _)| self.names[*node]);

@@ -454,7 +454,7 @@ impl Live {
     }
 
     /// Time in ns at which this run begins to differ from another one with the same inputs that runs at the same time.
-    /// Of threads in parallel it is not known in which order they did something.
+    /// Programs with several threads have no known order, and are not compared.
     pub fn differs_from(&self, other: &Self) -> Option<i64> {
         let (about, since) = (self.about.as_ref()?, self.began?.max(other.began?));
         let is_same = |about: &About, other: &About| about.nodes == other.nodes && about.groups.len() < 2;

@@ -293,20 +293,25 @@ impl Run<'_> {
         Ok(Some(report))
     }
 
+    /// Returns `true` if the course of the study is shown: in a terminal.
+    fn shows(&self) -> bool {
+        !self.wanted.quiet && io::stderr().is_terminal()
+    }
+
     /// Prints what is about to run, and prepares Ctrl-C.
     fn begin(&self, journal: &Journal) -> Result<(), String> {
         let Study { searches, candidates, parameters, goals, seeds, .. } = &self.study;
-        if !self.wanted.quiet && io::stderr().is_terminal() {
+        let shows = self.shows();
+        if shows {
             let (name, known) = (&self.script.name, journal.len());
             let known = if known > 0 { format!("; {known} runs are known") } else { String::new() };
             let (p, g, s) =
                 (counted(parameters.len(), "parameter"), counted(goals.len(), "goal"), counted(seeds.len(), "seed"));
             project::print_error(&format!("`{name}`: {p}, {g}, {s}, {searches} × {candidates} candidates{known}"));
         }
-        let resume = !self.wanted.quiet && io::stderr().is_terminal();
         // The journal is complete at all times.
         let stop = move || {
-            if resume {
+            if shows {
                 project::print_error("\nstopped; `--resume` continues");
             }
             process::exit(130);
@@ -315,7 +320,7 @@ impl Run<'_> {
     }
 
     fn search(&self, journal: &mut Journal, (part, parts): (u64, u64)) -> Result<Vec<Found>, StudyError> {
-        let shows = !self.wanted.quiet && io::stderr().is_terminal();
+        let shows = self.shows();
         let mine = (0..self.study.searches).filter(|search| search % parts == part).count() as u64;
         let (start, total) = (Instant::now(), mine * self.study.candidates);
         let found = self.study.run(self.workers, journal, (part, parts), &mut |progress| {

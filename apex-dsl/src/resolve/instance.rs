@@ -375,7 +375,8 @@ impl<'a> Builder<'a> {
         self.delayed(body, name, symbol, &instance.modifiers)
     }
 
-    fn constructor(&mut self, path: &PathExpr) -> Result<Constructor, Option<Box<Diagnostic>>> {
+    /// The constructor that a path names.
+    pub fn constructor(&mut self, path: &PathExpr) -> Result<Constructor, Option<Box<Diagnostic>>> {
         let (texts, catalog) = (self.texts, self.catalog);
         self.made.entry(path.span).or_insert_with(|| texts.made(path, catalog)).clone()
     }

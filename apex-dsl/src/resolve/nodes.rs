@@ -110,8 +110,7 @@ impl Builder<'_> {
         };
         let instance =
             Instance { path: path.clone(), types: types.clone(), args: vec![], modifiers: vec![], span: ty.span };
-        let made = self.texts.made(path, self.catalog);
-        match made {
+        match self.constructor(path) {
             Ok(Constructor::Node(id)) if !self.catalog.signatures[id].is_function => {
                 let signature = &self.catalog.signatures[id];
                 let params = vec![Value::RustDefault; signature.params.len()];

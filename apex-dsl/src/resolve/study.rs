@@ -45,15 +45,13 @@ pub fn study(
 ) -> Option<Study> {
     let study = item.study.as_ref()?;
     let resolver = Resolver { texts, catalog, id };
-    for (missing, what) in [(study.vary.is_empty(), "vary node.parameter;"), (study.goals.is_empty(), "minimise port;")]
-    {
-        if missing {
-            let word = what.split(' ').next().unwrap_or_default();
-            let error = Diagnostic::error("wrong-study", item.name.span, format!("a `tune` needs a `{word}`"));
-            let why =
-                if word == "vary" { "nothing would be searched" } else { "no value would be better than another" };
-            writer.diagnostics.push(error.note(format!("{why}: write `{what}`")));
-        }
+    let needs = [
+        (study.vary.is_empty(), "vary", "nothing would be searched: write `vary node.parameter;`"),
+        (study.goals.is_empty(), "minimise", "no value would be better than another: write `minimise port;`"),
+    ];
+    for (_, word, note) in needs.into_iter().filter(|(is_missing, ..)| *is_missing) {
+        let error = Diagnostic::error("wrong-study", item.name.span, format!("a `tune` needs a `{word}`"));
+        writer.diagnostics.push(error.note(note));
     }
     let vary = study.vary.iter().filter_map(|(of, range)| resolver.varied(writer, of, range.as_ref())).collect();
     twice(writer, study.vary.iter().map(|(of, _)| of));

@@ -14,9 +14,14 @@ use pest::{
     error::{Error, ErrorVariant, InputLocation},
 };
 
+/// The word at the beginning of a text; empty if something else stands there.
+fn first_word(text: &str) -> &str {
+    text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').map_or(text, |end| &text[..end])
+}
+
 /// Explains a statement that could not be parsed. `text` begins at `start` of `file`.
 pub fn statement(file: FileId, start: usize, text: &str) -> Diagnostic {
-    let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
+    let first = first_word(text);
     let rule = match first {
         "node" => Rule::node_stmt,
         "in" | "out" | "slot" | "event" => Rule::port_stmt,
@@ -30,7 +35,7 @@ pub fn statement(file: FileId, start: usize, text: &str) -> Diagnostic {
 
 /// Explains a statement of a state machine that could not be parsed.
 pub fn in_machine(file: FileId, start: usize, text: &str) -> Diagnostic {
-    let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
+    let first = first_word(text);
     let rule = match first {
         "in" | "out" | "slot" | "event" => Rule::port_stmt,
         "state" => Rule::state_item,
@@ -43,7 +48,7 @@ pub fn in_machine(file: FileId, start: usize, text: &str) -> Diagnostic {
 
 /// Explains a statement of a test that could not be parsed.
 pub fn in_test(file: FileId, start: usize, text: &str) -> Diagnostic {
-    let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
+    let first = first_word(text);
     let rule = match first {
         "replace" => Rule::replace_stmt,
         "feed" => Rule::feed_stmt,
@@ -57,7 +62,7 @@ pub fn in_test(file: FileId, start: usize, text: &str) -> Diagnostic {
 
 /// Explains a statement of a study that could not be parsed.
 pub fn in_tune(file: FileId, start: usize, text: &str) -> Diagnostic {
-    let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next().unwrap_or_default();
+    let first = first_word(text);
     let rule = match first {
         "vary" => Rule::vary_stmt,
         "minimise" | "maximise" => Rule::goal_stmt,
@@ -84,7 +89,7 @@ const OUTSIDE: &str = "a source file contains `use`, `graph`, `robot`, `fsm`, `t
 
 /// Explains an item that could not be parsed.
 pub fn item(file: FileId, start: usize, text: &str) -> Diagnostic {
-    let first = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').map_or(text, |end| &text[..end]);
+    let first = first_word(text);
     let first = if first.is_empty() { text.split_whitespace().next().unwrap_or_default() } else { first };
     let first = first.char_indices().nth(40).map_or(first, |(end, _)| &first[..end]);
     let span = Span::new(file, start, start + first.len());

@@ -111,7 +111,7 @@ impl HazardMap {
     }
 
     /// Forgets all obstacles, but not the floor: for example those of a container that the robot has driven beneath.
-    /// Where an obstacle hid the floor, the floor has to be seen again.
+    /// Floor that an obstacle hid has to be seen again.
     #[slot]
     fn forget(&mut self) {
         self.obstacles = Rolling::default();

@@ -173,7 +173,7 @@ impl CurveSearch {
         let mut best: Option<f32> = None;
         for curve in curves(&node.pose, goal, vehicle.radius, 0.0) {
             let length = curve.length();
-            if best.is_none_or(|best| length < best) && best != Some(length) {
+            if best.is_none_or(|best| length < best) {
                 best = drive_curve(terrain, vehicle, &curve).or(best);
             }
         }
