@@ -16,8 +16,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Time limit of an input: far more than any input takes, to detect hangs.
+/// Time of the processor that an input may take: far more than any input takes, to detect loops without end. Other
+/// processes on the machine do not count.
 const LIMIT: Duration = Duration::from_secs(20);
+/// Time by the clock that an input may take, to detect waits without end.
+const WAIT: Duration = Duration::from_secs(600);
 /// Maximum memory of the process, in bytes.
 const MEMORY: u64 = 2 << 30;
 /// Maximum number of panics that are kept.
@@ -102,15 +105,15 @@ fn keep(args: &Args, name: &str, number: u64, input: &[u8]) {
 /// Ends the process if an input takes too long, or too much memory.
 fn watch(name: String, current: Arc<AtomicU64>) {
     thread::spawn(move || {
-        let (mut input, mut since) = (u64::MAX, Instant::now());
+        let (mut input, mut since, mut used) = (u64::MAX, Instant::now(), Duration::ZERO);
         loop {
             thread::sleep(Duration::from_millis(50));
             let now = current.load(Relaxed);
             if now != input || now == u64::MAX {
-                (input, since) = (now, Instant::now());
+                (input, since, used) = (now, Instant::now(), processor_time());
             }
-            if since.elapsed() > LIMIT {
-                eprintln!("{name}: input {input} takes more than {LIMIT:?}");
+            if processor_time().saturating_sub(used) > LIMIT || since.elapsed() > WAIT {
+                eprintln!("{name}: input {input} takes more than {LIMIT:?} of the processor, or {WAIT:?} in all");
                 process::exit(1);
             }
             let memory = memory();
@@ -120,6 +123,15 @@ fn watch(name: String, current: Arc<AtomicU64>) {
             }
         }
     });
+}
+
+/// Time of the processor that this process has used, or zero if the system does not provide it.
+fn processor_time() -> Duration {
+    // The name of the program, in parentheses, may contain spaces.
+    let text = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields = text.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11).take(2);
+    let ticks: u64 = fields.filter_map(|ticks| ticks.parse::<u64>().ok()).sum();
+    Duration::from_millis(10 * ticks)
 }
 
 /// Memory of the process in bytes, or 0 if the system does not provide it.
