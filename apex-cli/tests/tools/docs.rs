@@ -32,15 +32,34 @@ fn the_new_project_of_the_page_and_its_documentation() {
     runs("doc", &folder.0.join("my-robot"));
 }
 
+/// Copies the package out of the workspace, whose settings would have everything built once more.
+fn copy_of_the_firmware(to: &Path) {
+    let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let from = checkout.join("robots/firmware");
+    let dependency = |name: &str, folder: &str| {
+        format!("{name} = {{ path = {:?}, default-features = false }}\n", checkout.join(folder))
+    };
+    let dependencies = [("apex-macros", "apex-macros"), ("apex-nodes", "nodes"), ("apex-rt", "apex-rt")];
+    let dependencies: String = dependencies.iter().map(|(name, folder)| dependency(name, folder)).collect();
+    let package =
+        "[package]\nname = \"firmware\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n";
+    fs::create_dir_all(to.join("src")).unwrap();
+    fs::write(to.join("Cargo.toml"), format!("{package}{dependencies}")).unwrap();
+    for file in ["firmware.afg", "src/lib.rs", "src/line.rs"] {
+        fs::copy(from.join(file), to.join(file)).unwrap();
+    }
+}
+
 #[test]
 fn the_memory_of_the_page() {
     let _one_at_a_time = MADE.lock().unwrap_or_else(|broken| broken.into_inner());
     let console = block("console\n$ apex explain --memory");
     let (command, said) = console.split_once('\n').unwrap();
     let arguments = command.strip_prefix("$ apex ").unwrap().split(' ');
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let folder = Folder::new("docs-memory");
+    copy_of_the_firmware(&folder.0.join("robots/firmware"));
     let mut apex = apex();
-    apex.args(arguments).current_dir(root).env("CARGO_TARGET_DIR", TARGET).env("CARGO_NET_OFFLINE", "true");
+    apex.args(arguments).current_dir(&folder.0).env("CARGO_TARGET_DIR", TARGET).env("CARGO_NET_OFFLINE", "true");
     assert_eq!(String::from_utf8(apex.output().unwrap().stdout).unwrap(), said);
 }
 
