@@ -12,7 +12,7 @@ Usage: localize MAP LOG...  [OPTIONS]    on recordings; MAP is .dxf, .csv (x1,y1
   --plan FILE        building in place of the project's own one
   --scale M          length of a unit of the map in m (1)
   --layers A,B       layers of a DXF map (all)
-  --pixel M          size of a pixel of a .pgm map in m (0.05)
+  --pixel M or X,Y   size of a pixel of a .pgm map in m, the same in x and y or not (0.05)
   --origin X,Y       lower left corner of a .pgm map in m (0,0)
   --cell M           side of a cell of the look-up table in m (0.5)
   --reach M          maximum distance of the walls that are looked up in m (30)
@@ -37,7 +37,7 @@ pub struct Options {
     pub task: Task,
     pub scale: f64,
     pub layers: Vec<String>,
-    pub pixel: f32,
+    pub pixel: (f32, f32),
     pub origin: (f32, f32),
     pub furniture: usize,
     pub first_seed: u64,
@@ -90,7 +90,7 @@ impl Options {
             task: Task::Building { plan: PathBuf::new() },
             scale: 1.0,
             layers: Vec::new(),
-            pixel: 0.05,
+            pixel: (0.05, 0.05),
             origin: (0.0, 0.0),
             furniture: 300,
             first_seed: 1,
@@ -106,11 +106,8 @@ impl Options {
         match name {
             "scale" => self.scale = number(name, value)?,
             "layers" => self.layers = value.split(',').map(|layer| layer.trim().to_owned()).collect(),
-            "pixel" => self.pixel = number(name, value)?,
-            "origin" => {
-                let (x, y) = value.split_once(',').ok_or("`--origin` is X,Y")?;
-                self.origin = (number(name, x)?, number(name, y)?);
-            }
+            "pixel" => self.pixel = pair(name, value.split_once(',').unwrap_or((value, value)))?,
+            "origin" => self.origin = pair(name, value.split_once(',').ok_or("`--origin` is X,Y")?)?,
             "furniture" => self.furniture = number(name, value)?,
             "cell" => self.table.cell = number(name, value)?,
             "reach" => self.table.reach = number(name, value)?,
@@ -125,6 +122,10 @@ impl Options {
         }
         Ok(())
     }
+}
+
+fn pair(name: &str, (x, y): (&str, &str)) -> Result<(f32, f32), String> {
+    Ok((number(name, x)?, number(name, y)?))
 }
 
 fn number<T: FromStr>(name: &str, value: &str) -> Result<T, String> {

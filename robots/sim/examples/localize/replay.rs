@@ -21,6 +21,8 @@ struct Score {
     way: Option<f32>,
     /// Errors of the scored scans while the robot was localized, in m.
     errors: Vec<f32>,
+    /// Sum of the offsets from the reference poses, in the frame of the map.
+    offset: Point2,
     turns: Vec<f32>,
     /// Number of scored scans.
     scored: usize,
@@ -34,8 +36,20 @@ pub fn run(options: &Options, map: &Path, logs: &[PathBuf]) -> Result<(), String
     let map = read_map(options, map)?;
     let table = table(&map, options.table)?;
     println!(
-        "{:24}{:>5}{:>9}{:>8}{:>8}{:>8}{:>8}{:>8}{:>6}{:>8}{:>11}",
-        "recording", "seed", "found m", "median", "90 %", "largest", "deg", "known", "lost", "wrong", "end"
+        "{:24}{:>5}{:>9}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>6}{:>8}{:>11}",
+        "recording",
+        "seed",
+        "found m",
+        "median",
+        "90 %",
+        "largest",
+        "mean x",
+        "mean y",
+        "deg",
+        "known",
+        "lost",
+        "wrong",
+        "end"
     );
     for path in logs {
         let recording = log::read(path)?;
@@ -52,15 +66,24 @@ pub fn run(options: &Options, map: &Path, logs: &[PathBuf]) -> Result<(), String
 
 fn play(recording: &log::Recording, table: &VisibilityTable, settings: Settings, trace: bool) -> Score {
     let mut filter = Filter::new(table.clone(), settings);
-    let mut score =
-        Score { way: None, errors: vec![], turns: vec![], scored: 0, lost: 0, at_end: false, largest_at_end: 0.0 };
+    let mut score = Score {
+        way: None,
+        errors: vec![],
+        offset: Point2::default(),
+        turns: vec![],
+        scored: 0,
+        lost: 0,
+        at_end: false,
+        largest_at_end: 0.0,
+    };
     let (mut way, mut last) = (0.0, None);
     for record in recording.records.iter().filter(|record| record.is_scored) {
         let step = last.replace(record.truth).map_or(0.0, |l| (l.position() - record.truth.position()).norm());
         way += step;
         let change = filter.update(&record.odometry, &record.scan);
         let pose = filter.pose_at(&record.odometry);
-        let error = (pose.position() - record.truth.position()).norm();
+        let offset = pose.position() - record.truth.position();
+        let error = offset.norm();
         score.scored += 1;
         match change {
             Some(Change::Localized) => score.way = score.way.or(Some(way)),
@@ -69,6 +92,7 @@ fn play(recording: &log::Recording, table: &VisibilityTable, settings: Settings,
         }
         if filter.is_localized() {
             score.errors.push(error);
+            score.offset = score.offset + offset;
             score.turns.push(pose.relative_to(&record.truth).theta.abs().to_degrees());
         }
         score.at_end = filter.is_localized();
@@ -87,13 +111,16 @@ fn show(name: &str, seed: u64, mut score: Score) {
         values.get(((values.len() as f32 * share) as usize).min(values.len().saturating_sub(1))).copied()
     };
     let number = |value: Option<f32>| value.map_or("-".to_owned(), |value| format!("{value:.3}"));
+    let offset = score.offset.scaled(1.0 / score.errors.len() as f32);
     let wrong = score.errors.iter().filter(|error| **error > WRONG).count();
     println!(
-        "{name:24}{seed:>5}{:>9}{:>8}{:>8}{:>8}{:>8}{:>7.0}%{:>6}{:>7.1}%{:>11}",
+        "{name:24}{seed:>5}{:>9}{:>8}{:>8}{:>8}{:>8.3}{:>8.3}{:>8}{:>7.0}%{:>6}{:>7.1}%{:>11}",
         score.way.map_or("-".to_owned(), |way| format!("{way:.1}")),
         number(at(&score.errors, 0.5)),
         number(at(&score.errors, 0.9)),
         number(at(&score.errors, 1.0)),
+        offset.x,
+        offset.y,
         number(at(&score.turns, 0.5)),
         100.0 * score.errors.len() as f32 / score.scored.max(1) as f32,
         score.lost,
@@ -136,13 +163,18 @@ fn read_pixels(options: &Options, path: &Path) -> Result<VectorMap, String> {
     if words[0] != "P5" || words[3] != "255" || rest.len() != width * height {
         return Err("no binary grey map with 255 levels".to_owned());
     }
-    let raster =
-        Raster { corner: Point2::new(options.origin.0, options.origin.1), resolution: options.pixel, width, height };
+    let raster = Raster { corner: Point2::default(), resolution: 1.0, width, height };
     let mut grid = Grid::new(raster, Occupancy::Free).map_err(|e| e.to_string())?;
     for (i, _) in rest.iter().enumerate().filter(|(_, grey)| **grey < 90) {
         if let Some(place) = grid.get_mut(Cell::new(i % width, height - 1 - i / width)) {
             *place = Occupancy::Occupied;
         }
     }
-    VectorMap::outline(&grid).map_err(|e| e.to_string())
+    let ((x, y), (pixel_x, pixel_y)) = (options.origin, options.pixel);
+    let place = |p: Point2| Point2::new(x + pixel_x * p.x, y + pixel_y * p.y);
+    let mut map = VectorMap::default();
+    for side in VectorMap::outline(&grid).map_err(|e| e.to_string())?.segments() {
+        map.add(place(side.a), place(side.b)).map_err(|e| e.to_string())?;
+    }
+    Ok(map)
 }
