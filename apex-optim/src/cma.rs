@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Standard deviation of the first generation of a descent, as a share of each axis.
 const FIRST_SIGMA: f64 = 0.2;
 /// Decadic logarithm of the largest ratio by which the first generation of a short descent is narrower.
-const SHRINKING: f64 = 0.5;
+const SHRINKING: f64 = 2.0;
 /// Maximum number of times that the generations are doubled.
 const DOUBLINGS: u32 = 9;
 /// Number of starts that are spread together over the search space.
@@ -32,8 +32,10 @@ pub struct CmaSearch {
     is_large: bool,
     /// Evaluations by descents with small and with growing generations.
     used: [u64; 2],
-    /// Evaluations of the current descent, and those after which it ends.
+    /// Evaluations of the current descent, of the last one with growing generations, and those after which the current
+    /// one ends.
     here: u64,
+    last_large: u64,
     longest: u64,
     best: Option<Best>,
 }
@@ -66,6 +68,7 @@ impl CmaSearch {
             is_large: true,
             used: [0; 2],
             here: 0,
+            last_large: 0,
             longest: u64::MAX,
             best: None,
         };
@@ -83,6 +86,9 @@ impl CmaSearch {
     }
 
     fn restart(&mut self) {
+        if self.is_large {
+            self.last_large = self.here;
+        }
         let [small, large] = self.used;
         let least = smallest(&self.space);
         let largest = least << self.large.min(DOUBLINGS);
@@ -94,7 +100,7 @@ impl CmaSearch {
             let share = libm::pow(0.5 * largest as f64 / least as f64, self.random.unit().powi(2));
             (FIRST_SIGMA * libm::pow(10.0, -SHRINKING * self.random.unit()), (least as f64 * share) as usize)
         };
-        self.longest = if self.is_large { u64::MAX } else { (self.here / 2).max(100 * least as u64) };
+        self.longest = if self.is_large { u64::MAX } else { (self.last_large / 2).max(100 * least as u64) };
         if self.starts.is_empty() {
             self.starts = self.space.sample(STARTS, &mut self.random);
         }
