@@ -50,13 +50,16 @@ impl Columns {
         self.x.is_empty()
     }
 
-    /// Returns `true` if there is a label for each point, and all lists have the same length.
-    pub fn fits(&self, labels: &Labels) -> bool {
+    /// Returns `true` if all lists have the same length, which is that of some whole columns.
+    pub fn is_whole(&self) -> bool {
         let lists = [&self.y, &self.z, &self.intensity];
         lists.iter().all(|list| list.len() == self.len())
-            && labels.labels.len() == self.len()
-            && labels.height == self.height
             && (self.is_empty() || self.height > 0 && self.len().is_multiple_of(self.height))
+    }
+
+    /// Returns `true` if the columns are whole and there is a label for each point.
+    pub fn fits(&self, labels: &Labels) -> bool {
+        self.is_whole() && labels.labels.len() == self.len() && labels.height == self.height
     }
 
     /// Squared distance between two points, in m². NaN if one of them is not measured.

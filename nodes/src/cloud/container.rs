@@ -63,7 +63,7 @@ pub struct VerifyContainer {
 #[node]
 impl VerifyContainer {
     fn process(&mut self, columns: &Columns, clusters: &Clusters, container: &Container) -> Option<Container> {
-        if clusters.members.len() != columns.len() || !container.pose.is_finite() {
+        if !columns.is_whole() || clusters.members.len() != columns.len() || !container.pose.is_finite() {
             return None;
         }
         let counts = self.collect(columns, clusters, &container.pose)?;

@@ -45,8 +45,8 @@ pub struct Area {
 /// enough.
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold`, free where floor was seen, unknown
-/// elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size or the pose is not
-/// finite.
+/// elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or if the pose is
+/// not a number or more than 1000 km away.
 #[node]
 #[derive(Debug, Clone)]
 pub struct HazardMap {
@@ -95,8 +95,7 @@ impl HazardMap {
         map: &mut Out<Grid<Occupancy>>,
         hazard: &mut Out<Hazard>,
     ) {
-        let is_finite = (pose.x + pose.y + pose.theta).is_finite();
-        if !is_finite || !points.fits(labels) {
+        if !pose.is_usable() || !points.fits(labels) {
             return;
         }
         self.floor.follow(pose.position(), self.size, self.resolution);

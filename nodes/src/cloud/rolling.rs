@@ -16,7 +16,7 @@ pub(super) struct Rolling<T> {
 
 impl<T: Copy + Default> Rolling<T> {
     /// Moves the window so that `centre` is in its middle. Cells that come in are empty; all are, if the size changes.
-    /// The coordinates have to be finite.
+    /// The coordinates have to be those of a usable pose.
     pub fn follow(&mut self, centre: Point2, size: f32, resolution: f32) {
         // A cast of a number that is not finite or negative saturates.
         let side = ((size / resolution).ceil() as usize).clamp(1, MAX_SIDE);
@@ -46,7 +46,8 @@ impl<T: Copy + Default> Rolling<T> {
     pub fn index(&self, point: Point2) -> Option<usize> {
         let cell = [point.x, point.y].map(|c| (c / self.resolution).floor());
         let inside = |axis: usize| {
-            let offset = cell[axis] as i64 - self.corner[axis];
+            // A cast of a large number saturates.
+            let offset = (cell[axis] as i64).saturating_sub(self.corner[axis]);
             (cell[axis].is_finite() && (0..self.side as i64).contains(&offset)).then(|| self.slot(cell[axis] as i64))
         };
         Some(inside(1)? * self.side + inside(0)?)

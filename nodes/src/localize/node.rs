@@ -10,8 +10,6 @@ use apex_rt::{Event, Out, node};
 use core::{f32::consts::PI, fmt};
 use std::path::Path;
 
-/// Maximum magnitude of valid odometry, in m and rad.
-const FARTHEST: f32 = 1e6;
 /// Standard deviation of the heading of an initial pose, in rad.
 const TURNED: f32 = 0.2;
 
@@ -131,7 +129,7 @@ impl VectorMapLocalizer {
         localized: Event<Pose2>,
         lost: Event<()>,
     ) -> Result<(), LocalizerError> {
-        if self.failed || !is_usable(odometry) {
+        if self.failed || !odometry.is_usable() {
             return Ok(());
         }
         let mut filter = match self.filter.take() {
@@ -159,7 +157,7 @@ impl VectorMapLocalizer {
     /// Begins at a pose on the plan. One that is not a number is ignored.
     #[slot]
     fn initial(&mut self, pose: &Pose2) {
-        if !is_usable(pose) {
+        if !pose.is_usable() {
             return;
         }
         match (&mut self.filter, &self.odometry) {
@@ -206,11 +204,6 @@ impl VectorMapLocalizer {
             ..standard
         }
     }
-}
-
-/// Returns `true` if a pose is a number and not absurdly far away.
-fn is_usable(pose: &Pose2) -> bool {
-    pose.x.abs() <= FARTHEST && pose.y.abs() <= FARTHEST && pose.theta.abs() <= FARTHEST
 }
 
 #[cfg(test)]

@@ -112,6 +112,13 @@ impl Pose2 {
         self.x.is_finite() && self.y.is_finite() && self.theta.is_finite()
     }
 
+    /// Returns `true` if all components are numbers, and at most 1,000,000 m or rad: an `f32` does not have centimetres
+    /// farther away.
+    pub const fn is_usable(&self) -> bool {
+        const FARTHEST: f32 = 1e6;
+        self.x.abs() <= FARTHEST && self.y.abs() <= FARTHEST && self.theta.abs() <= FARTHEST
+    }
+
     /// Transforms a point from this frame to the outer frame.
     pub fn to_outer(&self, point: Point2) -> Point2 {
         let (sin, cos) = libm::sincosf(self.theta);

@@ -6,9 +6,6 @@ use crate::{
 use apex_rt::{Out, node};
 use core::f32::consts::PI;
 
-/// Maximum magnitude of valid odometry, in m and rad.
-const FARTHEST: f32 = 1e6;
-
 /// Simultaneous localization and mapping with a pose graph, in the manner of Karto, with bounded map building (thesis
 /// 4.3.5; see [`Mapper`] and [`selected_scans`]).
 ///
@@ -130,8 +127,7 @@ impl GraphSlam {
 
 /// Odometry in double precision, or `None` if it is NaN or out of range.
 fn usable(odometry: &Pose2) -> Option<Pose> {
-    let near = odometry.x.abs() <= FARTHEST && odometry.y.abs() <= FARTHEST && odometry.theta.abs() <= FARTHEST;
-    near.then(|| pose(odometry.x.into(), odometry.y.into(), odometry.theta.into()))
+    odometry.is_usable().then(|| pose(odometry.x.into(), odometry.y.into(), odometry.theta.into()))
 }
 
 #[cfg(test)]
