@@ -12,7 +12,7 @@ use apex_dsl::{
     fix::applied,
     ide::{ArgumentPlace, set_argument},
 };
-use apex_studio::{ParamChange, Recorded, Remote, Replayed, Robot, Seat, Shadow, Source, Studio};
+use apex_studio::{Addresses, ParamChange, Recorded, Remote, Replayed, Robot, Seat, Shadow, Source, Studio};
 use launched::Launched;
 use std::{
     fs,
@@ -91,7 +91,9 @@ pub fn top(address: String) -> Result<ExitCode, String> {
 impl Page {
     fn serve(&self, robots: Vec<Seat>, speed: Option<f64>) -> Result<(), String> {
         let studio = Studio { robots, address: self.listen, readonly: self.read_only, speed };
-        let opened = |address: &str| print_error(&format!("studio: {address}\nCtrl-C ends it"));
+        let opened = |Addresses { page, foxglove }: &Addresses| {
+            print_error(&format!("studio: {page}\nFoxglove: {foxglove}\nCtrl-C ends it"));
+        };
         studio.serve(opened).map_err(|error| {
             format!("cannot open the page at {}: {error}; choose another address with `--listen`", self.listen)
         })
@@ -164,8 +166,8 @@ impl Source for Text {
         let folder = self.main_file()?.canonicalize().ok().and_then(|file| Some(file.parent()?.to_path_buf()));
         let path = replay.canonicalize().map_err(|e| format!("cannot find `{}`: {e}", replay.display()))?;
         let inside = folder.and_then(|folder| Some(path.strip_prefix(folder).ok()?.to_path_buf()));
-        let channels = recorded_channels(&path).map_err(|why| format!("cannot read `{}`: {why}", path.display()))?;
-        Ok(Some(Replayed { file: inside.unwrap_or(path).display().to_string(), channels }))
+        let file = inside.unwrap_or_else(|| path.clone()).display().to_string();
+        recorded(&path, file).map(Some).map_err(|why| format!("cannot read `{}`: {why}", path.display()))
     }
 
     fn write_test(&self, program: &str, test: &str) -> Result<String, String> {
@@ -208,14 +210,17 @@ impl Source for Text {
     }
 }
 
-/// Names of the channels of a recording that have tokens.
-fn recorded_channels(path: &Path) -> Result<Vec<String>, String> {
+/// Reads the summary of a recording: the channels that have tokens, and the times of its first and last message.
+fn recorded(path: &Path, file: String) -> Result<Replayed, String> {
     let bytes = fs::read(path).map_err(|error| error.to_string())?;
     let summary = mcap::Summary::read(&bytes).map_err(|error| error.to_string())?.unwrap_or_default();
     // A file that was cut off has no statistics.
-    let counts = summary.stats.ok_or("it is incomplete")?.channel_message_counts;
-    let has_tokens = |id: &u16| counts.get(id).is_some_and(|count| *count > 0);
-    Ok(summary.channels.iter().filter(|(id, _)| has_tokens(id)).map(|(_, channel)| channel.topic.clone()).collect())
+    let stats = summary.stats.ok_or("it is incomplete")?;
+    let has_tokens = |id: &u16| stats.channel_message_counts.get(id).is_some_and(|count| *count > 0);
+    let channels = summary.channels.iter().filter(|(id, _)| has_tokens(id)).map(|(_, c)| c.topic.clone()).collect();
+    let time = |time: u64| i64::try_from(time).ok();
+    let range = time(stats.message_start_time).zip(time(stats.message_end_time)).filter(|_| stats.message_count > 0);
+    Ok(Replayed { file, channels, range })
 }
 
 /// Writes `parts` to the first of these files that does not exist. Returns its path.

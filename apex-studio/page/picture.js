@@ -4,16 +4,32 @@ import { ask, robot, select, tip } from "./studio.js";
 
 /** @typedef {{within: string, names: string[], connects: boolean, text: string}} Concern */
 
+/** An element of the picture, with the classes of its state that it has. @typedef {{element: Element, state: number}} Shown */
+
 /** `true` for a node that the compiler has inserted into a connection. @param {number} node */
 const isInserted = (node) => ["relay", "probe"].includes(robot.about?.nodes[node]?.kind ?? "");
+
+/** Classes of the state of boxes, and of lines. */
+const BOX = ["is-active", "is-firing", "has-problem", "is-waiting"];
+const LINE = ["flows", "is-awaited"];
+
+/** Gives an element the classes of its state. Only those that change are touched: the browser styles and paints what was.
+ * @param {Shown} shown @param {string[]} classes @param {boolean[]} states */
+function show(shown, classes, states) {
+  const state = states.reduce((sum, is, at) => sum | (Number(is) << at), 0);
+  if (state === shown.state) return;
+  for (const [at, name] of classes.entries()) if (((state ^ shown.state) >> at) & 1) shown.element.classList.toggle(name, states[at]);
+  shown.state = state;
+}
 
 export class Picture {
   /** @param {HTMLElement} place */
   constructor(place) {
     this.place = place;
     /** @type {SVGSVGElement | null} */ this.svg = null;
-    /** @type {Map<string, {element: Element, nodes: number[], path: string}>} */ this.items = new Map();
-    /** @type {{element: Element, connections: number[]}[]} */ this.lines = [];
+    /** @type {Map<string, Shown & {nodes: number[], path: string}>} */ this.items = new Map();
+    /** @type {(Shown & {connections: number[]})[]} */ this.lines = [];
+    /** For each connection the nodes before and behind it, if a token takes both to fire. @type {([number[], number[]] | null)[]} */ this.flow = [];
     /** @type {string[]} */ this.graphs = [];
     /** @type {Set<string>} */ this.open = new Set();
     /** A node to be shown when its graph is open. @type {string | null} */ this.wanted = null;
@@ -42,13 +58,16 @@ export class Picture {
       const path = element.getAttribute("data-item") ?? "";
       const inside = (/** @type {string} */ name) => name === path || name.startsWith(`${path}.`);
       const nodes = names.flatMap((name, at) => (inside(name) ? [at] : []));
-      if (path !== "") this.items.set(path, { element, nodes, path });
+      if (path !== "") this.items.set(path, { element, nodes, path, state: 0 });
       element.classList.toggle("can-open", graphs.includes(path));
     }
     this.lines = [...(this.svg?.querySelectorAll("[data-from]") ?? [])].map((element) => ({
       element,
+      state: 0,
       connections: lines[`${element.getAttribute("data-from")} ${element.getAttribute("data-to")}`] ?? [],
     }));
+    this.flow = (robot.about?.connections ?? []).map((connection) =>
+      this.isEvent(connection) ? null : [this.behind(connection.from, true), this.behind(connection.to, false)]);
     const size = this.svg?.viewBox.baseVal;
     if (size) this.size = { width: size.width, height: size.height };
     if (!before || !this.shownBefore) this.fit();
@@ -73,17 +92,15 @@ export class Picture {
 
   /** Shows what is active, fires and fails. */
   update() {
-    for (const { element, nodes } of this.items.values()) {
-      const states = nodes.map((at) => robot.nodes[at]);
-      element.classList.toggle("is-active", states.some((node) => node.active));
-      element.classList.toggle("is-firing", states.some((node) => node.fresh));
-      element.classList.toggle("has-problem", states.some((node) => node.problems > 0));
-    }
     const waiting = new Set([...robot.awaited].map((at) => robot.about?.connections[at]?.to));
-    for (const { element, nodes } of this.items.values()) element.classList.toggle("is-waiting", nodes.length === 1 && waiting.has(nodes[0]));
-    for (const { element, connections } of this.lines) {
-      element.classList.toggle("flows", connections.some((at) => this.flows(at)));
-      element.classList.toggle("is-awaited", connections.some((at) => robot.awaited.has(at)));
+    for (const item of this.items.values()) {
+      const is = (/** @type {(node: import("./studio.js").NodeState) => boolean} */ test) => item.nodes.some((at) => test(robot.nodes[at]));
+      const waits = item.nodes.length === 1 && waiting.has(item.nodes[0]);
+      show(item, BOX, [is((node) => node.active), is((node) => node.fresh), is((node) => node.problems > 0), waits]);
+    }
+    for (const line of this.lines) {
+      const { connections } = line;
+      show(line, LINE, [connections.some((at) => this.flows(at)), connections.some((at) => robot.awaited.has(at))]);
     }
   }
 
@@ -110,11 +127,10 @@ export class Picture {
 
   /** `true` if a token has just come over a connection. @param {number} at */
   flows(at) {
-    const connection = robot.about?.connections[at];
-    if (!connection) return false;
-    if (robot.connections[at].fresh) return true;
-    const fires = (/** @type {number} */ node, /** @type {boolean} */ back) => this.behind(node, back).some((of) => robot.nodes[of].fresh);
-    return !this.isEvent(connection) && fires(connection.from, true) && fires(connection.to, false);
+    if (robot.connections[at]?.fresh) return true;
+    const fire = (/** @type {number[]} */ nodes) => nodes.some((node) => robot.nodes[node].fresh);
+    const ends = this.flow[at];
+    return ends ? fire(ends[0]) && fire(ends[1]) : false;
   }
 
   /** The node itself, or if it only passes tokens on, those before or behind it. @param {number} node @param {boolean} back @returns {number[]} */

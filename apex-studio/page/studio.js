@@ -224,6 +224,9 @@ function measure() {
   robot.connections.forEach((line, at) => { line.rate = (line.count - first.counts[at]) / span; });
 }
 
+/** Time in ms at which that was shown last. */
+let sinceShown = 0;
+
 /** Lists the active nodes; a click shows one. */
 function showActive() {
   const list = element("active");
@@ -238,10 +241,15 @@ function showActive() {
     return item;
   }));
   if (names.length === 0) list.append(empty("no node is active"));
+  sinceShown = 0;
   showSince();
 }
 
+/** Shows since when nodes are active, as often as one can read it. */
 function showSince() {
+  const now = performance.now();
+  if (now - sinceShown < 200 || element("active").closest("[data-panel]").hidden) return;
+  sinceShown = now;
   for (const since of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#active .since"))) {
     since.textContent = `${Math.max(0, robot.now - robot.nodes[Number(since.dataset.node)].since).toFixed(1)} s`;
   }

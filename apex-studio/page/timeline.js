@@ -10,6 +10,9 @@ export class Timeline {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
     this.canvas = canvas;
+    /** All lanes, of which the canvas shows those in view. */
+    this.place = element("lanes");
+    this.below = element("lanes-below");
     /** Seen time in s. */
     this.span = 30;
     this.end = 0;
@@ -54,7 +57,21 @@ export class Timeline {
     const found = filter === "" ? [] : (robot.about?.nodes ?? []).flatMap((node, at) => (node.name.toLowerCase().includes(filter) ? [at] : []));
     const selected = robot.about?.nodes.findIndex((node) => node.name === robot.selected) ?? -1;
     const also = selected >= 0 ? [...found.slice(0, 200), selected] : found.slice(0, 200);
-    ask({ lanes: { from: this.end - this.span, to: this.end, columns: Math.max(1, this.width()), also } });
+    // What is not in view has no contents. At first it is not known who has a lane.
+    const [first, end] = this.rows();
+    const seen = this.lanes === null ? null : this.filtered().slice(Math.max(0, first - 5), end + 5).map(({ node }) => node);
+    ask({ lanes: { from: this.end - this.span, to: this.end, columns: Math.max(1, this.width()), also, seen } });
+  }
+
+  /** Numbers of the first lane in view, and of the one after the last. @returns {[number, number]} */
+  rows() {
+    const { scrollTop, clientHeight } = this.place;
+    return [Math.floor(scrollTop / HEIGHT), Math.ceil((scrollTop + clientHeight - AXIS) / HEIGHT)];
+  }
+
+  /** The lane at a place in the canvas. @param {MouseEvent} event */
+  at(event) {
+    return event.offsetY < AXIS ? undefined : this.filtered()[Math.floor((event.offsetY - AXIS + this.place.scrollTop) / HEIGHT)];
   }
 
   width() { return Math.round(this.canvas.clientWidth - LABELS); }
@@ -74,22 +91,25 @@ export class Timeline {
 
   draw() {
     const { canvas } = this;
-    const style = getComputedStyle(document.documentElement);
-    const color = (/** @type {string} */ name) => style.getPropertyValue(name);
+    const colors = this.colors();
+    const color = (/** @type {string} */ name) => colors.get(name) ?? "";
     const lanes = this.filtered();
-    const [width, height] = [canvas.clientWidth, AXIS + Math.max(1, lanes.length) * HEIGHT];
-    const scale = devicePixelRatio;
-    canvas.width = width * scale;
-    canvas.height = height * scale;
-    canvas.style.height = `${height}px`;
+    const [width, height] = this.resize(lanes.length);
     const c = canvas.getContext("2d");
     if (!c) return;
-    c.scale(scale, scale);
+    c.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+    c.clearRect(0, 0, width, height);
     c.font = "12px system-ui, sans-serif";
     c.textBaseline = "middle";
-    this.axis(c, color, height);
     canvas.dataset.lanes = lanes.map(({ node }) => robot.about?.nodes[node].name).join(" ");
-    lanes.forEach((lane, at) => this.lane(c, color, lane, AXIS + at * HEIGHT));
+    c.save();
+    c.beginPath();
+    c.rect(0, AXIS, width, height);
+    c.clip();
+    const [first, end] = this.rows();
+    lanes.slice(first, end).forEach((lane, at) => this.lane(c, color, lane, AXIS + (first + at) * HEIGHT - this.place.scrollTop));
+    c.restore();
+    this.axis(c, color, height);
     if (this.marked !== null) {
       const [a, b] = this.marked.map((time) => Math.max(LABELS, this.x(time)));
       c.fillStyle = color("--accent");
@@ -109,6 +129,29 @@ export class Timeline {
       c.fillRect(this.x(this.cursor), 0, 1.5, height);
     }
     element("window").textContent = `${shown(Math.max(0, this.end - this.span))} – ${shown(this.end)}`;
+  }
+
+  /** The colours of the page. */
+  colors() {
+    const style = getComputedStyle(document.documentElement);
+    const names = ["--ink", "--soft", "--active", "--fire", "--bad", "--accent"];
+    return new Map(names.map((name) => [name, style.getPropertyValue(name)]));
+  }
+
+  /** Gives the canvas the size of what is in view. @param {number} count number of lanes @returns {[number, number]} */
+  resize(count) {
+    const { canvas, place } = this;
+    const [width, height] = [canvas.clientWidth, Math.max(AXIS + HEIGHT, place.clientHeight)];
+    const [w, h] = [Math.round(width * devicePixelRatio), Math.round(height * devicePixelRatio)];
+    // A new size costs a new canvas, also if it is the same one.
+    if (canvas.width !== w || canvas.height !== h) {
+      canvas.width = w;
+      canvas.height = h;
+      canvas.style.height = `${height}px`;
+    }
+    const below = `${Math.max(0, AXIS + count * HEIGHT - height)}px`;
+    if (this.below.style.height !== below) this.below.style.height = below;
+    return [width, height];
   }
 
   /** @param {CanvasRenderingContext2D} c @param {(name: string) => string} color @param {number} height */
@@ -208,6 +251,10 @@ export class Timeline {
     const { canvas } = this;
     element("follow").addEventListener("click", () => this.follow());
     element("lanes-filter").addEventListener("input", () => this.request());
+    this.place.addEventListener("scroll", () => {
+      this.request();
+      this.draw();
+    });
     canvas.addEventListener("wheel", (event) => {
       if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
         this.stop();
@@ -228,7 +275,7 @@ export class Timeline {
     });
     canvas.addEventListener("pointermove", (event) => {
       if (!drag) {
-        const lane = this.filtered()[Math.floor((event.offsetY - AXIS) / HEIGHT)];
+        const lane = this.at(event);
         const name = lane && robot.about?.nodes[lane.node].name;
         tip(event.offsetX > LABELS ? [name, shown(this.time(event))].filter(Boolean).join("\n") : name ?? null, event);
         return;
@@ -249,7 +296,7 @@ export class Timeline {
     });
     canvas.addEventListener("pointerup", (event) => {
       if (drag && !drag.moved) {
-        const lane = this.filtered()[Math.floor((event.offsetY - AXIS) / HEIGHT)];
+        const lane = this.at(event);
         if (lane) select(robot.about?.nodes[lane.node].name ?? null);
         if (event.offsetX > LABELS) this.look(this.time(event));
       }

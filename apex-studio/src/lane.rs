@@ -29,7 +29,7 @@ pub struct Lane {
 }
 
 /// A lane as it is drawn: positions are columns.
-#[derive(Debug, PartialEq, Serialize)]
+#[derive(Debug, Default, PartialEq, Serialize)]
 pub struct Drawn {
     /// Node.
     pub node: usize,

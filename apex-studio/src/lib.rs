@@ -7,6 +7,7 @@ mod condition;
 mod detail;
 mod drawn;
 mod editor;
+mod foxglove;
 mod journey;
 mod kinds;
 mod lane;
@@ -90,6 +91,8 @@ pub struct Replayed {
     pub file: String,
     /// Names of the channels that have tokens.
     pub channels: Vec<String>,
+    /// Times in ns of its first and last message, if it has some.
+    pub range: Option<(i64, i64)>,
 }
 
 /// A new value of a parameter for the source.
@@ -121,6 +124,16 @@ pub struct Studio {
     pub speed: Option<f64>,
 }
 
+/// Addresses of an open studio. Each contains its token.
+#[derive(Debug, Clone)]
+pub struct Addresses {
+    /// The page, for a browser.
+    pub page: String,
+    /// The first robot, for an app that knows the protocol of Foxglove. That of robot number `n`, from 0, follows after
+    /// `/`.
+    pub foxglove: String,
+}
+
 /// A robot with its place in the studio.
 pub struct Seat {
     /// Name that distinguishes it from others of the same kind, such as its address.
@@ -134,17 +147,20 @@ pub struct Seat {
 }
 
 impl Studio {
-    /// Opens the studio, calls `opened` with the address of the page, and serves it until Ctrl-C.
+    /// Opens the studio, calls `opened` with the addresses, and serves them until Ctrl-C.
     ///
     /// # Errors
     /// The address is in use, or there are no random numbers for the token.
-    pub fn serve(self, opened: impl FnOnce(&str)) -> io::Result<()> {
+    pub fn serve(self, opened: impl FnOnce(&Addresses)) -> io::Result<()> {
         let token = token()?;
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         runtime.block_on(async {
             let listener = TcpListener::bind(self.address).await?;
             let address = listener.local_addr()?;
-            opened(&format!("http://{address}/#{token}"));
+            opened(&Addresses {
+                page: format!("http://{address}/#{token}"),
+                foxglove: format!("ws://{address}/foxglove/{token}"),
+            });
             let (mut robots, mut threads) = (Vec::<Served>::new(), vec![]);
             for Seat { name, mut robot, source, shadow_of } in self.robots {
                 let (shared, travels) = (Arc::<Shared>::default(), robot.repeats());

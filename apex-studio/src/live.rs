@@ -57,6 +57,8 @@ pub struct Live {
     pub paused: bool,
     /// Simulated seconds per second.
     pub speed: f64,
+    /// Number of messages about both.
+    pub paces: u64,
     /// Number of reactions.
     pub reactions: u64,
     /// Parameters that were set, with the numbers of reactions before.
@@ -170,6 +172,7 @@ impl Default for Live {
             tokens: BTreeMap::new(),
             paused: false,
             speed: f64::INFINITY,
+            paces: 0,
             reactions: 0,
             sets: vec![],
             calls: vec![],
@@ -266,7 +269,10 @@ impl Live {
             }
             Report::Lost(count) => self.lost += count,
             Report::Param { name, value, reactions } => self.param(name, value, reactions),
-            Report::Pace { paused, speed, .. } => (self.paused, self.speed) = (paused, speed),
+            Report::Pace { paused, speed, .. } => {
+                (self.paused, self.speed) = (paused, speed);
+                self.paces += 1;
+            }
             Report::Checkpoints(all) => self.keep(&all),
             Report::NoCheckpoints(why) => (self.no_checkpoints, self.checkpoints) = (Some(why), vec![]),
             Report::Ended => self.end(Run::Ended),
@@ -439,10 +445,19 @@ impl Live {
         (self.repeats, self.travels) = (true, true);
     }
 
+    /// The run that this one repeats, as long as it has gone further.
+    fn ahead(&self) -> Option<&Before> {
+        self.before.as_ref().filter(|before| before.reactions > self.reactions)
+    }
+
     /// Number of reactions up to a time in ns, also in the future if that is known.
     pub fn reactions_until(&self, time: i64) -> u64 {
-        let known = self.before.as_ref().filter(|before| before.reactions > self.reactions);
-        known.map_or(&self.steps, |before| &before.steps).reactions_until(time)
+        self.ahead().map_or(&self.steps, |before| &before.steps).reactions_until(time)
+    }
+
+    /// `true` if it is not known what the robot does at a time in ns, because it is in the future.
+    pub fn is_unknown(&self, time: i64) -> bool {
+        time > self.ahead().map_or(self.now, |before| before.now)
     }
 
     /// Time in ns at which this run begins to differ from the one that it repeats.
@@ -465,17 +480,17 @@ impl Live {
         self.lanes.iter().zip(&other.lanes).filter_map(|(lane, other)| lane.differs(other, since, until)).min()
     }
 
-    /// These lanes of another run.
-    pub fn draw_of(&self, window: Window, lanes: &[Drawn]) -> Vec<Drawn> {
-        let drawn = |node: usize| Some(self.lanes.get(node)?.draw(node, window, self.now));
-        lanes.iter().filter_map(|lane| drawn(lane.node)).collect()
+    /// The lanes of these nodes in another run.
+    pub fn draw_of(&self, window: Window, nodes: &[usize]) -> Vec<Drawn> {
+        let drawn = |node: &usize| Some(self.lanes.get(*node)?.draw(*node, window, self.now));
+        nodes.iter().filter_map(drawn).collect()
     }
 
-    /// The lanes of the run that this one repeats, for the nodes of `lanes`.
-    pub fn draw_before(&self, window: Window, lanes: &[Drawn]) -> Vec<Drawn> {
+    /// The lanes of these nodes in the run that this one repeats.
+    pub fn draw_before(&self, window: Window, nodes: &[usize]) -> Vec<Drawn> {
         let Some(before) = &self.before else { return vec![] };
-        let drawn = |node: usize| Some(before.lanes.get(node)?.as_ref()?.draw(node, window, before.now));
-        lanes.iter().filter_map(|lane| drawn(lane.node)).collect()
+        let drawn = |node: &usize| Some(before.lanes.get(*node)?.as_ref()?.draw(*node, window, before.now));
+        nodes.iter().filter_map(drawn).collect()
     }
 
     /// History of each node.
@@ -492,8 +507,9 @@ impl Live {
         detail::lanes(&self.steps, self.about.as_deref()?, from, to, to.saturating_sub(from).max(1)).map(Cow::Owned)
     }
 
-    /// The lanes of all nodes that were active or had problems, and of those in `also`.
-    pub fn draw(&self, window: Window, also: &[usize]) -> Vec<Drawn> {
+    /// The lanes of all nodes that were active or had problems, and of those in `also`. Only those that are seen have
+    /// contents.
+    pub fn draw(&self, window: Window, also: &[usize], is_seen: &dyn Fn(usize) -> bool) -> Vec<Drawn> {
         let was =
             |at: usize| self.before.as_ref().and_then(|b| b.lanes.get(at)?.as_ref()).is_some_and(Lane::is_of_interest);
         let is_drawn = |(at, lane): &(usize, &Lane)| lane.is_of_interest() || was(*at) || also.contains(at);
@@ -503,6 +519,9 @@ impl Live {
             .and_then(|about| detail::lanes(&self.steps, about, window.from, window.to, window.column_width()))
             .unwrap_or_default();
         let drawn = |(at, lane): (usize, &Lane)| {
+            if !is_seen(at) {
+                return Drawn { node: at, ..Drawn::default() };
+            }
             let drawn = lane.draw(at, window, self.now);
             fine.get(at)
                 .map(|fine| Drawn { marks: drawn.marks.clone(), ..fine.draw(at, window, self.now) })

@@ -73,7 +73,7 @@ impl<'a> Moment<'a> {
 
     /// The tokens of a recording for all ports that got some.
     fn feeds(&mut self, replayed: Option<&Replayed>) -> Result<(), String> {
-        let Some(Replayed { file, channels }) = replayed else { return Ok(()) };
+        let Some(Replayed { file, channels, .. }) = replayed else { return Ok(()) };
         let ports = self.about.nodes.iter().filter(|node| matches!(node.kind.as_str(), "input" | "slot"));
         let fed: Vec<&str> =
             ports.map(|node| node.name.as_str()).filter(|name| channels.iter().any(|c| c == name)).collect();

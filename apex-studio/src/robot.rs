@@ -215,6 +215,18 @@ impl Shared {
         self.changed.notify_all();
     }
 
+    /// Goes to the state at a time in ns. A time that nothing is known about lies ahead: the robot runs up to it.
+    pub fn go_to(&self, time: i64) {
+        let live = self.live();
+        let (is_unknown, goal) = (live.is_unknown(time), live.reactions_until(time));
+        drop(live);
+        if is_unknown {
+            self.tell(&Command::RunUntil { now: time });
+        } else {
+            self.travel(goal);
+        }
+    }
+
     /// Starts the robot again if it should have gone back to a checkpoint.
     fn has_no_checkpoint(&self) {
         let mut link = locked(&self.link);

@@ -1,14 +1,14 @@
 //! The web server: a page, and a socket for what it asks and is told.
 
 use crate::{
-    Source,
+    Source, foxglove,
     robot::Shared,
     session::{Asked, Beside, Session, Told},
 };
 use axum::{
     Router,
     extract::{
-        State, WebSocketUpgrade,
+        Path, State, WebSocketUpgrade,
         ws::{Message, WebSocket},
     },
     http::{HeaderMap, StatusCode, header},
@@ -21,7 +21,7 @@ use tokio::{net::TcpListener, time};
 /// Interval at which a page gets news.
 const TICK: Duration = Duration::from_millis(50);
 /// Time that a page has for its token, and for taking a message.
-const PATIENCE: Duration = Duration::from_secs(10);
+pub const PATIENCE: Duration = Duration::from_secs(10);
 /// Maximum size of a message of a page in bytes.
 const MAX_MESSAGE: usize = 1 << 20;
 
@@ -56,7 +56,17 @@ pub async fn serve(
 ) -> io::Result<()> {
     let router =
         FILES.iter().fold(Router::new(), |router, file| router.route(file.path, get(|| async { file.response() })));
-    let router = router.route("/live", get(live)).with_state(serving);
+    let router = router
+        .route("/live", get(live))
+        .route(
+            "/foxglove/{token}",
+            get(|serving, headers, Path(token), upgrade| app(serving, headers, token, 0, upgrade)),
+        )
+        .route(
+            "/foxglove/{token}/{robot}",
+            get(|serving, headers, Path((token, robot)), upgrade| app(serving, headers, token, robot, upgrade)),
+        )
+        .with_state(serving);
     tokio::select! {
         result = async { axum::serve(listener, router).await } => result,
         () = stop => Ok(()),
@@ -105,18 +115,55 @@ async fn live(State(serving): State<Serving>, headers: HeaderMap, upgrade: WebSo
     upgrade.max_message_size(MAX_MESSAGE).on_upgrade(|socket| talk(serving, socket))
 }
 
+/// Serves an app of Foxglove. It comes from another site, or from none, and has the token in its address.
+async fn app(
+    State(serving): State<Serving>,
+    headers: HeaderMap,
+    token: String,
+    robot: usize,
+    upgrade: WebSocketUpgrade,
+) -> Response {
+    if !serving.is_own_host(&headers) || !is_same(token.as_bytes(), serving.token.as_bytes()) {
+        return (StatusCode::FORBIDDEN, "open the address that `apex studio` has printed").into_response();
+    }
+    let Some(seen) = serving.robots.get(robot).map(|robot| robot.seen(serving.readonly)) else {
+        return (StatusCode::NOT_FOUND, "the studio has no such robot").into_response();
+    };
+    let upgrade = upgrade.max_message_size(MAX_MESSAGE).protocols(foxglove::PROTOCOLS);
+    if upgrade.selected_protocol().is_none() {
+        return (StatusCode::BAD_REQUEST, "the subprotocol `foxglove.sdk.v1` is expected").into_response();
+    }
+    upgrade.on_upgrade(|socket| foxglove::talk(seen, socket))
+}
+
+impl Served {
+    /// The robot as an app sees it.
+    fn seen(&self, readonly: bool) -> foxglove::Seen {
+        let replayed = self.source.replayed().ok().flatten();
+        foxglove::Seen { shared: Arc::clone(&self.shared), readonly, travels: self.travels, replayed }
+    }
+}
+
+/// Returns the text of a header.
+fn text(headers: &HeaderMap, name: header::HeaderName) -> Option<&str> {
+    headers.get(name).and_then(|value| value.to_str().ok())
+}
+
 impl Serving {
+    /// `true` if a request names this studio: a page of another site may have given its own name to this address.
+    fn is_own_host(&self, headers: &HeaderMap) -> bool {
+        let own = [self.address.to_string(), format!("localhost:{}", self.address.port())];
+        let host = text(headers, header::HOST).unwrap_or_default();
+        own.iter().any(|own| own == host) || self.address.ip().is_unspecified()
+    }
+
     /// Refuses other sites: their pages may not talk to a robot through the browser of its user.
     fn admits(&self, headers: &HeaderMap) -> Result<(), &'static str> {
-        let text = |name| headers.get(name).and_then(|value| value.to_str().ok());
-        let host = text(header::HOST).unwrap_or_default();
-        let own = [self.address.to_string(), format!("localhost:{}", self.address.port())];
-        let is_own = |host: &str| own.iter().any(|own| own == host) || self.address.ip().is_unspecified();
-        if !is_own(host) {
+        if !self.is_own_host(headers) {
             return Err("this is not the host of the studio");
         }
-        match text(header::ORIGIN) {
-            Some(origin) if origin.strip_prefix("http://") == Some(host) => Ok(()),
+        match text(headers, header::ORIGIN) {
+            Some(origin) if origin.strip_prefix("http://") == text(headers, header::HOST) => Ok(()),
             _ => Err("this is not a page of the studio"),
         }
     }

@@ -171,8 +171,9 @@ pub enum Asked {
     Why { node: usize, at: Option<f64> },
     /// Writes a test of the interval between two times in s.
     Test(f64, f64),
-    /// Asks for the lanes of the timeline, with those of `also`. Times are in s.
-    Lanes { from: f64, to: f64, columns: u32, also: Vec<usize> },
+    /// Asks for the lanes of the timeline, with those of `also`. Times are in s. Only those of the nodes in `seen` have
+    /// contents; without it, all.
+    Lanes { from: f64, to: f64, columns: u32, also: Vec<usize>, seen: Option<BTreeSet<usize>> },
 }
 
 /// Maximum number of columns of the timeline.
@@ -284,14 +285,16 @@ impl Session {
                 }
                 return None;
             }
-            Asked::Lanes { from, to, columns, also } => {
+            Asked::Lanes { from, to, columns, also, seen } => {
                 let columns = columns.clamp(1, MAX_COLUMNS);
                 let window = Window { from: (from * 1e9) as i64, to: (to * 1e9) as i64, columns };
                 let live = self.live();
-                let lanes = live.draw(window, &also);
+                let is_seen = |node: usize| seen.as_ref().is_none_or(|seen| seen.contains(&node));
+                let lanes = live.draw(window, &also, &is_seen);
+                let nodes: Vec<usize> = lanes.iter().map(|lane| lane.node).filter(|node| is_seen(*node)).collect();
                 let (before, differs) = match self.beside() {
-                    Some(other) => (other.draw_of(window, &lanes), live.differs_from(&other)),
-                    None => (live.draw_before(window, &lanes), live.differs()),
+                    Some(other) => (other.draw_of(window, &nodes), live.differs_from(&other)),
+                    None => (live.draw_before(window, &nodes), live.differs()),
                 };
                 return Some(Told::Lanes { from, to, columns, lanes, before, differs: differs.map(seconds) });
             }
@@ -328,8 +331,7 @@ impl Session {
                 return None;
             }
             Asked::Goto(time) => {
-                let goal = self.shared.live().reactions_until((time * 1e9) as i64);
-                self.shared.travel(goal);
+                self.shared.go_to((time * 1e9) as i64);
                 return None;
             }
             Asked::Break(text) => return Some(Told::Break(self.shared.halt_when(&text).err())),

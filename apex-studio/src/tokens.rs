@@ -14,7 +14,7 @@ pub struct Tokens {
     pub newest: VecDeque<(i64, String)>,
     /// Length of these texts in bytes.
     length: usize,
-    /// The newest token as a message in CDR.
+    /// The newest token as a message in CDR; empty if it is not known.
     pub bytes: Vec<u8>,
 }
 
@@ -34,7 +34,11 @@ impl Tokens {
 
     /// Forgets the tokens after a time in ns.
     pub fn take_back(&mut self, now: i64) {
+        let before = self.newest.len();
         self.newest.retain(|(at, _)| *at <= now);
+        if self.newest.len() < before {
+            self.bytes.clear();
+        }
         self.length = self.newest.iter().map(|(_, text)| text.len()).sum();
         self.count = self.newest.len() as u64;
     }

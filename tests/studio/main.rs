@@ -4,6 +4,7 @@ mod browser;
 mod bytes;
 mod checkpoints;
 mod figures;
+mod foxglove;
 mod measure;
 mod page;
 mod pictures;

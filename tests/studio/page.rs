@@ -104,7 +104,7 @@ pub fn opened(robots: Vec<Seat>, readonly: bool) -> String {
     let (opened, address) = channel();
     thread::spawn(move || {
         let studio = Studio { robots, address: "127.0.0.1:0".parse().unwrap(), readonly, speed: Some(1.0) };
-        studio.serve(|address| opened.send(address.to_owned()).unwrap()).expect("a free port");
+        studio.serve(|addresses| opened.send(addresses.page.clone()).unwrap()).expect("a free port");
     });
     address.recv().expect("it opens")
 }
@@ -122,7 +122,8 @@ pub struct Started {
 }
 
 impl Started {
-    fn join(mut self) {
+    /// Waits for the end of the program.
+    pub fn join(mut self) {
         self.thread.take().map(thread::JoinHandle::join).expect("it has not been joined").expect("it runs to its end");
     }
 }

@@ -1,6 +1,6 @@
 //! Tokens as messages: types with a ROS 2 message, and the encoding of all others.
 
-use super::cdr::{Reader, Writer};
+use super::cdr::{Reader, STD_HEADER, Writer};
 use crate::{Failure, Time};
 use core::{any::type_name, marker::PhantomData};
 use serde::{Serialize, de::DeserializeOwned};
@@ -32,6 +32,14 @@ pub struct Schema {
     pub definition: &'static str,
     /// Encoding: `cdr` or `postcard`.
     pub encoding: &'static str,
+}
+
+impl Schema {
+    /// Returns the definition of the message with that of its header, as other programs need it.
+    pub fn complete_definition(&self) -> String {
+        let header = if self.definition.starts_with("std_msgs/Header ") { STD_HEADER } else { "" };
+        format!("{}{header}", self.definition)
+    }
 }
 
 /// Functions that write and read the tokens of a type.

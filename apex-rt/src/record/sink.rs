@@ -1,6 +1,6 @@
 //! Output of recordings: frames pass through rings of bytes to a thread that writes them into an MCAP file.
 
-use super::{Channel, Schema, cdr::STD_HEADER};
+use super::{Channel, Schema};
 use mcap::{WriteOptions, Writer, records::MessageHeader, records::Metadata};
 use rtrb::{Consumer, Producer, RingBuffer};
 use std::{
@@ -227,10 +227,8 @@ fn open(file: File, about: BTreeMap<String, String>, channels: &[Channel]) -> mc
     let own = OWN.iter().map(|(name, schema)| (*name, Some(*schema)));
     for (index, (name, schema)) in own.chain(channels.iter().map(|c| (c.name, c.schema))).enumerate() {
         let Some(schema) = schema else { continue };
-        let header = if schema.definition.starts_with("std_msgs/Header ") { STD_HEADER } else { "" };
-        let definition = format!("{}{header}", schema.definition);
         let encoding = if schema.encoding == "cdr" { "ros2msg" } else { "" };
-        let id = writer.add_schema(schema.name, encoding, definition.as_bytes())?;
+        let id = writer.add_schema(schema.name, encoding, schema.complete_definition().as_bytes())?;
         writer.add_channel_with_id(index as u16, id, name, schema.encoding, &BTreeMap::new())?;
     }
     writer.flush()?;

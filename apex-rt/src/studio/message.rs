@@ -361,7 +361,7 @@ impl About {
             node: channel.node as u32,
             schema: channel
                 .schema
-                .map(|schema| AboutSchema { name: schema.name.into(), definition: schema.definition.into() }),
+                .map(|schema| AboutSchema { name: schema.name.into(), definition: schema.complete_definition() }),
         };
         let param = |param: &ParamInfo| AboutParam {
             name: param.name.into(),
