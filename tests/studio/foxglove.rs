@@ -278,7 +278,7 @@ fn an_app_halts_a_robot_and_goes_forth_and_back() {
     assert_eq!(app.state(|state| state.4 == "halt").0, HALTED);
     // Ahead, where nothing is known yet. The robot halts there.
     app.control(false, 1.0, Some(5.0), "ahead");
-    assert_eq!(app.state(|state| state.4 == "ahead").3, true);
+    assert!(app.state(|state| state.4 == "ahead").3);
     let (_, now, ..) = app.state(|state| state.0 == HALTED);
     assert_eq!(now, 4_990_000_000);
     let number = |(_, payload): (u64, Vec<u8>)| i64::from_le_bytes(payload[4..].try_into().expect("a number"));
