@@ -22,9 +22,9 @@ use core::{
 use std::{io, time::Instant};
 
 /// Height of the body of the cart above the floor, in m.
-const BODY: f32 = 0.22;
+pub(crate) const BODY: f32 = 0.22;
 /// Height of the top of the cart, in m.
-const TOP: f32 = 1.3;
+pub(crate) const TOP: f32 = 1.3;
 /// Distances from the scanner to the near face of the cart, in m.
 const DISTANCES: [f32; 5] = [1.0, 1.5, 2.0, 2.5, 3.0];
 

@@ -6,9 +6,12 @@
 pub mod accuracy;
 pub mod approach;
 mod cart;
+pub mod clinic;
 mod drive;
 mod evaluate;
 mod finder;
+mod mission_control;
+pub mod missions;
 mod motion;
 pub mod obstacles;
 mod progress;
@@ -33,6 +36,7 @@ pub use cart::{Cart, LENGTH, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDT
 pub use drive::Drive;
 pub use evaluate::{Evaluate, Score, Statistics};
 pub use finder::{Finder, Search};
+pub use mission_control::{MissionControl, ahead};
 pub use motion::Scenario;
 pub use progress::Progress;
 pub use referee::{Ends, Referee};
@@ -42,6 +46,11 @@ pub use sim_laser::{SimLaser, Truth};
 /// Compiled robots of `patsy.afg`.
 pub mod programs {
     apex_macros::graph!("patsy.afg");
+}
+
+/// The vehicle in the clinic: `clinic.afg`.
+pub mod vehicle {
+    apex_macros::graph!("clinic.afg");
 }
 
 /// The mission on its own, with the tests of `mission.afg`.

@@ -3,6 +3,7 @@
 mod accuracy;
 mod approach;
 mod args;
+mod missions;
 mod simulate;
 mod times;
 mod validate;
@@ -17,6 +18,8 @@ Usage: patsy [--log FILE [--container pallet|cart] [--labels FILE] [--table FILE
        patsy obstacles [OPTIONS]
        patsy accuracy [--first-seed N] [--seeds N] [--jobs N]
        patsy approach [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
+       patsy missions [--first-seed N] [--seeds N] [--jobs N] [--minutes N] [--people N] [--faults] [--out FILE]
+                      [--record FILE]
        patsy times [--first-seed N] [--seeds N]
        patsy validate --with FILE --labels FILE --without FILE [--folds N] [--jobs N]
 
@@ -42,6 +45,15 @@ planned one, and draws from where they arrive.
   --jobs N          number of threads (default: as many as there are cores)
   --out FILE        the picture (default out/patsy/approach.svg)
 
+`missions` runs the vehicle in a simulated clinic, where it carries containers among people, and counts what it
+delivered and touched. It draws the first run.
+
+  --minutes N       simulated time of each run (default 10)
+  --people N        number of people (default 8)
+  --faults          also runs with a fault of each kind: of the camera, the scanner, the odometry, the lift
+  --out FILE        the picture (default out/patsy/clinic.svg)
+  --record FILE     recording of the first run, for `apex replay` and viewers
+
 `times` measures the computing time of the search in simulated rooms, on one thread.
 
 `validate` chooses the limits of the search for pallets on all blocks of time of a recording but one, counts what it
@@ -57,9 +69,10 @@ Exit codes: 0 fine, 1 some scans could not be read, 2 nothing could be done.
 /// Command: reads its options and does its work. An error is the reason why this was not possible.
 type Command = fn(&mut Parser) -> Result<ExitCode, String>;
 
-const COMMANDS: [(&str, Command); 4] = [
+const COMMANDS: [(&str, Command); 5] = [
     ("accuracy", accuracy::accuracy),
     ("approach", approach::approach),
+    ("missions", missions::missions),
     ("times", times::times),
     ("validate", validate::validate),
 ];

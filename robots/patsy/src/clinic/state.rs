@@ -1,0 +1,348 @@
+use super::{
+    Contact, DOCK, Delivery, Fault, FaultKind, Order, PEOPLE, Report, STAIRWELL,
+    body::{Body, SHAPE, along},
+    site::{Site, area},
+    view,
+};
+use crate::{Cart, obstacles::Thing};
+use apex_nodes::{
+    io::ReadError,
+    nav::Twist,
+    scan::{Point2, Pose2},
+};
+use apex_rt::Time;
+use apex_sim::{Crowd, Disc, Footprint, Odometry, OdometryNoise, Random, World, tof::Space};
+use std::time::Duration;
+
+/// Duration of a run.
+pub const DURATION: Duration = Duration::from_secs(600);
+
+const STEP: Duration = Duration::from_millis(20);
+/// Time without a twist after which the motors brake.
+const WATCHDOG: Duration = Duration::from_millis(300);
+/// Errors of the wheel odometry, as a part of those of a Pioneer 2.
+const DRIFT: f32 = 0.3;
+/// Distance from the vehicle within which it may touch something, in m.
+const TOUCH: f32 = 2.5;
+/// Distance up to which the scanner sees, in m.
+const SIGHT: f32 = 20.0;
+/// Speed from which on a contact is one that the vehicle causes, in m/s.
+const MOVES: f32 = 0.05;
+/// Radius of the body of a person above the legs, in m.
+const BODY: f32 = 0.18;
+
+/// Options of a simulation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Seed of furniture, people, containers, orders and noise.
+    pub seed: u64,
+    /// Number of people.
+    pub people: usize,
+    /// Faults of the devices.
+    pub faults: Vec<Fault>,
+}
+
+/// Eight people and no faults.
+impl Default for Options {
+    fn default() -> Self {
+        Self { seed: 1, people: PEOPLE, faults: vec![] }
+    }
+}
+
+/// Simulated clinic of one seed. The same seed and the same commands give the same result, bit for bit.
+#[derive(Debug, Clone)]
+pub struct State {
+    now: Time,
+    seed: u64,
+    site: Site,
+    crowd: Crowd,
+    body: Body,
+    odometry: Odometry,
+    wheels: Pose2,
+    command: (Twist, Time),
+    faults: Vec<Fault>,
+    order: Option<Order>,
+    orders: Random,
+    report: Report,
+    /// People that touch the vehicle, and `true` if it touches something else.
+    touching: Vec<usize>,
+    bumped: bool,
+    /// What is near the vehicle, with the wheels of containers.
+    near: World,
+    /// All that is seen by the scanner.
+    seen: World,
+}
+
+/// True state of the clinic at a time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Time.
+    pub now: Time,
+    /// Poses of the tractor and of the trailer.
+    pub vehicle: [Pose2; 2],
+    /// Poses of the containers.
+    pub carts: Vec<Pose2>,
+    /// Number of the container on the lift.
+    pub load: Option<usize>,
+    /// Positions of the people.
+    pub people: Vec<Pose2>,
+    /// Present order.
+    pub order: Option<Order>,
+}
+
+impl State {
+    /// Creates the clinic of a seed.
+    pub fn new(options: &Options) -> Result<Self, ReadError> {
+        let seed = options.seed;
+        let mut random = stream(seed, 0);
+        let site = Site::new(&mut random)?;
+        let crowd = Crowd::new(view::walkable(&site.building), options.people, stream(seed, 1).bits());
+        Ok(Self {
+            now: Time::ZERO,
+            seed,
+            site,
+            crowd,
+            body: Body::new(DOCK),
+            odometry: Odometry::new(OdometryNoise::PIONEER.times(DRIFT), stream(seed, 2).bits()),
+            wheels: Pose2::default(),
+            command: (Twist::ZERO, Time::ZERO),
+            faults: options.faults.clone(),
+            order: None,
+            orders: stream(seed, 3),
+            report: Report::default(),
+            touching: vec![],
+            bumped: false,
+            near: World::default(),
+            seen: World::default(),
+        })
+    }
+
+    /// Random numbers for anything outside of the clinic itself, such as the noise of a sensor.
+    pub fn stream(&self, number: u64) -> Random {
+        stream(self.seed, number)
+    }
+
+    /// Advances the simulation to a time.
+    pub fn advance(&mut self, now: Time) {
+        while self.now + STEP <= now {
+            self.step();
+        }
+    }
+
+    pub fn drive(&mut self, twist: Twist) {
+        self.command = (twist, self.now);
+    }
+
+    /// Moves the lift up or down.
+    pub fn lift(&mut self, up: bool) {
+        self.body.lift.is_raised = up;
+    }
+
+    /// Position of the lift, from 0 to 1.
+    pub fn lift_position(&self) -> f32 {
+        self.body.lift.position
+    }
+
+    pub fn wheels(&self) -> Pose2 {
+        self.wheels
+    }
+
+    /// Pose of the tractor.
+    pub fn pose(&self) -> Pose2 {
+        self.body.tractor.base.pose
+    }
+
+    pub fn trailer(&self) -> Pose2 {
+        self.body.tractor.trailer_pose()
+    }
+
+    pub const fn report(&self) -> &Report {
+        &self.report
+    }
+
+    pub fn report_mut(&mut self) -> &mut Report {
+        &mut self.report
+    }
+
+    pub fn has(&self, kind: FaultKind) -> bool {
+        self.faults.iter().any(|fault| fault.is_on(kind, self.now))
+    }
+
+    pub const fn building(&self) -> &apex_sim::Building {
+        &self.site.building
+    }
+
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            now: self.now,
+            vehicle: [self.pose(), self.trailer()],
+            carts: self.site.carts.iter().map(Cart::pose).collect(),
+            load: self.body.load.map(|(number, _)| number),
+            people: self.crowd.people().iter().map(|person| person.pose).collect(),
+            order: self.order,
+        }
+    }
+
+    /// Next order: a random container to a random place that is free. `None` if there is none.
+    pub fn next_order(&mut self) -> Option<Order> {
+        let carts = &self.site.carts;
+        let lifted = self.body.load.map(|(number, _)| number);
+        let from: Vec<usize> = (0..carts.len()).filter(|number| Some(*number) != lifted).collect();
+        let is_free = |place: &&Pose2| carts.iter().all(|c| (c.pose().position() - place.position()).norm() > 3.0);
+        let to: Vec<Pose2> = self.site.places.iter().filter(is_free).copied().collect();
+        let pick = |random: &mut Random, count: usize| (random.bits() % count.max(1) as u64) as usize;
+        let cart = carts.get(*from.get(pick(&mut self.orders, from.len()))?)?.pose();
+        let destination = *to.get(pick(&mut self.orders, to.len()))?;
+        let lane = if cart.y < 15.0 { 0.0 } else { core::f32::consts::PI };
+        let mut off = |most: f32| self.orders.uniform(-most, most);
+        let known = Pose2::new(off(0.2), off(0.08), off(0.02));
+        let container = Pose2 { theta: along(cart.theta, lane), ..cart }.compose(&known);
+        self.order = Some(Order { container, destination });
+        self.order
+    }
+
+    /// World that the scanner sees.
+    pub fn scanned(&mut self) -> &World {
+        let here = self.pose().position();
+        self.seen.take_near(&self.site.building.world, here, SIGHT);
+        self.site.carts.iter().for_each(|cart| cart.add_to(&mut self.seen));
+        for person in self.crowd.people() {
+            person.legs().into_iter().for_each(|leg| self.seen.disc(leg.centre, leg.radius));
+        }
+        for (_, pose) in self.site.things.iter().filter(|(thing, _)| *thing == Thing::Glass) {
+            self.seen.disc(pose.position(), 0.035);
+        }
+        &self.seen
+    }
+
+    /// Fills the space that the camera sees.
+    pub fn fill(&self, space: &mut Space) {
+        let pose = self.pose();
+        view::walls(&self.site.building.world, &pose, space);
+        let load = self.body.load.map(|(number, _)| number);
+        for (number, cart) in self.site.carts.iter().enumerate() {
+            view::cart(cart, &pose, load == Some(number), space);
+        }
+        self.crowd.people().iter().for_each(|person| view::person(person, &pose, space));
+        self.site.things.iter().enumerate().for_each(|(i, (thing, at))| view::thing(*thing, at, i, &pose, space));
+        space.dig(STAIRWELL);
+    }
+
+    fn step(&mut self) {
+        self.now += STEP;
+        let dt = STEP.as_secs_f32();
+        let areas: Vec<Footprint> = self.body.areas().chain(self.site.carts.iter().map(area)).collect();
+        self.crowd.step(dt, &areas);
+        self.move_lift(dt);
+        let before = self.pose();
+        self.move_body(dt);
+        self.touch_people();
+        self.watch_floor();
+        self.wheels = self.odometry.measure(&before, &self.pose());
+        self.report.distance += (self.pose().position() - before.position()).norm();
+        if self.now.as_nanos() % 200_000_000 == 0 {
+            self.report.trajectory.push((self.now, self.pose()));
+        }
+    }
+
+    fn move_lift(&mut self, dt: f32) {
+        if self.has(FaultKind::LiftJammed) {
+            return;
+        }
+        let before = self.body.lift.position;
+        self.body.lift.step(dt);
+        let after = self.body.lift.position;
+        if before == 0.0 && after > 0.0 {
+            self.body.catch(&self.site.carts);
+        }
+        if before > 0.0 && after == 0.0 && self.body.load.take().is_some() {
+            self.set_down();
+        }
+    }
+
+    fn set_down(&mut self) {
+        let Some(order) = self.order else { return };
+        let carts = self.site.carts.iter().map(|cart| (cart.pose().position() - self.pose().position()).norm());
+        let nearest = carts.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((number, _)) = nearest {
+            let at = self.site.carts[number].pose().position();
+            let offset = (at - order.destination.position()).norm();
+            self.report.deliveries.push(Delivery { at: self.now, offset });
+        }
+    }
+
+    fn move_body(&mut self, dt: f32) {
+        if !self.report.falls.is_empty() {
+            return;
+        }
+        let (twist, at) = self.command;
+        let command = if self.now.since(at) > WATCHDOG { Twist::ZERO } else { twist };
+        if self.now.as_nanos() % 100_000_000 == 0 {
+            self.near.take_near(&self.site.building.world, self.body.tractor.base.pose.position(), TOUCH);
+            let load = self.body.load.map(|(number, _)| number);
+            let others = self.site.carts.iter().enumerate().filter(|(number, _)| Some(*number) != load);
+            others.for_each(|(_, cart)| cart.add_to(&mut self.near));
+        }
+        let touches = self.body.drive(&command, dt, &self.near);
+        if touches && !self.bumped {
+            self.report.bumps.push(self.now);
+        }
+        // A bump has ended when the vehicle drives again.
+        self.bumped = touches || (self.bumped && self.body.speed() < MOVES);
+        if let Some(((number, _), pose)) = self.body.load.zip(self.body.load_pose()) {
+            self.site.carts[number].move_to(pose);
+        }
+    }
+
+    /// Counts contacts of people with the vehicle that drives, and pushes them out of its way.
+    fn touch_people(&mut self) {
+        let areas: Vec<Footprint> = self.body.areas().collect();
+        let is_loaded = self.body.load.is_some();
+        for person in 0..self.crowd.people().len() {
+            let one = &self.crowd.people()[person];
+            let trunk = Disc { centre: one.pose.position(), radius: BODY };
+            let parts = one.legs().into_iter().chain(is_loaded.then_some(trunk));
+            let overlap = |disc: &Disc| {
+                let depth = areas.iter().map(|area| area.distance(disc.centre)).fold(f32::INFINITY, f32::min);
+                disc.radius - depth
+            };
+            let deepest = parts.map(|disc| overlap(&disc)).fold(f32::NEG_INFINITY, f32::max);
+            if deepest <= 0.0 {
+                self.touching.retain(|other| *other != person || deepest > -0.05);
+                continue;
+            }
+            if self.body.speed() > MOVES && !self.touching.contains(&person) {
+                self.touching.push(person);
+                let contact = Contact { at: self.now, person, pose: self.pose() };
+                self.report.contacts.push(contact);
+            }
+            let here = self.crowd.people()[person].pose.position();
+            let middle = (self.pose().position() + self.trailer().position()).scaled(0.5);
+            let away = here - middle;
+            self.crowd.shove(person, away.scaled(deepest.min(0.05) / away.norm().max(1e-3)));
+        }
+    }
+
+    /// Notices small things under the vehicle, and falls.
+    fn watch_floor(&mut self) {
+        let wheels = self.body.wheels();
+        if self.report.falls.is_empty() && wheels.iter().any(|wheel| STAIRWELL.contains(wheel.x, wheel.y)) {
+            self.report.falls.push(self.now);
+        }
+        let parts = Footprint::of(&SHAPE, &self.body.tractor.base.pose, self.body.tractor.trailer);
+        let is_under = |place: Point2| parts.iter().any(|part| part.distance(place) <= 0.0);
+        let Self { site, report, now, .. } = self;
+        site.things.retain(|(thing, pose)| {
+            let is_hit = is_under(pose.position());
+            if is_hit {
+                report.run_over.push((*now, *thing));
+            }
+            !is_hit
+        });
+    }
+}
+
+/// Random stream of its own for each purpose, so that none changes the numbers of another.
+const fn stream(seed: u64, number: u64) -> Random {
+    Random::new(Random::new(seed).bits() ^ Random::new(number.wrapping_mul(0x9e37_79b9)).bits())
+}

@@ -1,0 +1,93 @@
+use super::args::{Seeds, next, number, path, seeds_option};
+use apex_sim::in_order;
+use lexopt::{Parser, prelude::Long};
+use patsy::{
+    clinic::{FaultKind, Options, PEOPLE},
+    missions::{Row, Run, fault_at, faults_table, picture, run, summary},
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Duration,
+};
+
+/// Options of the command.
+struct Missions {
+    seeds: Seeds,
+    duration: Duration,
+    people: usize,
+    faults: bool,
+    out: PathBuf,
+    record: Option<PathBuf>,
+}
+
+/// Runs the vehicle in many clinics, also with faults, and counts what came of it.
+pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
+    let missions = read(parser)?;
+    let seeds = missions.seeds.all();
+    let mut jobs: Vec<Options> = seeds.iter().map(|seed| missions.options(*seed, None)).collect();
+    if missions.faults {
+        let kinds = FaultKind::ALL.into_iter();
+        jobs.extend(
+            kinds
+                .flat_map(|kind| seeds.iter().map(move |seed| (*seed, kind)))
+                .map(|(seed, kind)| missions.options(seed, Some(kind))),
+        );
+    }
+    println!("{}", Row::HEAD);
+    let show = |run: &Result<Run, String>| {
+        if let Ok(run) = run {
+            println!("{}", Row(run));
+        }
+    };
+    let record = |options: &Options| missions.record.as_deref().filter(|_| *options == jobs[0]);
+    let work = |options: &Options| run(options, missions.duration, record(options));
+    let runs = in_order(&jobs, missions.seeds.jobs, work, show).map_err(|e| e.to_string())?;
+    let runs = runs.into_iter().collect::<Result<Vec<Run>, String>>()?;
+    let (without, with) = runs.split_at(seeds.len());
+    println!("\n{}", summary(without));
+    if missions.faults {
+        println!("{}", faults_table(without, with));
+    }
+    write(&missions.out, &picture(&without[0]))?;
+    println!("seeds {} to {}; picture: {}", seeds[0], seeds[seeds.len() - 1], missions.out.display());
+    Ok(if runs.iter().all(|run| run.failures.is_empty()) { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+impl Missions {
+    fn options(&self, seed: u64, kind: Option<FaultKind>) -> Options {
+        let faults = kind.map(|kind| fault_at(kind, seed, self.duration));
+        Options { seed, people: self.people, faults: faults.into_iter().collect() }
+    }
+}
+
+fn read(parser: &mut Parser) -> Result<Missions, String> {
+    let mut missions = Missions {
+        seeds: Seeds::new(1),
+        duration: Duration::from_secs(600),
+        people: PEOPLE,
+        faults: false,
+        out: PathBuf::from("out/patsy/clinic.svg"),
+        record: None,
+    };
+    while let Some(arg) = next(parser)? {
+        match arg {
+            Long("minutes") => missions.duration = Duration::from_secs(60 * number(parser, "--minutes", 1..=600)?),
+            Long("people") => missions.people = number(parser, "--people", 0..=100)? as usize,
+            Long("faults") => missions.faults = true,
+            Long("out") => missions.out = path(parser)?,
+            Long("record") => missions.record = Some(path(parser)?),
+            arg => {
+                let (option, message) = seeds_option(arg);
+                missions.seeds.read(parser, option, message)?;
+            }
+        }
+    }
+    Ok(missions)
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    let written = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(path, text));
+    written.map_err(|e| format!("cannot write {}: {e}", path.display()))
+}

@@ -1,0 +1,9 @@
+//! Runs of the vehicle in the simulated clinic, what came of them, and the cost of faults (thesis 8.2).
+
+mod picture;
+mod run;
+mod table;
+
+pub use picture::picture;
+pub use run::{Run, run};
+pub use table::{Row, fault_at, faults_table, summary, table};

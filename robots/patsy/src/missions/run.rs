@@ -1,0 +1,111 @@
+use crate::{
+    clinic::{Clinic, Drivers, Options, Report, Snapshot},
+    vehicle::{Patsy, PatsyParts},
+};
+use apex_nodes::map::VectorMap;
+use apex_rt::{
+    Clock as _, Next, Observer, Program, SimClock, Time,
+    record::{Recorder, Tap, WhenFull},
+};
+use std::{
+    fmt,
+    path::Path,
+    time::{Duration, Instant},
+};
+
+/// Period of the reactions of a robot that could always react. It is the step of the simulation.
+const STEP: Duration = Duration::from_millis(20);
+
+/// Finished run.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// Options of the simulation.
+    pub options: Options,
+    /// Events of the vehicle.
+    pub report: Report,
+    /// Failures of nodes and claims that did not hold, each once.
+    pub failures: Vec<String>,
+    /// State at the beginning and at the end.
+    pub ends: [Snapshot; 2],
+    /// Walls of the building.
+    pub plan: VectorMap,
+    /// Computing time.
+    pub took: Duration,
+}
+
+/// Runs the vehicle for some time, and records it to a file if there is one.
+///
+/// # Errors
+/// If the plan of the building cannot be read, or the file cannot be written.
+pub fn run(options: &Options, duration: Duration, record: Option<&Path>) -> Result<Run, String> {
+    let began = Instant::now();
+    let clinic = Clinic::new(options).map_err(|e| e.to_string())?;
+    let first = clinic.snapshot();
+    let mut robot = Box::new(vehicle(&clinic));
+    let cannot = |path: &Path, error: &dyn fmt::Display| format!("cannot record to {}: {error}", path.display());
+    let tap = match record {
+        Some(path) => Some(Recorder::to_file::<Patsy>(path, WhenFull::Wait).map_err(|e| cannot(path, &e))?),
+        None => None,
+    };
+    let mut watch = Watch { failures: vec![], tap: tap.map(Tap::Record) };
+    let end = Time::ZERO + duration;
+    let mut clock = SimClock::until(end).with_step(STEP);
+    loop {
+        let now = clock.now();
+        let next = robot.react_with(now, &mut watch);
+        let time = if let Next::At(time) = next { time } else { now };
+        if !clock.wait_until(time) {
+            break;
+        }
+    }
+    clinic.advance(end);
+    if let (Some(Tap::Record(recorder)), Some(path)) = (watch.tap, record) {
+        recorder.finish().map_err(|e| cannot(path, &e))?;
+    }
+    Ok(Run {
+        options: options.clone(),
+        report: clinic.report(),
+        failures: watch.failures,
+        ends: [first, clinic.snapshot()],
+        plan: clinic.building().plan,
+        took: began.elapsed(),
+    })
+}
+
+/// The vehicle in a clinic.
+fn vehicle(clinic: &Clinic) -> Patsy {
+    let Drivers { scanner, wheels, camera, motors, lift, dispatch } = Drivers::new(clinic);
+    Patsy::new(PatsyParts { scanner, wheels, camera, motors, lift, dispatch })
+}
+
+/// Notes failures, and records.
+struct Watch {
+    failures: Vec<String>,
+    tap: Option<Tap>,
+}
+
+impl Watch {
+    fn note(&mut self, failure: String) {
+        if !self.failures.contains(&failure) {
+            self.failures.push(failure);
+        }
+    }
+}
+
+impl Observer for Watch {
+    fn failed(&mut self, node: usize, error: &impl fmt::Display) {
+        self.note(format!("`{}` failed: {error}", <Patsy as Program>::INFO.nodes[node].name));
+    }
+
+    fn endless(&mut self, _nodes: &[usize], _counts: &[u32]) {
+        self.note("endless cycle of tokens at one point in time".to_owned());
+    }
+
+    fn claim_failed(&mut self, claim: usize) {
+        self.note(format!("the claim `{}` does not hold", <Patsy as Program>::INFO.claims[claim]));
+    }
+
+    fn tap(&mut self) -> Option<&mut Tap> {
+        self.tap.as_mut()
+    }
+}
