@@ -77,6 +77,10 @@ pub struct HazardMap {
     /// Width of the observed area.
     #[param(unit = "m", default = 0.6, range = 0.0..=100.0)]
     width: f32,
+    /// Angle of the camera's view across, about the x axis of the robot. In the observed area, floor can only be missing
+    /// within it.
+    #[param(unit = "rad", default = 3.14, range = 0.0..=3.15)]
+    view_angle: f32,
     floor: Rolling<bool>,
     obstacles: Rolling<f32>,
     /// Number of obstacle points and of all points of this cloud, by cell.
@@ -195,12 +199,17 @@ impl HazardMap {
                 if self.obstacles.get(index) >= self.threshold {
                     return Some(Hazard { kind: HazardKind::Obstacle, position });
                 }
-                if !self.floor.get(index) {
+                if !self.floor.get(index) && self.is_in_view(position) {
                     return Some(Hazard { kind: HazardKind::NoFloor, position });
                 }
             }
         }
         None
+    }
+
+    /// Returns `true` if a position in the frame of the robot is one that its camera sees.
+    fn is_in_view(&self, position: Point2) -> bool {
+        position.angle().abs() <= 0.5 * self.view_angle
     }
 }
 
@@ -216,7 +225,7 @@ mod tests {
     use apex_rt::Construct;
 
     fn node() -> HazardMap {
-        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 2.0, 0.5, 0.4, 1.0, 0.4))
+        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 2.0, 0.5, 0.4, 1.0, 0.4, 3.14))
     }
 
     /// Floor from 0.3 m to `until`, across 1.2 m, with an optional obstacle at this x.
@@ -276,6 +285,17 @@ mod tests {
         let (hazard, _) = see(&mut node(), 0.7, None, &Pose2::default());
         let hazard = hazard.expect("no floor");
         assert!(hazard.kind == HazardKind::NoFloor && hazard.position.x > 0.7 && hazard.position.x < 0.9);
+    }
+
+    #[test]
+    fn floor_beside_the_view_is_not_missing() {
+        // The near corners of the area are 27° from straight ahead, and the floor is seen up to 0.45 m.
+        let kind = |view_angle: f32| {
+            let mut node = HazardMap { far: 0.5, view_angle, ..node() };
+            see(&mut node, 0.45, None, &Pose2::default()).0.map(|hazard| hazard.position.y)
+        };
+        assert!(kind(3.14).is_some_and(|y| y < -0.19));
+        assert!(kind(0.6).is_some_and(|y| y > -0.19));
     }
 
     #[test]

@@ -4,11 +4,12 @@ use apex_nodes::{
     nav::Twist,
     scan::{Pose2, Scan},
 };
-use apex_rt::{Ctx, Event, Out, node};
+use apex_rt::{Ctx, Event, Out, Time, node};
 use apex_sim::{
     Laser, Random,
     tof::{Distortion, Floor, Space, TofCamera, TofFrame},
 };
+use std::time::Duration;
 
 /// All drivers of the vehicle in a clinic.
 #[derive(Debug)]
@@ -92,13 +93,17 @@ impl Wheels {
         }
         odometry.set(self.last);
         trailer.set(self.last.compose(&clinic.trailer().relative_to(&clinic.pose())));
-        if ctx.now() == apex_rt::Time::ZERO {
+        if ctx.now() == Time::ZERO {
             dock.set(DOCK);
         }
     }
 }
 
-/// Time-of-flight camera, 10 cm above the axis of the tractor: a source of clouds.
+/// Time between two clouds.
+const CLOUDS: Duration = Duration::from_millis(240);
+
+/// Time-of-flight camera, 10 cm above the axis of the tractor: a source of clouds every 240 ms. It sends ⊥ when it fires
+/// in between, so that scans and odometry, with which clouds are compared, are not as rare as clouds.
 #[node]
 #[derive(Debug)]
 pub struct Camera {
@@ -107,6 +112,8 @@ pub struct Camera {
     random: Random,
     space: Space,
     frame: TofFrame,
+    /// Time of the next cloud.
+    due: Time,
 }
 
 #[node]
@@ -116,10 +123,14 @@ impl Camera {
         let mut random = clinic.state().stream(31);
         let camera = TofCamera { rays: 2, distortion: Distortion::random(&mut random), ..TofCamera::default() };
         let space = Space::new(Floor { variation: 0.1, ..Floor::default() });
-        Self { clinic: clinic.clone(), camera, random, space, frame: TofFrame::default() }
+        Self { clinic: clinic.clone(), camera, random, space, frame: TofFrame::default(), due: Time::ZERO }
     }
 
     fn process(&mut self, ctx: &Ctx, cloud: &mut Out<PointCloud>) {
+        if ctx.now() < self.due {
+            return;
+        }
+        self.due = ctx.now() + CLOUDS;
         let clinic = self.clinic.at(ctx.now());
         if clinic.has(FaultKind::CameraFrozen) {
             cloud.get_mut().clone_from(&self.frame.cloud);

@@ -23,7 +23,7 @@ const FURNITURE: usize = 40;
 const LANES: [(f32, f32); 2] = [(7.95, 0.0), (22.25, PI)];
 /// Middles of the corridors, and the ends of their parts with places, in m.
 const MIDDLES: [f32; 2] = [8.4, 21.8];
-const ENDS: [f32; 2] = [8.0, 55.0];
+const ENDS: [f32; 2] = [10.0, 41.0];
 /// Distance between places, in m.
 const APART: f32 = 5.0;
 /// Radius of the area at the beginning without furniture, in m.
