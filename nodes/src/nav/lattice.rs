@@ -1,6 +1,9 @@
 use super::{
     NoPath, Path, Terrain,
-    payload::dubins::{Curve, advanced, curves},
+    payload::{
+        dubins::{Curve, advanced, curves},
+        trailer_rotation,
+    },
 };
 use crate::{
     map::{Cell, Grid, Occupancy, Raster},
@@ -8,6 +11,7 @@ use crate::{
 };
 use apex_rt::{Event, Out, node};
 use core::{cmp::Ordering, f32::consts::TAU};
+use libm::remainderf;
 use std::collections::BinaryHeap;
 
 /// Number of headings of the states.
@@ -26,6 +30,8 @@ const BENDING: [f32; 2] = [0.15, 0.1];
 /// between such tries.
 const NEAR: f32 = 4.0;
 const TRIES: usize = 8;
+/// Maximum angle between the vehicle and its trailer, in rad.
+const MAX_BEND: f32 = 1.2;
 /// Maximum number of expanded states.
 const MOST: usize = 150_000;
 /// Length of a way to nowhere.
@@ -38,12 +44,19 @@ pub struct CurveDrive {
     pub radius: f32,
     /// Distance from the axis to the front, in m.
     pub front: f32,
+    /// Distance from the axis back to the hitch of a trailer, in m.
+    pub hitch: f32,
+    /// Distance from the hitch back to the axis of the trailer, in m.
+    pub drawbar: f32,
+    /// Places on the trailer, with its load, that must not touch anything: distances from its axis forward, in m.
+    /// Without places there is no trailer.
+    pub body: &'static [f32],
 }
 
 /// Planner for vehicles that only drive forward in curves of a smallest radius: A* on states of position and heading,
-/// with arcs as steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A trailer is assumed to need no
-/// more room than the tractor before it. The heuristic is the length of the shortest way on the map without regard to
-/// the heading. Keeps its buffers.
+/// with arcs as steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A passively steered trailer is
+/// predicted on the way. The heuristic is the length of the shortest way on the map without regard to the heading. Keeps
+/// its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct CurveSearch {
     /// Estimated distance of each coarse cell from the goal, in m, with costs.
@@ -58,6 +71,8 @@ pub struct CurveSearch {
 #[derive(Debug, Clone, Copy)]
 struct Node {
     pose: Pose2,
+    /// Heading of the trailer, in rad.
+    trailer: f32,
     cost: f32,
     /// Curvature of the way to it, in 1/m.
     curvature: f32,
@@ -89,7 +104,7 @@ impl PartialOrd for Open {
 
 impl CurveSearch {
     /// Writes a path from `start` to `goal`, which ends with the heading of the goal, into `path`, with points about
-    /// 0.1 m apart.
+    /// 0.1 m apart. `trailer` is the heading of the trailer at the start, in rad.
     ///
     /// # Errors
     /// There is no such path. `path` is then empty.
@@ -98,13 +113,14 @@ impl CurveSearch {
         terrain: &Terrain<'_>,
         vehicle: &CurveDrive,
         [start, goal]: [&Pose2; 2],
+        trailer: f32,
         path: &mut Path,
     ) -> Result<(), NoPath> {
         path.points.clear();
         path.heading = goal.theta;
         check(terrain, start, goal)?;
         self.estimate(terrain, goal);
-        self.begin(start);
+        self.begin(start, trailer);
         let mut expanded = 0;
         while let Some(Open { node: at, .. }) = self.open.pop() {
             let node = self.nodes[at as usize];
@@ -132,12 +148,12 @@ impl CurveSearch {
         Err(NoPath::Unreachable)
     }
 
-    fn begin(&mut self, start: &Pose2) {
+    fn begin(&mut self, start: &Pose2, trailer: f32) {
         self.nodes.clear();
         self.open.clear();
         self.best.clear();
         self.best.resize(self.estimates.cells().len() * HEADINGS, f32::INFINITY);
-        self.nodes.push(Node { pose: *start, cost: 0.0, curvature: 0.0, before: NONE, ends: false });
+        self.nodes.push(Node { pose: *start, trailer, cost: 0.0, curvature: 0.0, before: NONE, ends: false });
         self.open.push(Open { estimate: 0.0, node: 0 });
     }
 
@@ -156,14 +172,15 @@ impl CurveSearch {
 
     fn step(&mut self, terrain: &Terrain<'_>, vehicle: &CurveDrive, before: u32, curvature: f32) {
         let node = self.nodes[before as usize];
-        let Some(length) = drive(terrain, vehicle, &node.pose, curvature, STEP) else { return };
+        let drive = Drive { terrain, vehicle };
+        let Some((length, trailer)) = drive.arc(&node.pose, node.trailer, curvature, STEP) else { return };
         let bend = [curvature.abs(), (curvature - node.curvature).abs()].map(|c| c * vehicle.radius);
         let cost = node.cost + length + BENDING[0] * STEP * bend[0] + BENDING[1] * bend[1];
         let pose = advanced(&node.pose, curvature, STEP);
         let (Some(state), rest) = (self.state(&pose), self.rest(pose.position())) else { return };
         if rest.is_finite() && cost < self.best[state] {
             self.open.push(Open { estimate: cost + rest, node: self.nodes.len() as u32 });
-            self.nodes.push(Node { pose, cost, curvature, before, ends: false });
+            self.nodes.push(Node { pose, trailer, cost, curvature, before, ends: false });
         }
     }
 
@@ -174,7 +191,7 @@ impl CurveSearch {
         for curve in curves(&node.pose, goal, vehicle.radius, 0.0) {
             let length = curve.length();
             if best.is_none_or(|best| length < best) {
-                best = drive_curve(terrain, vehicle, &curve).or(best);
+                best = Drive { terrain, vehicle }.curve(&curve, node.trailer).or(best);
             }
         }
         if let Some(length) = best {
@@ -276,37 +293,79 @@ fn openness(terrain: &Terrain<'_>, raster: &Raster, cell: Cell, part: usize) -> 
     fine.filter(|cell| terrain.is_open(*cell)).map(|cell| terrain.cost(cell)).reduce(f32::min)
 }
 
-/// Length of an arc with costs, or `None` if the vehicle touches something on it.
-fn drive(terrain: &Terrain<'_>, vehicle: &CurveDrive, from: &Pose2, curvature: f32, length: f32) -> Option<f32> {
-    let count = libm::ceilf(length / CHECK);
-    let step = length / count;
-    let mut cost = 0.0;
-    for i in 1..=count as u32 {
-        let pose = advanced(from, curvature, step * i as f32);
-        cost += step * (1.0 + fits(terrain, vehicle, &pose)?);
+/// Vehicle on a map.
+struct Drive<'a> {
+    terrain: &'a Terrain<'a>,
+    vehicle: &'a CurveDrive,
+}
+
+impl Drive<'_> {
+    /// Length of an arc with costs, and the heading of the trailer at its end, or `None` if something is touched on it.
+    fn arc(&self, from: &Pose2, mut trailer: f32, curvature: f32, length: f32) -> Option<(f32, f32)> {
+        let count = libm::ceilf(length / CHECK);
+        let step = length / count;
+        let (mut cost, mut pose) = (0.0, *from);
+        for _ in 0..count as u32 {
+            let bend = bend(&pose, trailer);
+            trailer = self.towed(&pose, trailer, curvature, step);
+            pose = advanced(&pose, curvature, step);
+            // A trailer that is bent too far at the start may come into line.
+            if self::bend(&pose, trailer) > MAX_BEND.max(bend) {
+                return None;
+            }
+            cost += step * (1.0 + self.fits(&pose, trailer)?);
+        }
+        Some((cost, trailer))
     }
-    Some(cost)
+
+    /// Length of a curve without costs, or `None` if something is touched on it.
+    fn curve(&self, curve: &Curve, trailer: f32) -> Option<f32> {
+        let (mut pose, mut trailer) = (curve.start, trailer);
+        for (curvature, length) in curve.parts {
+            if length > 0.0 {
+                trailer = self.arc(&pose, trailer, curvature, length)?.1;
+                pose = advanced(&pose, curvature, length);
+            }
+        }
+        Some(curve.length())
+    }
+
+    /// Heading of the trailer after a step.
+    fn towed(&self, pose: &Pose2, trailer: f32, curvature: f32, step: f32) -> f32 {
+        let CurveDrive { hitch, drawbar, body, .. } = *self.vehicle;
+        if body.is_empty() {
+            return trailer;
+        }
+        trailer + step * trailer_rotation(1.0, curvature, pose.theta - trailer, hitch, drawbar)
+    }
+
+    /// Cost at a pose, or `None` if something is touched there.
+    fn fits(&self, pose: &Pose2, trailer: f32) -> Option<f32> {
+        let Self { terrain, vehicle } = self;
+        let raster = terrain.map.raster();
+        let is_free = |point: Point2| raster.cell(point).filter(|cell| terrain.is_open(*cell));
+        is_free(pose.to_outer(Point2::new(vehicle.front, 0.0)))?;
+        if !vehicle.body.is_empty() {
+            let hitch = pose.to_outer(Point2::new(-vehicle.hitch, 0.0));
+            for place in vehicle.body {
+                is_free(hitch + Point2::polar(place - vehicle.drawbar, trailer))?;
+            }
+        }
+        is_free(pose.position()).map(|cell| terrain.cost(cell))
+    }
 }
 
-/// Length of a curve without costs, or `None` if the vehicle touches something on it.
-fn drive_curve(terrain: &Terrain<'_>, vehicle: &CurveDrive, curve: &Curve) -> Option<f32> {
-    let length = curve.length();
-    let is_free = |s: f32| fits(terrain, vehicle, &curve.at(s).0).is_some();
-    places(length).skip(1).chain([length]).all(is_free).then_some(length)
-}
-
-/// Cost at the pose of a vehicle, or `None` if it touches something there.
-fn fits(terrain: &Terrain<'_>, vehicle: &CurveDrive, pose: &Pose2) -> Option<f32> {
-    let raster = terrain.map.raster();
-    let at = |x: f32| raster.cell(pose.to_outer(Point2::new(x, 0.0))).filter(|cell| terrain.is_open(*cell));
-    at(vehicle.front).and_then(|_| at(0.0)).map(|cell| terrain.cost(cell))
+/// Angle between a vehicle and its trailer, in rad.
+fn bend(pose: &Pose2, trailer: f32) -> f32 {
+    remainderf(pose.theta - trailer, TAU).abs()
 }
 
 /// Plans a path for a vehicle that only drives forward in curves, such as a tractor with a trailer (see
 /// [`CurveSearch`]). The path ends with the heading of the goal.
 ///
 /// `start`, `goal` and the path are in the frame of the map. The obstacles of the map must be grown by half of the
-/// width of the vehicle. `costs` are those of `CostMap`. If there is no path, the output is ⊥ and `no_path` gives the
+/// width of the vehicle. `costs` are those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of the
+/// vehicle; without it, the trailer is straight behind. If there is no path, the output is ⊥ and `no_path` gives the
 /// reason.
 #[node]
 #[derive(Debug, Clone)]
@@ -317,6 +376,15 @@ pub struct CurvePlanner {
     /// Distance from the axis of the vehicle to its front.
     #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
     front: f32,
+    /// Distance from the axis back to the hitch of a trailer.
+    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
+    hitch: f32,
+    /// Distance from the hitch back to the axis of the trailer.
+    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
+    drawbar: f32,
+    /// Places on the trailer, with its load, that must not touch anything, from its axis forward; empty without trailer.
+    #[param(unit = "m", default = &[])]
+    body: &'static [f32],
     search: CurveSearch,
 }
 
@@ -328,12 +396,15 @@ impl CurvePlanner {
         goal: &Pose2,
         map: &Grid<Occupancy>,
         costs: Option<&Grid<f32>>,
+        trailer: Option<&Pose2>,
         path: &mut Out<Path>,
         #[failure] no_path: Event<NoPath>,
     ) {
         let terrain = Terrain { map, costs, unknown_is_open: false };
-        let vehicle = CurveDrive { radius: self.radius, front: self.front };
-        if let Err(why) = self.search.plan(&terrain, &vehicle, [start, goal], path.get_mut()) {
+        let Self { radius, front, hitch, drawbar, body, .. } = *self;
+        let vehicle = CurveDrive { radius, front, hitch, drawbar, body };
+        let heading = start.theta + trailer.filter(|pose| pose.is_finite()).map_or(0.0, |pose| pose.theta);
+        if let Err(why) = self.search.plan(&terrain, &vehicle, [start, goal], heading, path.get_mut()) {
             path.clear();
             no_path.emit(why);
         }
@@ -345,7 +416,7 @@ mod tests {
     use super::*;
     use core::f32::consts::{FRAC_PI_2, PI};
 
-    const VEHICLE: CurveDrive = CurveDrive { radius: 0.8, front: 0.25 };
+    const VEHICLE: CurveDrive = CurveDrive { radius: 0.8, front: 0.25, hitch: 0.1, drawbar: 0.55, body: &[] };
 
     /// Room of 12 m × 8 m with a wall that ends at y = 5 m.
     fn room() -> Grid<Occupancy> {
@@ -360,7 +431,7 @@ mod tests {
     fn plan(map: &Grid<Occupancy>, start: Pose2, goal: Pose2) -> Result<Path, NoPath> {
         let mut path = Path::default();
         let terrain = Terrain { map, costs: None, unknown_is_open: false };
-        CurveSearch::default().plan(&terrain, &VEHICLE, [&start, &goal], &mut path).map(|()| path)
+        CurveSearch::default().plan(&terrain, &VEHICLE, [&start, &goal], start.theta, &mut path).map(|()| path)
     }
 
     #[test]

@@ -24,10 +24,20 @@ const LANES: [(f32, f32); 2] = [(7.95, 0.0), (22.25, PI)];
 /// Middles of the corridors, and the ends of their parts with places, in m.
 const MIDDLES: [f32; 2] = [8.4, 21.8];
 const ENDS: [f32; 2] = [10.0, 41.0];
+/// Part of the corridors with small things, and their distance from places for containers, in m.
+const THINGS_IN: [f32; 2] = [6.0, 55.0];
+const FREE: f32 = 2.3;
 /// Distance between places, in m.
 const APART: f32 = 5.0;
-/// Radius of the area at the beginning without furniture, in m.
-const CLEAR: f32 = 2.0;
+/// Ways without furniture: x and y from and to, in m. The corridors but for what stands at their walls, the crossings, and
+/// the way from the dock through the hall.
+const WAYS: [[[f32; 2]; 2]; 5] = [
+    [[0.0, 60.0], [7.5, 9.4]],
+    [[0.0, 60.0], [20.8, 22.7]],
+    [[20.2, 22.0], [7.0, 23.0]],
+    [[44.2, 46.4], [7.0, 23.0]],
+    [[0.4, 3.4], [7.5, 20.6]],
+];
 /// Free strip that a place needs: before and behind it for the vehicle, in m.
 const STRIP: [f32; 2] = [7.0, 0.9];
 
@@ -45,12 +55,10 @@ pub(super) struct Site {
 impl Site {
     pub fn new(random: &mut Random) -> Result<Self, ReadError> {
         let mut building = Building::read(BUILDING)?;
-        let walls = building.world.walls().len();
-        building.furnish(FURNITURE, random);
-        clear(&mut building.world, walls, &DOCK);
+        furnish(&mut building, random);
         let places = places(&building.world, random);
         let carts = places.iter().take(CARTS).map(|place| cart(place, random)).collect();
-        let things = things(random);
+        let things = things(&places, random);
         Ok(Self { building, places, carts, things })
     }
 }
@@ -81,29 +89,39 @@ fn places(world: &World, random: &mut Random) -> Vec<Pose2> {
     places
 }
 
-fn things(random: &mut Random) -> Vec<(Thing, Pose2)> {
+/// Small things on the floor of the corridors, away from the places, where they would be in the way of all.
+fn things(places: &[Pose2], random: &mut Random) -> Vec<(Thing, Pose2)> {
     let kinds = [Thing::Glass, Thing::Hammer, Thing::Cable, Thing::Roll, Thing::Screwdriver, Thing::Wood];
+    let mut at = |i: usize| {
+        let (x, y) = (random.uniform(THINGS_IN[0], THINGS_IN[1]), MIDDLES[i % 2] + random.uniform(-0.7, 0.7));
+        Pose2::new(x, y, random.uniform(-PI, PI))
+    };
+    let is_free = |at: &Pose2| places.iter().all(|place| (place.position() - at.position()).norm() > FREE);
     (0..THINGS)
-        .map(|i| {
-            let (x, y) = (random.uniform(ENDS[0], ENDS[1]), MIDDLES[i % 2] + random.uniform(-0.7, 0.7));
-            (kinds[i % kinds.len()], Pose2::new(x, y, random.uniform(-PI, PI)))
+        .filter_map(|i| {
+            let place = (0..100).map(|_| at(i)).find(is_free)?;
+            Some((kinds[i % kinds.len()], place))
         })
         .collect()
 }
 
-/// Removes the furniture near a pose and ahead of it: all but the first `walls` walls.
-fn clear(world: &mut World, walls: usize, pose: &Pose2) {
-    let middle = pose.to_outer(Point2::new(1.0, 0.0));
-    let old = std::mem::take(world);
-    let is_away = |distance: f32| distance > CLEAR;
-    for (number, wall) in old.walls().iter().enumerate() {
-        if number < walls || is_away(wall.distance(middle)) {
-            world.wall(wall.a, wall.b);
+/// Tries to place furniture, none of it on the ways that have to be free: a bed has to get through.
+fn furnish(building: &mut Building, random: &mut Random) {
+    for _ in 0..FURNITURE {
+        let mut more = building.clone();
+        more.furnish(1, random);
+        let (walls, discs) = (building.world.walls().len(), building.world.discs().len());
+        let ends = more.world.walls()[walls..].iter().flat_map(|wall| [wall.a, wall.b, (wall.a + wall.b).scaled(0.5)]);
+        let mut points = ends.chain(more.world.discs()[discs..].iter().map(|disc| disc.centre));
+        if points.all(|point| WAYS.iter().all(|way| !is_on(way, point))) {
+            *building = more;
         }
     }
-    for disc in old.discs().iter().filter(|disc| is_away((disc.centre - middle).norm())) {
-        world.disc(disc.centre, disc.radius);
-    }
+}
+
+fn is_on(way: &[[f32; 2]; 2], point: Point2) -> bool {
+    let [x, y] = way;
+    x[0] < point.x && point.x < x[1] && y[0] < point.y && point.y < y[1]
 }
 
 /// Area of the body of a container.
