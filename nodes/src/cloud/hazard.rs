@@ -4,6 +4,7 @@ use crate::{
     scan::{Point2, Pose2},
 };
 use apex_rt::{Out, node};
+use core::f32::consts::PI;
 
 /// Nearest hazard in the observed area before the robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,7 +80,7 @@ pub struct HazardMap {
     width: f32,
     /// Angle of the camera's view across, about the x axis of the robot. In the observed area, floor can only be missing
     /// within it.
-    #[param(unit = "rad", default = 3.14, range = 0.0..=3.15)]
+    #[param(unit = "rad", default = PI, range = 0.0..=3.2)]
     view_angle: f32,
     floor: Rolling<bool>,
     obstacles: Rolling<f32>,
@@ -225,7 +226,7 @@ mod tests {
     use apex_rt::Construct;
 
     fn node() -> HazardMap {
-        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 2.0, 0.5, 0.4, 1.0, 0.4, 3.14))
+        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 2.0, 0.5, 0.4, 1.0, 0.4, PI))
     }
 
     /// Floor from 0.3 m to `until`, across 1.2 m, with an optional obstacle at this x.
@@ -294,7 +295,7 @@ mod tests {
             let mut node = HazardMap { far: 0.5, view_angle, ..node() };
             see(&mut node, 0.45, None, &Pose2::default()).0.map(|hazard| hazard.position.y)
         };
-        assert!(kind(3.14).is_some_and(|y| y < -0.19));
+        assert!(kind(PI).is_some_and(|y| y < -0.19));
         assert!(kind(0.6).is_some_and(|y| y > -0.19));
     }
 

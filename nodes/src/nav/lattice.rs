@@ -330,11 +330,11 @@ impl Drive<'_> {
         Some(curve.length())
     }
 
-    /// Heading of the trailer after a step.
+    /// Heading of the trailer after a step; that of the vehicle if there is none.
     fn towed(&self, pose: &Pose2, trailer: f32, curvature: f32, step: f32) -> f32 {
         let CurveDrive { hitch, drawbar, body, .. } = *self.vehicle;
         if body.is_empty() {
-            return trailer;
+            return pose.theta + step * curvature;
         }
         trailer + step * trailer_rotation(1.0, curvature, pose.theta - trailer, hitch, drawbar)
     }
