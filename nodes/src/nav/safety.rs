@@ -1,4 +1,4 @@
-use super::Twist;
+use super::{Twist, careful::slowed};
 use crate::scan::{Point2, Scan};
 use apex_rt::{Ctx, Time, node};
 use libm::{fmaxf, sqrtf};
@@ -73,6 +73,10 @@ pub struct SafetyField {
     /// Maximum age of a scan.
     #[param(unit = "s", default = 0.5, range = 0.0..=60.0)]
     max_age: f32,
+    /// Slows the rotation down with the velocity, for a base that must not turn on the spot, such as a tractor with a
+    /// trailer.
+    #[param(default = false)]
+    keep_curve: bool,
     last: Option<(Time, Scan)>,
 }
 
@@ -86,7 +90,8 @@ impl SafetyField {
         let field = ProtectiveField { radius, margin, deceleration, latency };
         match &self.last {
             Some((at, scan)) if twist.is_finite() && ctx.now().since(*at).as_secs_f32() <= self.max_age => {
-                field.limit(twist, scan.points().map(|(_, point)| point))
+                let limited = field.limit(twist, scan.points().map(|(_, point)| point));
+                if self.keep_curve { slowed(twist, limited.velocity().norm()) } else { limited }
             }
             _ => Twist::ZERO,
         }
@@ -136,7 +141,7 @@ mod tests {
             scan.ranges.extend((0..360).map(|i| (3.0 - x) / libm::cosf(-PI + i as f32 * TAU / 360.0)));
             scan
         };
-        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5));
+        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5, false));
         let (mut x, mut last) = (0.0, 1.0);
         for step in 0..1000 {
             let twist = node.process(&ctx(step), &Twist::new(1.0, 0.0, 0.2), Some(&scan(x)));
@@ -152,7 +157,7 @@ mod tests {
     #[test]
     fn without_a_scan_it_stands_still() {
         let ctx = |ms| Ctx::new(Time::from_millis(ms));
-        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5));
+        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5, false));
         let twist = Twist::new(1.0, 0.0, 0.0);
         assert_eq!(node.process(&ctx(0), &twist, None), Twist::ZERO);
         assert_eq!(node.process(&ctx(100), &twist, Some(&Scan::default())), twist);

@@ -9,6 +9,7 @@ use apex_sim::{
     Laser, Random,
     tof::{Distortion, Floor, Space, TofCamera, TofFrame},
 };
+use core::f32::consts::PI;
 use std::time::Duration;
 
 /// All drivers of the vehicle in a clinic.
@@ -16,6 +17,8 @@ use std::time::Duration;
 pub struct Drivers {
     /// Laser scanner.
     pub scanner: Scanner,
+    /// Laser scanner that looks backward.
+    pub rear: RearScanner,
     /// Wheels and hitch.
     pub wheels: Wheels,
     /// Time-of-flight camera.
@@ -33,6 +36,7 @@ impl Drivers {
     pub fn new(clinic: &Clinic) -> Self {
         Self {
             scanner: Scanner::new(clinic),
+            rear: RearScanner::new(clinic),
             wheels: Wheels::new(clinic),
             camera: Camera::new(clinic),
             motors: Motors::new(clinic),
@@ -66,6 +70,32 @@ impl Scanner {
         let token = scan.get_mut();
         token.stamp = ctx.now();
         Laser::S300.measure(clinic.scanned(), &pose, &mut self.random, token);
+    }
+}
+
+/// Scanner on the trailer: a source of scans over 180° behind its axis, 6 cm above the floor.
+#[node]
+#[derive(Debug)]
+pub struct RearScanner {
+    clinic: Clinic,
+    random: Random,
+}
+
+#[node]
+impl RearScanner {
+    /// Creates the scanner on the trailer of the vehicle in `clinic`.
+    pub fn new(clinic: &Clinic) -> Self {
+        Self { random: clinic.state().stream(32), clinic: clinic.clone() }
+    }
+
+    /// Sends scans whose x axis points backward.
+    fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
+        const LASER: Laser = Laser { field_of_view: PI, ..Laser::S300 };
+        let mut clinic = self.clinic.at(ctx.now());
+        let pose = clinic.trailer().compose(&Pose2::new(0.0, 0.0, PI));
+        let token = scan.get_mut();
+        token.stamp = ctx.now();
+        LASER.measure(clinic.scanned(), &pose, &mut self.random, token);
     }
 }
 

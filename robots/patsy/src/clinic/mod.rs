@@ -12,7 +12,7 @@ mod state;
 mod view;
 
 pub use crew::Clinic;
-pub use drivers::{Camera, Dispatch, Drivers, LiftDrive, Motors, Scanner, Wheels};
+pub use drivers::{Camera, Dispatch, Drivers, LiftDrive, Motors, RearScanner, Scanner, Wheels};
 pub use fault::{Fault, FaultKind};
 pub use order::Order;
 pub use report::{Contact, Delivery, Report};

@@ -74,8 +74,8 @@ pub fn run(options: &Options, duration: Duration, record: Option<&Path>) -> Resu
 
 /// The vehicle in a clinic.
 fn vehicle(clinic: &Clinic) -> Patsy {
-    let Drivers { scanner, wheels, camera, motors, lift, dispatch } = Drivers::new(clinic);
-    Patsy::new(PatsyParts { scanner, wheels, camera, motors, lift, dispatch })
+    let Drivers { scanner, rear, wheels, camera, motors, lift, dispatch } = Drivers::new(clinic);
+    Patsy::new(PatsyParts { scanner, rear, wheels, camera, motors, lift, dispatch })
 }
 
 /// Notes failures, and records.
