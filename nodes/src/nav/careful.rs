@@ -1,7 +1,7 @@
 use super::Twist;
 use crate::{persons::Persons, scan::Pose2};
 use apex_rt::node;
-use libm::{fmaxf, fminf};
+use libm::fmaxf;
 
 /// Slows a robot down near persons (thesis 6.8), the more the nearer they are, also behind and beside it.
 ///
@@ -29,15 +29,8 @@ impl PersonCaution {
             distances.fold(f32::INFINITY, f32::min)
         });
         let beyond = fmaxf(nearest.unwrap_or(0.0) - self.near, 0.0);
-        slowed(twist, self.min_speed + self.gain * beyond)
+        twist.slowed_to(self.min_speed + self.gain * beyond)
     }
-}
-
-/// The twist on the same curve with at most this speed, in m/s.
-pub(super) fn slowed(twist: &Twist, most: f32) -> Twist {
-    let speed = twist.velocity().norm();
-    let share = if speed > most { fminf(most / speed, 1.0) } else { 1.0 };
-    Twist::of(twist.velocity().scaled(share), twist.omega * share)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-use super::{Twist, careful::slowed};
+use super::Twist;
 use crate::{
     cloud::{Hazard, HazardKind},
     map::{Grid, Occupancy},
@@ -66,7 +66,7 @@ impl HazardStop {
         last.driven += last.speed * ctx.now().since(last.twist_at).as_secs_f32();
         let ahead = self.front + self.margin + last.driven;
         let gap = last.hazard.map_or(f32::INFINITY, |hazard| hazard.position.x - ahead);
-        let twist = slowed(twist, sqrtf(2.0 * self.deceleration * gap.max(0.0)));
+        let twist = twist.slowed_to(sqrtf(2.0 * self.deceleration * gap.max(0.0)));
         (last.twist_at, last.speed) = (ctx.now(), twist.x);
         twist
     }

@@ -1,4 +1,4 @@
-use super::{Twist, careful::slowed};
+use super::Twist;
 use crate::scan::{Point2, Scan};
 use apex_rt::{Ctx, Time, node};
 use libm::{fmaxf, sqrtf};
@@ -91,7 +91,7 @@ impl SafetyField {
         match &self.last {
             Some((at, scan)) if twist.is_finite() && ctx.now().since(*at).as_secs_f32() <= self.max_age => {
                 let limited = field.limit(twist, scan.points().map(|(_, point)| point));
-                if self.keep_curve { slowed(twist, limited.velocity().norm()) } else { limited }
+                if self.keep_curve { twist.slowed_to(limited.velocity().norm()) } else { limited }
             }
             _ => Twist::ZERO,
         }

@@ -35,6 +35,13 @@ impl Twist {
         Point2::new(self.x, self.y)
     }
 
+    /// The twist on the same curve, at `max_speed` in m/s at most.
+    pub(super) fn slowed_to(&self, max_speed: f32) -> Self {
+        let speed = self.velocity().norm();
+        let share = if speed > max_speed { max_speed / speed } else { 1.0 };
+        Self::of(self.velocity().scaled(share), self.omega * share)
+    }
+
     /// Returns `true` if all components are finite.
     pub const fn is_finite(&self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.omega.is_finite()
