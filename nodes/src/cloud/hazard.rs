@@ -78,8 +78,8 @@ pub struct HazardMap {
     /// Width of the observed area.
     #[param(unit = "m", default = 0.6, range = 0.0..=100.0)]
     width: f32,
-    /// Angle of the camera's view across, about the x axis of the robot. In the observed area, floor can only be missing
-    /// within it.
+    /// Angle of the camera's view across, about the x axis of the robot. In the observed area, floor can only be
+    /// missing within it.
     #[param(unit = "rad", default = PI, range = 0.0..=3.2)]
     view_angle: f32,
     floor: Rolling<bool>,

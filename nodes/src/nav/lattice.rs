@@ -55,8 +55,8 @@ pub struct CurveDrive {
 
 /// Planner for vehicles that only drive forward in curves of a smallest radius: A* on states of position and heading,
 /// with arcs as steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A passively steered trailer is
-/// predicted on the way. The heuristic is the length of the shortest way on the map without regard to the heading. Keeps
-/// its buffers.
+/// predicted on the way. The heuristic is the length of the shortest way on the map without regard to the heading.
+/// Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct CurveSearch {
     /// Estimated distance of each coarse cell from the goal, in m, with costs.
@@ -364,9 +364,9 @@ fn bend(pose: &Pose2, trailer: f32) -> f32 {
 /// [`CurveSearch`]). The path ends with the heading of the goal.
 ///
 /// `start`, `goal` and the path are in the frame of the map. The obstacles of the map must be grown by half of the
-/// width of the vehicle. `costs` are those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of the
-/// vehicle; without it, the trailer is straight behind. If there is no path, the output is ⊥ and `no_path` gives the
-/// reason.
+/// width of the vehicle. `costs` are those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of
+/// the vehicle; without it, the trailer is straight behind. If there is no path, the output is ⊥ and `no_path` gives
+/// the reason.
 #[node]
 #[derive(Debug, Clone)]
 pub struct CurvePlanner {
@@ -382,7 +382,8 @@ pub struct CurvePlanner {
     /// Distance from the hitch back to the axis of the trailer.
     #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
     drawbar: f32,
-    /// Places on the trailer, with its load, that must not touch anything, from its axis forward; empty without trailer.
+    /// Places on the trailer, with its load, that must not touch anything, from its axis forward; empty without a
+    /// trailer.
     #[param(unit = "m", default = &[])]
     body: &'static [f32],
     search: CurveSearch,

@@ -132,8 +132,8 @@ impl Wheels {
 /// Time between two clouds.
 const CLOUDS: Duration = Duration::from_millis(240);
 
-/// Time-of-flight camera, 10 cm above the axis of the tractor: a source of clouds every 240 ms. It sends ⊥ when it fires
-/// in between, so that scans and odometry, with which clouds are compared, are not as rare as clouds.
+/// Time-of-flight camera, 10 cm above the axis of the tractor: a source of clouds every 240 ms. It sends ⊥ when it
+/// fires in between, so that scans and odometry, with which clouds are compared, are not as rare as clouds.
 #[node]
 #[derive(Debug)]
 pub struct Camera {

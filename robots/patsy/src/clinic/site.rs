@@ -29,8 +29,8 @@ const THINGS_IN: [f32; 2] = [6.0, 55.0];
 const FREE: f32 = 2.3;
 /// Distance between places, in m.
 const APART: f32 = 5.0;
-/// Ways without furniture: x and y from and to, in m. The corridors but for what stands at their walls, the crossings, and
-/// the way from the dock through the hall.
+/// Ways without furniture: x and y from and to, in m. The corridors but for what stands at their walls, the crossings,
+/// and the way from the dock through the hall.
 const WAYS: [[[f32; 2]; 2]; 5] = [
     [[0.0, 60.0], [7.5, 9.4]],
     [[0.0, 60.0], [20.8, 22.7]],
@@ -63,7 +63,7 @@ impl Site {
     }
 }
 
-/// Container at a place, a little off, with castors as somebody has left them.
+/// Container at a place, a little off, with castors at the angles at which it was left.
 fn cart(place: &Pose2, random: &mut Random) -> Cart {
     let off = Pose2::new(random.uniform(-0.15, 0.15), random.uniform(-0.05, 0.05), random.uniform(-0.04, 0.04));
     let pose = place.compose(&off);
