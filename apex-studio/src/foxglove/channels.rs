@@ -1,4 +1,4 @@
-//! What an app can subscribe to: ports, under the names that they have in recordings, activity, and problems.
+//! Channels that an app can subscribe to: ports, under the names that they have in recordings, activity, and problems.
 
 use super::messages::{Channel, Moment, nanos};
 use crate::live::{Live, Node, Problem};

@@ -6,8 +6,8 @@ use apex_rt::{Ctx, Event, node};
 /// brought to its destination. It is active while it waits for an order.
 ///
 /// A container that cannot be collected is tried again; after `attempts` the order is given back. Once a container is
-/// on the lift, the vehicle tries to bring it until it is there. `ask` asks for the next order: with `false` if the last
-/// one is given back.
+/// on the lift, the vehicle tries to bring it until it is there. `ask` asks for the next order: with `false` if the
+/// last one is given back.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MissionControl {
@@ -94,7 +94,7 @@ mod tests {
         node
     }
 
-    /// What follows a failure: collect, bring, refuse.
+    /// Consequence of a failure: collect, bring, refuse.
     fn fail(node: &mut MissionControl) -> [bool; 3] {
         let (mut get, mut bring, mut ask) = (None, None, None);
         node.failed(event(&mut get), event(&mut bring), event(&mut ask));

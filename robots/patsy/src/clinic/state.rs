@@ -67,7 +67,7 @@ pub struct State {
     /// People that touch the vehicle, and `true` if it touches something else.
     touching: Vec<usize>,
     bumped: bool,
-    /// What is near the vehicle, with the wheels of containers.
+    /// Surroundings of the vehicle, with the wheels of containers.
     near: World,
     /// All that is seen by the scanner.
     seen: World,
