@@ -4,9 +4,11 @@ use crate::{browser::Browser, socket};
 use base64::{Engine as _, prelude::BASE64_STANDARD};
 use std::{
     env, fs,
-    io::{BufRead as _, BufReader},
+    io::{self, BufRead as _, BufReader},
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
+    thread,
+    time::{Duration, Instant},
 };
 
 /// The folder of the workspace.
@@ -39,11 +41,11 @@ struct Studio {
 
 impl Studio {
     fn open(mut command: Command, folder: &Path, arguments: &[&str]) -> Self {
-        command.arg("studio").args(arguments).args(["--quiet", "--listen", "127.0.0.1:0"]).current_dir(folder);
+        command.args(["studio", "--quiet", "--listen", "127.0.0.1:0"]).args(arguments).current_dir(folder);
         let mut process = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
         let mut lines = BufReader::new(process.stderr.take().expect("it is piped")).lines().map_while(Result::ok);
         let address = lines.find_map(|line| Some(line.strip_prefix("studio: ")?.to_owned())).expect("an address");
-        std::thread::spawn(move || lines.for_each(drop));
+        thread::spawn(move || lines.for_each(drop));
         Self { process, address }
     }
 }
@@ -59,6 +61,52 @@ impl Drop for Studio {
 fn save(page: &mut Browser, name: &str) {
     let picture = BASE64_STANDARD.decode(page.picture()).expect("base 64");
     fs::write(root().join("docs/images").join(name), picture).expect("a folder for pictures");
+}
+
+/// Pictures of the page, one after the other, as RGBA.
+struct Film {
+    size: (u32, u32),
+    frames: Vec<Vec<u8>>,
+}
+
+impl Film {
+    /// Takes `count` pictures, one each `interval`.
+    fn take(page: &mut Browser, count: usize, interval: Duration) -> Self {
+        let mut film = Self { size: (0, 0), frames: vec![] };
+        let mut next = Instant::now();
+        for _ in 0..count {
+            let picture = BASE64_STANDARD.decode(page.picture()).expect("base 64");
+            let mut decoder = png::Decoder::new(io::Cursor::new(picture));
+            decoder.set_transformations(png::Transformations::ALPHA);
+            let mut reader = decoder.read_info().expect("a picture");
+            let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+            let frame = reader.next_frame(&mut pixels).expect("a picture");
+            film.size = (frame.width, frame.height);
+            film.frames.push(pixels);
+            next += interval;
+            thread::sleep(next.saturating_duration_since(Instant::now()));
+        }
+        film
+    }
+
+    /// Writes the film as an animated PNG that begins again at its end. Pixels that stay are transparent.
+    fn save(&self, interval: Duration, name: &str) -> Result<(), png::EncodingError> {
+        let file = fs::File::create(root().join("docs/images").join(name)).expect("a folder for pictures");
+        let mut encoder = png::Encoder::new(io::BufWriter::new(file), self.size.0, self.size.1);
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.set_compression(png::Compression::High);
+        encoder.set_animated(self.frames.len() as u32, 0)?;
+        encoder.set_frame_delay(interval.as_millis() as u16, 1000)?;
+        encoder.set_blend_op(png::BlendOp::Over)?;
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&self.frames[0])?;
+        for frames in self.frames.windows(2) {
+            let pixels = frames[0].as_chunks::<4>().0.iter().zip(frames[1].as_chunks::<4>().0);
+            let changes: Vec<u8> = pixels.flat_map(|(old, new)| if old == new { [0; 4] } else { *new }).collect();
+            writer.write_image_data(&changes)?;
+        }
+        writer.finish()
+    }
 }
 
 fn time_is_over(page: &mut Browser, seconds: f64) {
@@ -104,6 +152,24 @@ fn pictures() {
         let picture = BASE64_STANDARD.decode(page.picture()).expect("base 64");
         fs::write(place, picture).expect("a place for it");
     }
+    fs::remove_dir_all(folder).expect("it is still there");
+}
+
+#[test]
+#[ignore = "draws docs/images/studio_competition.png: cargo test -p apex-tests --test studio -- --ignored film"]
+fn film_of_the_competition() {
+    let folder = socket("film");
+    fs::create_dir_all(&folder).expect("a new folder");
+    let robot = root().join("robots/sick-robot-day/competition.afg");
+    let robot = robot.to_str().expect("UTF-8");
+    let arguments = ["--release", "--speed", "2", robot, "--", "--minutes", "3"];
+    let studio = Studio::open(Command::new(apex()), &folder, &arguments);
+    let mut page = Browser::open(&studio.address).expect("a browser");
+    page.size(960, 600, false);
+    time_is_over(&mut page, 20.0);
+    page.press("0");
+    let interval = Duration::from_millis(250);
+    Film::take(&mut page, 60, interval).save(interval, "studio_competition.png").expect("a file");
     fs::remove_dir_all(folder).expect("it is still there");
 }
 
