@@ -119,6 +119,13 @@ fn click(page: &mut Browser, selector: &str) {
     page.value(&format!("document.querySelector('{selector}').click()"));
 }
 
+/// Shows the tokens of a channel from the pose at another one.
+fn see_from(page: &mut Browser, channel: &str, pose: &str) {
+    let from = format!("document.querySelector('[data-channel=\"{channel}\"] select')");
+    page.wait_for(&format!("[...{from}.options].some((option) => option.value === '{pose}')"));
+    page.value(&format!("{{ {from}.value = '{pose}'; {from}.dispatchEvent(new Event('change')); }}"));
+}
+
 #[test]
 #[ignore = "draws docs/images/studio*.png: cargo test -p apex-tests --test studio -- --ignored pictures"]
 fn pictures() {
@@ -139,8 +146,7 @@ fn pictures() {
     click(&mut page, "[data-tab=values]");
     click(&mut page, "[data-channel=\"sim.base.battery\"] input");
     click(&mut page, "[data-channel=\"sim.laser.scan\"] input");
-    let from = "document.querySelector('[data-channel=\"sim.laser.scan\"] select')";
-    page.value(&format!("{{ {from}.value = 'sim.base.pose'; {from}.dispatchEvent(new Event('change')); }}"));
+    see_from(&mut page, "sim.laser.scan", "sim.base.pose");
     time_is_over(&mut page, 60.0);
     page.press("0");
     save(&mut page, "studio_dark.png");
@@ -162,14 +168,23 @@ fn film_of_the_competition() {
     fs::create_dir_all(&folder).expect("a new folder");
     let robot = root().join("robots/sick-robot-day/competition.afg");
     let robot = robot.to_str().expect("UTF-8");
-    let arguments = ["--release", "--speed", "2", robot, "--", "--minutes", "3"];
+    let arguments = ["--release", "--speed", "4", robot, "--", "--minutes", "3"];
     let studio = Studio::open(Command::new(apex()), &folder, &arguments);
     let mut page = Browser::open(&studio.address).expect("a browser");
-    page.size(960, 600, false);
+    page.size(1120, 700, false);
+    page.value("import('./studio.js').then(({ ask }) => ask({ open: ['mission'] }))");
+    page.wait_for("document.querySelector('[data-item=\"mission.fetch\"]')");
+    click(&mut page, "[data-tab=values]");
+    for channel in ["slam.map", "slam.pose", "around.both.merged"] {
+        click(&mut page, &format!("[data-channel$=\"{channel}\"] input"));
+    }
+    see_from(&mut page, "surroundings.around.both.merged", "surroundings.localize.slam.pose");
+    page.value("document.getElementById('lanes-filter').value = 'follow'");
+    page.value("document.getElementById('lanes-filter').dispatchEvent(new Event('input'))");
     time_is_over(&mut page, 20.0);
     page.press("0");
     let interval = Duration::from_millis(250);
-    Film::take(&mut page, 60, interval).save(interval, "studio_competition.png").expect("a file");
+    Film::take(&mut page, 48, interval).save(interval, "studio_competition.png").expect("a file");
     fs::remove_dir_all(folder).expect("it is still there");
 }
 

@@ -13,7 +13,7 @@ pub fn print(code: TokenStream) -> syn::Result<String> {
 
 struct Printer {
     text: String,
-    /// What the items stand in, from the outside: it decides how they are parsed and indented.
+    /// Blocks around the items, from the outside: they decide how items are parsed and indented.
     around: Vec<Block>,
 }
 
@@ -162,7 +162,8 @@ mod tests {
 
     #[test]
     fn pieces_are_printed_as_the_whole() {
-        let long = "fn long(&self, first: Vec<Vec<u8>>, second: Vec<Vec<u8>>) -> Option<Vec<u8>> { self.take(first)?; None }";
+        let long =
+            "fn long(&self, first: Vec<Vec<u8>>, second: Vec<Vec<u8>>) -> Option<Vec<u8>> { self.take(first)?; None }";
         let inner = format!(
             "//! About it.
             impl<T: Clone> Holder<T> where T: Send {{ {long} const ONE: One = One {{ value: 1 }}; type Of = u8; }}
