@@ -10,7 +10,12 @@ pub fn gather(pixels: &mut Vec<u8>, spare: &mut Vec<u8>, step: usize, count: usi
         let more = known.min(count - known);
         let partners = pixels.get(more * step..).unwrap_or_default();
         spare.clear();
-        spare.extend(pixels.iter().zip(partners).map(|(a, b)| winner(*a, *b)));
+        // Arrays, so that many pixels are compared at once in debug builds, too.
+        let (arrays, rest) = partners.as_chunks::<64>();
+        for (a, b) in pixels.as_chunks::<64>().0.iter().zip(arrays) {
+            spare.extend_from_slice(&std::array::from_fn::<u8, 64, _>(|i| winner(a[i], b[i])));
+        }
+        spare.extend(pixels[spare.len()..].iter().zip(rest).map(|(a, b)| winner(*a, *b)));
         spare.extend_from_slice(&pixels[spare.len()..]);
         std::mem::swap(pixels, spare);
         known += more;
