@@ -10,17 +10,14 @@
 mod recordings;
 
 use apex_nodes::slam::{Settings, Window};
-use apex_tune::{Axis, Goal, Journal, Method, Objective, Parameter, Report, Scale, Study, Summary};
+use apex_tune::{Axis, Goal, Journal, Method, Objective, Parameter, Report, Scale, Study, Summary, Timed};
 use recordings::{Recording, errors, intel, play};
-use std::{
-    error::Error,
-    path::PathBuf,
-    sync::atomic::{AtomicU64, Ordering},
-    time::{Duration, Instant},
-};
+use std::{error::Error, path::PathBuf, time::Instant};
 
-/// Rows of a part.
-const LENGTH: usize = 120;
+/// Rows of a part, and rows from the beginning of a part to that of the next one. Parts overlap: a long part shows
+/// whether the map stays consistent, and several of them that this was not chance.
+const LENGTH: usize = 480;
+const STEP: usize = 120;
 /// Rows that are tuned on: from the first reference to the split.
 const FIRST: usize = 709;
 const SPLIT: usize = 1700;
@@ -28,20 +25,18 @@ const SPLIT: usize = 1700;
 /// Parts of the recording, by seed.
 struct Matching {
     parts: Vec<Recording>,
-    /// Time of all runs, in ns.
-    busy: AtomicU64,
 }
 
 impl Matching {
     /// Cuts a recording. Returns the number of the first part behind the split, too.
     fn new(whole: &Recording) -> (Self, u64) {
-        let starts = |rows: std::ops::Range<usize>| rows.step_by(LENGTH);
+        let starts = |rows: std::ops::Range<usize>| rows.step_by(STEP);
         let training: Vec<usize> = starts(FIRST..SPLIT - LENGTH + 1).collect();
         let held_out = starts(SPLIT..whole.scans.len() - LENGTH + 1);
         let split = training.len() as u64;
         let starts = training.into_iter().chain(held_out);
         let parts = starts.map(|start| cut(whole, start..start + LENGTH)).collect();
-        (Self { parts, busy: AtomicU64::new(0) }, split)
+        (Self { parts }, split)
     }
 }
 
@@ -64,10 +59,8 @@ fn settings(values: &[f64]) -> Settings {
 
 impl Objective for Matching {
     fn run(&self, values: &[f64], seed: u64) -> Result<Vec<f64>, String> {
-        let (part, start) = (&self.parts[seed as usize], Instant::now());
-        let cost = rms(&errors(&play(part, settings(values)).1, &part.reference));
-        self.busy.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
-        Ok(vec![cost])
+        let part = &self.parts[seed as usize];
+        Ok(vec![rms(&errors(&play(part, settings(values)).1, &part.reference))])
     }
 }
 
@@ -156,20 +149,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     println!("{} runs are known", journal.len());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.jobs).build()?;
-    let start = Instant::now();
+    let (timed, start) = (Timed::new(&matching), Instant::now());
     let found = pool.install(|| {
-        study.run(&matching, &mut journal, (0, 1), &mut |progress| {
+        study.run(&timed, &mut journal, (0, 1), &mut |progress| {
             let left = start.elapsed().mul_f64(study.candidates as f64 / progress.candidates as f64 - 1.0);
             let best = progress.best.as_ref().map_or(f64::NAN, |best| best.fitness);
             println!("{} candidates, best {best:.4} m, {left:.0?} left", progress.candidates);
         })
     })?;
-    let (elapsed, busy) = (start.elapsed(), Duration::from_nanos(matching.busy.load(Ordering::Relaxed)));
-    let share = 100.0 * busy.as_secs_f64() / (elapsed.as_secs_f64() * arguments.jobs as f64);
-    println!("{elapsed:.1?}; runs took {share:.2} % of the time of {} threads", arguments.jobs);
-    let report =
-        pool.install(|| Report::new(&study, found, &matching, &mut journal))?.ok_or("all candidates failed")?;
-    println!("{}", report.markdown());
+    let report = pool.install(|| Report::new(&study, found, &timed, &mut journal))?.ok_or("all candidates failed")?;
+    println!("{}\n{}", report.markdown(), pool.install(|| timed.cost()));
     whole_rows(&whole, &study.defaults(), report.values());
     if let Some(out) = &arguments.out {
         report.write(out)?;

@@ -12,6 +12,7 @@ mod race;
 mod report;
 mod study;
 mod summary;
+mod timed;
 
 pub use apex_optim::{Axis, BadAxis, Best, Scale};
 pub use goal::{Goal, Point};
@@ -19,3 +20,4 @@ pub use journal::{Journal, JournalError, Run};
 pub use report::{Report, Score};
 pub use study::{Found, Method, Objective, Parameter, Progress, Study, StudyError, on_threads};
 pub use summary::Summary;
+pub use timed::Timed;

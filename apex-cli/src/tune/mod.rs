@@ -12,6 +12,7 @@ use apex_dsl::{
 use apex_host::Workspace;
 use apex_tune::{
     Axis, Found, Goal, Journal, Method, Objective, Parameter, Progress, Report, Scale, Study, StudyError, Summary,
+    Timed,
 };
 use std::{
     fs,
@@ -259,11 +260,12 @@ impl Run<'_> {
             ));
         }
         fs::create_dir_all(&self.output).map_err(|e| format!("cannot write in `{}`: {e}", self.output.display()))?;
+        let timed = Timed::new(self.workers);
         let (found, mut journal) = if self.wanted.merge.is_empty() {
             let mut journal =
                 Journal::open(&self.output.join(JOURNAL), &self.description).map_err(|e| e.to_string())?;
             self.begin(&journal)?;
-            let found = self.search(&mut journal, (k - 1, n)).map_err(told)?;
+            let found = self.search(&timed, &mut journal, (k - 1, n)).map_err(told)?;
             if n > 1 {
                 let folder = self.output.display();
                 project::print(&format!("part {k} of {n}: {} searches are in `{folder}`", found.len()))?;
@@ -276,14 +278,15 @@ impl Run<'_> {
             let found = self.study.run(&Known, &mut journal, (0, 1), &mut |_| ()).map_err(told)?;
             (found, journal)
         };
-        let Some(report) = Report::new(&self.study, found, self.workers, &mut journal).map_err(told)? else {
+        let Some(report) = Report::new(&self.study, found, &timed, &mut journal).map_err(told)? else {
             let why = self.workers.failure().map(|reason| format!(": {reason}")).unwrap_or_default();
             project::print_error(&format!("all candidates of `{}` failed{why}", self.script.name));
             return Ok(None);
         };
         report.write(&self.output).map_err(|e| format!("cannot write in `{}`: {e}", self.output.display()))?;
         project::print(report.tables().trim_end())?;
-        project::print(&format!("\n{}\nreport: {}", report.cost(), self.output.join("report.md").display()))?;
+        let (cost, time, file) = (report.cost(), timed.cost(), self.output.join("report.md"));
+        project::print(&format!("\n{cost}\n{time}\nreport: {}", file.display()))?;
         if let Some(warning) = report.warning() {
             project::print_error(&format!("warning: {warning}"));
         }
@@ -319,11 +322,16 @@ impl Run<'_> {
         ctrlc::set_handler(stop).map_err(|e| format!("cannot handle Ctrl-C: {e}"))
     }
 
-    fn search(&self, journal: &mut Journal, (part, parts): (u64, u64)) -> Result<Vec<Found>, StudyError> {
+    fn search(
+        &self,
+        timed: &Timed<'_>,
+        journal: &mut Journal,
+        (part, parts): (u64, u64),
+    ) -> Result<Vec<Found>, StudyError> {
         let shows = self.shows();
         let mine = (0..self.study.searches).filter(|search| search % parts == part).count() as u64;
         let (start, total) = (Instant::now(), mine * self.study.candidates);
-        let found = self.study.run(self.workers, journal, (part, parts), &mut |progress| {
+        let found = self.study.run(timed, journal, (part, parts), &mut |progress| {
             if shows {
                 let done = progress.search / parts * self.study.candidates + progress.candidates;
                 let left = start.elapsed().mul_f64((total - done) as f64 / done as f64);

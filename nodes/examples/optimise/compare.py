@@ -1,10 +1,11 @@
 """Searches of PyPI `cma` and `scipy` on the functions of the example `optimise`, as the same table.
 
-python3 compare.py [--first-seed N] [--seeds N] [--dimensions N]; needs numpy, scipy and cma. scipy starts again with
-another seed when it has converged; cma restarts by BIPOP.
+python3 compare.py [--first-seed N] [--seeds N] [--dimensions N] [--method scipy|cma] [--jobs N]; needs numpy, scipy and
+cma. scipy starts again with another seed when it has converged; cma restarts by BIPOP.
 """
 import argparse
 import math
+import multiprocessing
 import warnings
 from math import cos, exp, hypot, pi, sin, sqrt
 
@@ -141,13 +142,28 @@ def with_cma(counter, bounds, seed):
         options["seed"] += 1000
 
 
-def search(method, function, minimum, bounds, seed):
-    counter = Counter(function, minimum, 10_000 * len(bounds))
+METHODS = {"scipy": with_scipy, "cma": with_cma}
+
+
+def search(work):
+    """Evaluations until a search has found the minimum, or None."""
+    method, function, seed = work
+    _, bounds, minimum, value = FUNCTIONS[function]
+    counter = Counter(value, minimum, 10_000 * len(bounds))
     try:
-        method(counter, bounds, seed)
+        METHODS[method](counter, bounds, seed)
     except Found:
         pass
     return counter.hit
+
+
+def cells(results, longest):
+    """Share of successes, median evaluations of a success, evaluations per success."""
+    hits = sorted(r for r in results if r)
+    total = sum(hits) + (len(results) - len(hits)) * longest
+    median = hits[len(hits) // 2] if hits else "-"
+    each = total // len(hits) if hits else "-"
+    return f"{f'{len(hits)}/{len(results)}':>14}{median:>8}{each:>9}"
 
 
 def main():
@@ -155,21 +171,21 @@ def main():
     parser.add_argument("--first-seed", type=int, default=1)
     parser.add_argument("--seeds", type=int, default=30)
     parser.add_argument("--dimensions", type=int, help="only functions with so many dimensions")
+    parser.add_argument("--method", choices=list(METHODS), help="only this one")
+    parser.add_argument("--jobs", type=int, default=1, help="number of processes")
     arguments = parser.parse_args()
     seeds = range(arguments.first_seed, arguments.first_seed + arguments.seeds)
-    print(f"{'function':28}{'n':>3}{'scipy':>12}{'':8}{'':9}{'cma':>14}")
-    for name, bounds, minimum, function in FUNCTIONS:
-        if arguments.dimensions not in (None, len(bounds)):
-            continue
-        row = f"{name:28}{len(bounds):3}"
-        for method, width in [(with_scipy, 12), (with_cma, 14)]:
-            results = [search(method, function, minimum, bounds, seed) for seed in seeds]
-            hits = sorted(r for r in results if r)
-            total = sum(hits) + (len(results) - len(hits)) * 10_000 * len(bounds)
-            median = hits[len(hits) // 2] if hits else "-"
-            each = total // len(hits) if hits else "-"
-            row += f"{f'{len(hits)}/{len(results)}':>{width}}{median:>8}{each:>9}"
-        print(row, flush=True)
+    methods = [arguments.method] if arguments.method else list(METHODS)
+    print(f"{'function':28}{'n':>3}" + "".join(f"{method:>14}{'':17}" for method in methods))
+    with multiprocessing.Pool(arguments.jobs) as pool:
+        for number, (name, bounds, _, _) in enumerate(FUNCTIONS):
+            if arguments.dimensions not in (None, len(bounds)):
+                continue
+            row = f"{name:28}{len(bounds):3}"
+            for method in methods:
+                work = [(method, number, seed) for seed in seeds]
+                row += cells(pool.map(search, work, chunksize=1), 10_000 * len(bounds))
+            print(row, flush=True)
 
 
 if __name__ == "__main__":

@@ -40,6 +40,11 @@ pub mod programs {
         apex_macros::graph!("competition.afg");
     }
 
+    #[cfg(test)]
+    mod contestant {
+        apex_macros::graph!("contestant.afg");
+    }
+
     mod cross {
         apex_macros::graph!("cross.afg");
     }

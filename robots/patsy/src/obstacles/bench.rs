@@ -1,4 +1,4 @@
-use super::{Detector, Plane, Scores, Weights, labelled_scene};
+use super::{Detector, Plane, Scores, Weights, labelled_scene, rated::each_measured};
 use apex_nodes::cloud::Label;
 use apex_sim::{Random, tof::Truth};
 use core::fmt;
@@ -61,17 +61,12 @@ pub fn labelled_scores(seed: u64) -> Result<SceneScores, String> {
             detector.set(&Weights::THESIS)?;
         }
         let Some((_, labels, probabilities)) = detector.detect(&frame.cloud) else { continue };
-        let (width, height) = frame.cloud.size();
-        for (i, truth) in frame.truth.iter().enumerate() {
-            let at = i % width * height + i / width;
-            if labels.labels[at] == Label::Missing {
-                continue;
+        each_measured(&frame.truth, labels, probabilities, |truth, label, probability| {
+            scores.push(method, truth, probability);
+            if method == Method::Graph && label == Label::Artefact {
+                scores.count_removed(truth);
             }
-            scores.push(method, *truth, probabilities[at]);
-            if method == Method::Graph && labels.labels[at] == Label::Artefact {
-                scores.count_removed(*truth);
-            }
-        }
+        });
     }
     Ok(scores)
 }

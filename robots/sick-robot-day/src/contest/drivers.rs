@@ -9,7 +9,7 @@ use apex_rt::{Ctx, Out, node};
 use apex_sim::{CameraSim, Laser, Random};
 use std::f32::consts::PI;
 
-/// All drivers of a robot in a hall.
+/// All drivers of a robot in a hall. A driver that is made without a hall gets it as a token, and is silent before.
 #[derive(Debug)]
 pub struct Drivers {
     /// Scanner at the front.
@@ -50,9 +50,8 @@ impl Drivers {
 #[node]
 #[derive(Debug)]
 pub struct FrontLaser {
-    hall: Hall,
-    random: Random,
-    faults: Random,
+    /// Hall, and random numbers of the measurements and of the faults.
+    place: Option<(Hall, Random, Random)>,
 }
 
 #[node]
@@ -60,19 +59,26 @@ impl FrontLaser {
     /// Creates the scanner of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         let contest = hall.contest();
-        Self { random: contest.stream(30), faults: contest.stream(31), hall: hall.clone() }
+        Self { place: Some((hall.clone(), contest.stream(30), contest.stream(31))) }
+    }
+
+    /// Enters a hall.
+    #[slot]
+    fn hall(&mut self, hall: &Hall) {
+        *self = Self::new(hall);
     }
 
     fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
-        let contest = self.hall.at(ctx.now());
+        let Some((hall, random, faults)) = &mut self.place else { return };
+        let contest = hall.at(ctx.now());
         if contest.has(FaultKind::LaserFrozen) {
             return;
         }
         let token = scan.get_mut();
         token.stamp = ctx.now();
-        LASER.measure(&contest.arena().world, &contest.robots()[0].pose, &mut self.random, token);
+        LASER.measure(&contest.arena().world, &contest.robots()[0].pose, random, token);
         let spoilers = FaultKind::OF_BEAMS.into_iter().filter(|kind| contest.has(*kind));
-        spoilers.for_each(|kind| kind.spoil(token, &mut self.faults));
+        spoilers.for_each(|kind| kind.spoil(token, faults));
     }
 }
 
@@ -81,23 +87,29 @@ impl FrontLaser {
 #[node]
 #[derive(Debug)]
 pub struct RearLaser {
-    hall: Hall,
-    random: Random,
+    place: Option<(Hall, Random)>,
 }
 
 #[node]
 impl RearLaser {
     /// Creates the scanner of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
-        Self { random: hall.contest().stream(32), hall: hall.clone() }
+        Self { place: Some((hall.clone(), hall.contest().stream(32))) }
+    }
+
+    /// Enters a hall.
+    #[slot]
+    fn hall(&mut self, hall: &Hall) {
+        *self = Self::new(hall);
     }
 
     fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
-        let contest = self.hall.at(ctx.now());
+        let Some((hall, random)) = &mut self.place else { return };
+        let contest = hall.at(ctx.now());
         let pose = contest.robots()[0].pose.compose(&Pose2::new(0.0, 0.0, PI));
         let token = scan.get_mut();
         token.stamp = ctx.now();
-        Laser::TIM551.measure(&contest.arena().world, &pose, &mut self.random, token);
+        Laser::TIM551.measure(&contest.arena().world, &pose, random, token);
     }
 }
 
@@ -106,7 +118,7 @@ impl RearLaser {
 #[node]
 #[derive(Debug)]
 pub struct WheelOdometry {
-    hall: Hall,
+    place: Option<Hall>,
     last: Pose2,
 }
 
@@ -114,11 +126,18 @@ pub struct WheelOdometry {
 impl WheelOdometry {
     /// Creates the wheel odometry of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
-        Self { hall: hall.clone(), last: Pose2::default() }
+        Self { place: Some(hall.clone()), last: Pose2::default() }
+    }
+
+    /// Enters a hall.
+    #[slot]
+    fn hall(&mut self, hall: &Hall) {
+        *self = Self::new(hall);
     }
 
     fn process(&mut self, ctx: &Ctx, pose: &mut Out<Pose2>) {
-        let contest = self.hall.at(ctx.now());
+        let Some(hall) = &self.place else { return };
+        let contest = hall.at(ctx.now());
         if !contest.has(FaultKind::OdometryStopped) {
             self.last = contest.wheels();
         }
@@ -130,9 +149,7 @@ impl WheelOdometry {
 #[node]
 #[derive(Debug)]
 pub struct FrontCamera {
-    hall: Hall,
-    camera: CameraSim,
-    random: Random,
+    place: Option<(Hall, CameraSim, Random)>,
     /// `true` if the last torn image had pixels.
     torn: bool,
 }
@@ -142,11 +159,18 @@ impl FrontCamera {
     /// Creates the camera of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         let random = hall.contest().stream(33);
-        Self { hall: hall.clone(), camera: hall.camera(), random, torn: false }
+        Self { place: Some((hall.clone(), hall.camera(), random)), torn: false }
+    }
+
+    /// Enters a hall.
+    #[slot]
+    fn hall(&mut self, hall: &Hall) {
+        *self = Self::new(hall);
     }
 
     fn process(&mut self, ctx: &Ctx, image: &mut Out<GrayImage>, camera: &mut Out<Camera>) {
-        let contest = self.hall.at(ctx.now());
+        let Some((hall, simulated, random)) = &mut self.place else { return };
+        let contest = hall.at(ctx.now());
         let intrinsics = crate::camera();
         camera.set(intrinsics);
         let token = image.get_mut();
@@ -157,8 +181,7 @@ impl FrontCamera {
             token.reset(ctx.now(), (intrinsics.width, intrinsics.height));
         } else {
             let (robot, scene) = (contest.robots()[0], &contest.arena().scene);
-            let Self { camera, random, .. } = self;
-            camera.take(scene, &robot.pose, &robot.twist, contest.light(), ctx.now(), random, token);
+            simulated.take(scene, &robot.pose, &robot.twist, contest.light(), ctx.now(), random, token);
         }
     }
 }
@@ -167,19 +190,25 @@ impl FrontCamera {
 #[node]
 #[derive(Debug)]
 pub struct HopperCamera {
-    hall: Hall,
-    random: Random,
+    place: Option<(Hall, Random)>,
 }
 
 #[node]
 impl HopperCamera {
     /// Creates the camera of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
-        Self { random: hall.contest().stream(34), hall: hall.clone() }
+        Self { place: Some((hall.clone(), hall.contest().stream(34))) }
+    }
+
+    /// Enters a hall.
+    #[slot]
+    fn hall(&mut self, hall: &Hall) {
+        *self = Self::new(hall);
     }
 
     fn process(&mut self, ctx: &Ctx, image: &mut Out<GrayImage>) {
-        let photo = self.hall.at(ctx.now()).hopper().photo(&mut self.random);
+        let Some((hall, random)) = &mut self.place else { return };
+        let photo = hall.at(ctx.now()).hopper().photo(random);
         image.set(GrayImage { stamp: ctx.now(), ..photo });
     }
 }
@@ -188,7 +217,7 @@ impl HopperCamera {
 #[node]
 #[derive(Debug)]
 pub struct Remote {
-    hall: Hall,
+    place: Option<Hall>,
     gone: bool,
 }
 
@@ -196,11 +225,18 @@ pub struct Remote {
 impl Remote {
     /// Creates the remote control in `hall`.
     pub fn new(hall: &Hall) -> Self {
-        Self { hall: hall.clone(), gone: false }
+        Self { place: Some(hall.clone()), gone: false }
+    }
+
+    /// Enters a hall.
+    #[slot]
+    fn hall(&mut self, hall: &Hall) {
+        *self = Self::new(hall);
     }
 
     fn process(&mut self, ctx: &Ctx, word: &mut Out<String>) {
-        self.hall.advance(ctx.now());
+        let Some(hall) = &self.place else { return };
+        hall.advance(ctx.now());
         if self.gone {
             return;
         }
@@ -213,20 +249,28 @@ impl Remote {
 #[node]
 #[derive(Debug)]
 pub struct Base {
-    hall: Hall,
+    place: Option<Hall>,
 }
 
 #[node]
 impl Base {
     /// Creates the motors of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
-        Self { hall: hall.clone() }
+        Self { place: Some(hall.clone()) }
+    }
+
+    /// Enters a hall.
+    #[slot]
+    fn hall(&mut self, hall: &Hall) {
+        *self = Self::new(hall);
     }
 
     /// Sets the desired twist, which the motors follow within their limits.
     #[slot]
     fn drive(&mut self, twist: &Twist, ctx: &Ctx) {
-        self.hall.drive(ctx.now(), *twist);
+        if let Some(hall) = &self.place {
+            hall.drive(ctx.now(), *twist);
+        }
     }
 }
 
@@ -234,19 +278,27 @@ impl Base {
 #[node]
 #[derive(Debug)]
 pub struct Lamp {
-    hall: Hall,
+    place: Option<Hall>,
 }
 
 #[node]
 impl Lamp {
     /// Creates the lamp of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
-        Self { hall: hall.clone() }
+        Self { place: Some(hall.clone()) }
+    }
+
+    /// Enters a hall.
+    #[slot]
+    fn hall(&mut self, hall: &Hall) {
+        *self = Self::new(hall);
     }
 
     /// Switches the lamp on or off.
     #[slot]
     fn set(&mut self, on: &bool, ctx: &Ctx) {
-        self.hall.set_lamp(ctx.now(), *on);
+        if let Some(hall) = &self.place {
+            hall.set_lamp(ctx.now(), *on);
+        }
     }
 }

@@ -9,6 +9,7 @@ mod operator;
 mod referee;
 mod report;
 mod rival;
+mod standing;
 mod steering;
 mod world;
 
@@ -16,4 +17,5 @@ pub use drivers::{Base, Drivers, FrontCamera, FrontLaser, HopperCamera, Lamp, Re
 pub use fault::{Fault, FaultKind};
 pub use hall::Hall;
 pub use report::{Collision, Delivery, Obstacle, Report, Rivalry};
+pub use standing::{OpenHall, Scoreboard, Standing};
 pub use world::{Contest, DURATION, RADIUS, RIVALS, Robot, START};
