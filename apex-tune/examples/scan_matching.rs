@@ -1,9 +1,9 @@
 //! Parameters of the scan matching of `slam`, tuned on a recording: `scan_matching FOLDER [--candidates N] [--seed N]
-//! [--jobs N] [--no-racing] [--journal FILE] [--out FOLDER]`.
+//! [--jobs N] [--length ROWS] [--no-racing] [--journal FILE] [--out FOLDER]`.
 //!
 //! A run plays a part of the recording of the Intel Research Lab and costs the root mean square of the distances from
 //! the reference poses after the best rigid alignment, in m. The parts before row 1700 are the seeds of the study;
-//! those from row 1700 on are held out.
+//! those from row 1700 on are held out. A part begins every 120 rows; longer parts overlap.
 
 #[path = "../../nodes/tests/slam/recordings.rs"]
 #[allow(dead_code)]
@@ -14,9 +14,7 @@ use apex_tune::{Axis, Goal, Journal, Method, Objective, Parameter, Report, Scale
 use recordings::{Recording, errors, intel, play};
 use std::{error::Error, path::PathBuf, time::Instant};
 
-/// Rows of a part, and rows from the beginning of a part to that of the next one. Parts overlap: a long part shows
-/// whether the map stays consistent, and several of them that this was not chance.
-const LENGTH: usize = 480;
+/// Rows from the beginning of a part to that of the next one, and rows of a part if nothing else is given.
 const STEP: usize = 120;
 /// Rows that are tuned on: from the first reference to the split.
 const FIRST: usize = 709;
@@ -29,13 +27,13 @@ struct Matching {
 
 impl Matching {
     /// Cuts a recording. Returns the number of the first part behind the split, too.
-    fn new(whole: &Recording) -> (Self, u64) {
+    fn new(whole: &Recording, length: usize) -> (Self, u64) {
         let starts = |rows: std::ops::Range<usize>| rows.step_by(STEP);
-        let training: Vec<usize> = starts(FIRST..SPLIT - LENGTH + 1).collect();
-        let held_out = starts(SPLIT..whole.scans.len() - LENGTH + 1);
+        let training: Vec<usize> = starts(FIRST..SPLIT - length + 1).collect();
+        let held_out = starts(SPLIT..whole.scans.len() - length + 1);
         let split = training.len() as u64;
         let starts = training.into_iter().chain(held_out);
-        let parts = starts.map(|start| cut(whole, start..start + LENGTH)).collect();
+        let parts = starts.map(|start| cut(whole, start..start + length)).collect();
         (Self { parts }, split)
     }
 }
@@ -96,13 +94,16 @@ struct Arguments {
     candidates: u64,
     seed: u64,
     jobs: usize,
+    /// Rows of a part.
+    length: usize,
     racing: bool,
 }
 
 fn arguments() -> Result<Arguments, String> {
     let mut words = std::env::args().skip(1);
     let folder = words.next().ok_or("usage: scan_matching FOLDER [OPTIONS]")?.into();
-    let mut a = Arguments { folder, journal: None, out: None, candidates: 150, seed: 1, jobs: 1, racing: true };
+    let mut a =
+        Arguments { folder, journal: None, out: None, candidates: 150, seed: 1, jobs: 1, length: STEP, racing: true };
     while let Some(name) = words.next() {
         if name == "--no-racing" {
             a.racing = false;
@@ -114,6 +115,7 @@ fn arguments() -> Result<Arguments, String> {
             "--candidates" => a.candidates = number()?,
             "--seed" => a.seed = number()?,
             "--jobs" => a.jobs = number()?.max(1) as usize,
+            "--length" => a.length = number()?.clamp(1, (SPLIT - FIRST) as u64) as usize,
             "--journal" => a.journal = Some(value.into()),
             "--out" => a.out = Some(value.into()),
             _ => return Err(format!("unknown option `{name}`")),
@@ -125,7 +127,7 @@ fn arguments() -> Result<Arguments, String> {
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = arguments()?;
     let whole = intel(&arguments.folder);
-    let (matching, split) = Matching::new(&whole);
+    let (matching, split) = Matching::new(&whole, arguments.length);
     let study = Study {
         parameters: parameters(),
         method: Method::DifferentialEvolution,

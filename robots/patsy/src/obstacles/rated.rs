@@ -99,12 +99,7 @@ impl RateDetection {
 
 /// Calls `take` with the true class, the label and the probability of each measured point. The classes are in the order
 /// of the cloud, row by row.
-pub fn each_measured(
-    truth: &[Truth],
-    labels: &Labels,
-    probabilities: &[f32],
-    mut take: impl FnMut(Truth, Label, f32),
-) {
+pub fn each_measured(truth: &[Truth], labels: &Labels, probabilities: &[f32], mut take: impl FnMut(Truth, Label, f32)) {
     let height = labels.height.max(1);
     let width = labels.labels.len() / height;
     for (i, truth) in truth.iter().enumerate().take(width * height) {
