@@ -155,8 +155,10 @@ impl HazardMap {
                             let share = (BRINK / way.norm().max(f32::MIN_POSITIVE)).min(1.0);
                             self.mark(point, point + way.scaled(share), Ground::Missing);
                         }
-                        let near = last.filter(|last| (*last - point).norm() <= self.max_gap);
-                        self.mark(point, near.unwrap_or(point), Ground::Floor);
+                        if let Some(last) = last.filter(|last| (*last - point).norm() <= self.max_gap) {
+                            self.mark(point, last, Ground::Unknown);
+                        }
+                        self.mark(point, point, Ground::Floor);
                         last = Some(point);
                     }
                     // A missing point says nothing; every other one separates.
@@ -167,7 +169,8 @@ impl HazardMap {
         }
     }
 
-    /// Marks the cells on a line in m_f. Floor that was seen is not missing.
+    /// Marks the cells on a line in m_f; with `Unknown` as floor between points that is taken for granted, unless more is
+    /// known.
     fn mark(&mut self, from: Point2, to: Point2, ground: Ground) {
         let way = to - from;
         let count = (way.norm() / (0.5 * self.resolution)) as usize;
@@ -175,9 +178,11 @@ impl HazardMap {
             let at = from + way.scaled(k as f32 / count.max(1) as f32);
             let Some(index) = self.floor.index(at) else { continue };
             let cell = self.floor.get_mut(index);
-            if ground == Ground::Floor || *cell == Ground::Unknown {
-                *cell = ground;
-            }
+            *cell = match (ground, *cell) {
+                (Ground::Unknown, Ground::Unknown) => Ground::Floor,
+                (Ground::Unknown, known) => known,
+                (ground, _) => ground,
+            };
         }
     }
 
