@@ -44,11 +44,12 @@ pub struct Area {
 /// averaged over the clouds, so that single false detections do not count. Floor between two consecutive
 /// points of a column that are floor is seen too. Where the floor ends in a column before a point far below it, m_f
 /// holds that floor is missing. Obstacles at points of `scan`, which is in the frame of the robot, do not count: the
-/// scanner sees them itself, and they may be persons, who do not stay. `pose` is that of the robot in a fixed frame: wheel odometry is enough.
+/// scanner sees them itself, and they may be persons, who do not stay. `pose` is that of the robot in a fixed frame:
+/// wheel odometry is enough.
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
-/// was seen, unknown elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or if the pose is
-/// not a number or more than 1000 km away.
+/// was seen, unknown elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or if
+/// the pose is not a number or more than 1000 km away.
 #[node]
 #[derive(Debug, Clone)]
 pub struct HazardMap {
@@ -169,8 +170,8 @@ impl HazardMap {
         }
     }
 
-    /// Marks the cells on a line in m_f; with `Unknown` as floor between points that is taken for granted, unless more is
-    /// known.
+    /// Marks the cells on a line in m_f; with `Unknown` as floor between points that is taken for granted, unless more
+    /// is known.
     fn mark(&mut self, from: Point2, to: Point2, ground: Ground) {
         let way = to - from;
         let count = (way.norm() / (0.5 * self.resolution)) as usize;

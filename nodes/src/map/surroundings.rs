@@ -7,9 +7,9 @@ const MOST: usize = 2000;
 
 /// Marks in a map of a building what a camera has seen around the robot, and remembers it.
 ///
-/// `surroundings` is a window such as the map of `HazardMap`, in the frame of `odometry`. `pose` is the pose of the robot
-/// in the frame of `map`, ⊥ while it is not known. Occupied cells in view are remembered until they are seen to be free,
-/// or for `memory`.
+/// `surroundings` is a window such as the map of `HazardMap`, in the frame of `odometry`. `pose` is the pose of the
+/// robot in the frame of `map`, ⊥ while it is not known. Occupied cells in view are remembered until they are seen to
+/// be free, or for `memory`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MarkSurroundings {
@@ -109,14 +109,15 @@ mod tests {
     #[test]
     fn what_was_seen_is_marked_until_it_is_seen_free() {
         let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0));
-        let window =
-            |kind| window(&[(1.02, 0.22, kind), (2.5, 0.0, Occupancy::Occupied), (0.1, 1.0, Occupancy::Occupied)]);
-        assert_eq!(look(&mut node, 0, Some(&window(Occupancy::Occupied))), (1, true));
+        let hazards = [(1.02, 0.22), (2.5, 0.0), (0.1, 1.0)].map(|(x, y)| (x, y, Occupancy::Occupied));
+        let occupied = window(&hazards);
+        let free = Grid::new(*occupied.raster(), Occupancy::Free).expect("small");
+        assert_eq!(look(&mut node, 0, Some(&occupied)), (1, true));
         assert_eq!(look(&mut node, 9000, None), (1, true));
         assert_eq!(look(&mut node, 11_000, None), (0, false));
-        look(&mut node, 12_000, Some(&window(Occupancy::Occupied)));
-        assert_eq!(look(&mut node, 12_100, Some(&window(Occupancy::Free))), (0, false));
-        look(&mut node, 13_000, Some(&window(Occupancy::Occupied)));
+        look(&mut node, 12_000, Some(&occupied));
+        assert_eq!(look(&mut node, 12_100, Some(&free)), (0, false));
+        look(&mut node, 13_000, Some(&occupied));
         node.forget();
         assert_eq!(look(&mut node, 13_100, None), (0, false));
     }

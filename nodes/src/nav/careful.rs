@@ -20,8 +20,8 @@ pub struct PersonCaution {
     /// Speed at this distance.
     #[param(unit = "m/s", default = 0.15, range = 0.0..=10.0)]
     min_speed: f32,
-    /// Speed at this distance if the person stands, at least `min_speed`: what looks like the legs of a person who stands
-    /// may be a table.
+    /// Speed at this distance if the person stands, at least `min_speed`. Table legs look like the legs of a person who
+    /// stands.
     #[param(unit = "m/s", default = 0.15, range = 0.0..=10.0)]
     standing_speed: f32,
     /// Velocity from which on a person walks.

@@ -129,7 +129,7 @@ impl SweepStop {
         [Part { from: -self.hitch, to: self.front, half }, Part { from: -self.rear, to: 0.5 * self.drawbar, half }]
     }
 
-    /// Returns `true` if a part of the vehicle is, or with the margin at its sides comes, on something that is not free.
+    /// Returns `true` if a part of the vehicle, also with the margin at its sides, is on something that is not free.
     fn meets(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes, is_backward: bool) -> bool {
         let covers = |wider: f32, point: Point2| {
             let parts = self.parts().map(|part| part.widened(wider));
