@@ -48,8 +48,8 @@ pub struct Area {
 /// wheel odometry is enough.
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
-/// was seen, unknown elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or if
-/// the pose is not a number or more than 1000 km away.
+/// was seen, unknown elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or
+/// if the pose is not a number or more than 1000 km away.
 #[node]
 #[derive(Debug, Clone)]
 pub struct HazardMap {
