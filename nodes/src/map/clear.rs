@@ -32,10 +32,9 @@ impl ClearBox {
         let Some(middle) = place.map(|place| pose.compose(place)) else { return };
         for (cell, _) in map.iter() {
             let p = middle.to_inner(map.raster().centre(cell));
-            if fabsf(p.x) <= 0.5 * self.length && fabsf(p.y) <= 0.5 * self.width {
-                if let Some(cell) = cleared.get_mut(cell) {
-                    *cell = Occupancy::Free;
-                }
+            let is_inside = fabsf(p.x) <= 0.5 * self.length && fabsf(p.y) <= 0.5 * self.width;
+            if let Some(cell) = cleared.get_mut(cell).filter(|_| is_inside) {
+                *cell = Occupancy::Free;
             }
         }
     }
