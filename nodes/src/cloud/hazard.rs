@@ -1,7 +1,7 @@
 use super::{Columns, Label, Labels, rolling::Rolling};
 use crate::{
     map::{Grid, Occupancy},
-    scan::{Point2, Pose2},
+    scan::{Point2, Pose2, Scan},
 };
 use apex_rt::{Out, node};
 use core::f32::consts::PI;
@@ -42,12 +42,14 @@ pub struct Area {
 ///
 /// Two rolling windows of cells: m_f holds where floor was seen, m_o the share of obstacles among the points of a cell,
 /// averaged over the clouds, so that single false detections do not count. Floor between two consecutive
-/// points of a column that are floor is seen too. `pose` is that of the robot in a fixed frame: wheel odometry is
-/// enough.
+/// points of a column that are floor is seen too. Where the floor ends in a column before a point far below it, m_f
+/// holds that floor is missing. Obstacles at points of `scan`, which is in the frame of the robot, do not count: the
+/// scanner sees them itself, and they may be persons, who do not stay. `pose` is that of the robot in a fixed frame:
+/// wheel odometry is enough.
 ///
-/// `map` is the window in this frame: occupied where m_o is at least `threshold`, free where floor was seen, unknown
-/// elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or if the pose is
-/// not a number or more than 1000 km away.
+/// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
+/// was seen, unknown elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or
+/// if the pose is not a number or more than 1000 km away.
 #[node]
 #[derive(Debug, Clone)]
 pub struct HazardMap {
@@ -82,13 +84,27 @@ pub struct HazardMap {
     /// missing within it.
     #[param(unit = "rad", default = PI, range = 0.0..=3.2)]
     view_angle: f32,
-    floor: Rolling<bool>,
+    floor: Rolling<Ground>,
     obstacles: Rolling<f32>,
     /// Number of obstacle points and of all points of this cloud, by cell.
     sums: Vec<(f32, u32)>,
     /// Cells with a sum.
     touched: Vec<usize>,
 }
+
+/// Knowledge of the floor in a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Ground {
+    #[default]
+    Unknown,
+    Floor,
+    Missing,
+}
+
+/// Distance in the direction of view, and across, up to which an obstacle is at a point of a scan, in m.
+const SCANNED: [f32; 2] = [0.3, 0.1];
+/// Length of the strip beyond the end of the floor in which it is missing, in m.
+const BRINK: f32 = 0.3;
 
 #[node]
 impl HazardMap {
@@ -97,6 +113,7 @@ impl HazardMap {
         points: &Columns,
         labels: &Labels,
         pose: &Pose2,
+        scan: Option<&Scan>,
         map: &mut Out<Grid<Occupancy>>,
         hazard: &mut Out<Hazard>,
     ) {
@@ -106,7 +123,7 @@ impl HazardMap {
         self.floor.follow(pose.position(), self.size, self.resolution);
         self.obstacles.follow(pose.position(), self.size, self.resolution);
         self.see_floor(points, labels, pose);
-        self.see_obstacles(points, labels, pose);
+        self.see_obstacles(points, labels, pose, scan);
         self.draw(map.get_mut());
         let area = Area { near: self.near, far: self.far, width: self.width };
         if let Some(nearest) = self.nearest(&area, pose) {
@@ -121,34 +138,57 @@ impl HazardMap {
         self.obstacles = Rolling::default();
     }
 
-    /// Marks the cells of floor points in m_f, and those between consecutive ones.
+    /// Marks the cells of floor points in m_f, those between consecutive ones, and those where the floor ends.
     fn see_floor(&mut self, points: &Columns, labels: &Labels, pose: &Pose2) {
-        let step = 0.5 * self.resolution;
         for first in (0..points.len()).step_by(points.height.max(1)) {
-            let mut last: Option<Point2> = None;
+            // From the far end to the near one.
+            let (mut last, mut below): (Option<Point2>, Option<Point2>) = (None, None);
             for i in first..first + points.height {
                 let label = labels.labels[i];
-                if label != Label::Floor {
-                    // A missing point says nothing; every other one separates.
-                    last = last.filter(|_| !label.is_valid());
+                if !label.is_valid() {
                     continue;
                 }
                 let point = pose.to_outer(Point2::new(points.x[i], points.y[i]));
-                let way = last.map(|last| last - point).filter(|way| way.norm() <= self.max_gap).unwrap_or_default();
-                let count = (way.norm() / step) as usize;
-                for k in 0..=count {
-                    let at = point + way.scaled(k as f32 / count.max(1) as f32);
-                    if let Some(index) = self.floor.index(at) {
-                        *self.floor.get_mut(index) = true;
+                match label {
+                    Label::Floor => {
+                        if let Some(below) = below.take() {
+                            let way = below - point;
+                            let share = (BRINK / way.norm().max(f32::MIN_POSITIVE)).min(1.0);
+                            self.mark(point, point + way.scaled(share), Ground::Missing);
+                        }
+                        if let Some(last) = last.filter(|last| (*last - point).norm() <= self.max_gap) {
+                            self.mark(point, last, Ground::Unknown);
+                        }
+                        self.mark(point, point, Ground::Floor);
+                        last = Some(point);
                     }
+                    // A missing point says nothing; every other one separates.
+                    Label::Below => (last, below) = (None, Some(point)),
+                    _ => (last, below) = (None, None),
                 }
-                last = Some(point);
             }
         }
     }
 
+    /// Marks the cells on a line in m_f; with `Unknown` as floor between points that is taken for granted, unless more
+    /// is known.
+    fn mark(&mut self, from: Point2, to: Point2, ground: Ground) {
+        let way = to - from;
+        let count = (way.norm() / (0.5 * self.resolution)) as usize;
+        for k in 0..=count {
+            let at = from + way.scaled(k as f32 / count.max(1) as f32);
+            let Some(index) = self.floor.index(at) else { continue };
+            let cell = self.floor.get_mut(index);
+            *cell = match (ground, *cell) {
+                (Ground::Unknown, Ground::Unknown) => Ground::Floor,
+                (Ground::Unknown, known) => known,
+                (ground, _) => ground,
+            };
+        }
+    }
+
     /// Adds the share of obstacles among the points of each cell to the average m_o.
-    fn see_obstacles(&mut self, points: &Columns, labels: &Labels, pose: &Pose2) {
+    fn see_obstacles(&mut self, points: &Columns, labels: &Labels, pose: &Pose2, scan: Option<&Scan>) {
         let raster = self.obstacles.raster();
         self.sums.resize(raster.width * raster.height, (0.0, 0));
         for (i, label) in labels.labels.iter().enumerate() {
@@ -156,9 +196,11 @@ impl HazardMap {
             if !counts || points.z[i] > self.max_height {
                 continue;
             }
-            let Some(index) = self.obstacles.index(pose.to_outer(Point2::new(points.x[i], points.y[i]))) else {
+            let place = Point2::new(points.x[i], points.y[i]);
+            if label.is_hazard() && scan.is_some_and(|scan| is_scanned(scan, place)) {
                 continue;
-            };
+            }
+            let Some(index) = self.obstacles.index(pose.to_outer(place)) else { continue };
             let (sum, count) = &mut self.sums[index];
             if *count == 0 {
                 self.touched.push(index);
@@ -179,11 +221,12 @@ impl HazardMap {
             return;
         }
         let values = self.obstacles.values().zip(self.floor.values());
-        for (cell, (probability, is_floor)) in map.cells_mut().iter_mut().zip(values) {
-            *cell = match is_floor {
+        for (cell, (probability, ground)) in map.cells_mut().iter_mut().zip(values) {
+            *cell = match ground {
                 _ if probability >= self.threshold => Occupancy::Occupied,
-                true => Occupancy::Free,
-                false => Occupancy::Unknown,
+                Ground::Missing => Occupancy::Occupied,
+                Ground::Floor => Occupancy::Free,
+                Ground::Unknown => Occupancy::Unknown,
             };
         }
     }
@@ -200,7 +243,7 @@ impl HazardMap {
                 if self.obstacles.get(index) >= self.threshold {
                     return Some(Hazard { kind: HazardKind::Obstacle, position });
                 }
-                if !self.floor.get(index) && self.is_in_view(position) {
+                if self.floor.get(index) != Ground::Floor && self.is_in_view(position) {
                     return Some(Hazard { kind: HazardKind::NoFloor, position });
                 }
             }
@@ -212,6 +255,17 @@ impl HazardMap {
     fn is_in_view(&self, position: Point2) -> bool {
         position.angle().abs() <= 0.5 * self.view_angle
     }
+}
+
+/// Returns `true` if beams of a scan end at a place.
+fn is_scanned(scan: &Scan, place: Point2) -> bool {
+    let distance = place.norm();
+    let middle = (place.angle() - scan.angle_min) / scan.angle_increment;
+    let aside = (SCANNED[1] / distance.max(SCANNED[1]) / scan.angle_increment).abs();
+    // Casts saturate, and NaN becomes 0.
+    let beams = (middle - aside).max(0.0) as usize..=(middle + aside).max(0.0) as usize;
+    let mut ranges = beams.map_while(|beam| scan.ranges.get(beam));
+    ranges.any(|range| (range - distance).abs() <= SCANNED[0])
 }
 
 /// Number of steps that are not longer than a cell.
@@ -244,7 +298,7 @@ mod tests {
             *label = if is_there(*x) { Label::Obstacle } else { Label::Floor };
         }
         let (mut map, mut hazard) = (Out::new(), Out::new());
-        node.process(&points, &labels, pose, &mut map, &mut hazard);
+        node.process(&points, &labels, pose, None, &mut map, &mut hazard);
         let map = map.get().expect("a map");
         (hazard.get().copied(), map.cells().iter().filter(|c| **c == Occupancy::Occupied).count())
     }
@@ -289,6 +343,33 @@ mod tests {
     }
 
     #[test]
+    fn what_the_scanner_sees_does_not_count() {
+        let mut scan = Scan { angle_min: -0.2, angle_increment: 0.1, range_max: 10.0, ..Scan::default() };
+        scan.ranges.extend([5.0, 5.0, 1.1, 5.0, 5.0]);
+        let seen = |x, y| is_scanned(&scan, Point2::new(x, y));
+        assert!(seen(1.0, 0.0) && seen(1.3, 0.05) && seen(5.1, 1.0));
+        assert!(!seen(0.7, 0.0) && !seen(2.0, 0.0) && !seen(1.0, 0.4) && !seen(-1.1, 0.0));
+        assert!(!is_scanned(&Scan::default(), Point2::new(1.0, 0.0)));
+    }
+
+    #[test]
+    fn a_brink_is_occupied() {
+        // One column with floor up to 0.7 m, and far below it beyond.
+        let cloud: Vec<[f32; 4]> = (0..20).map(|row| [0.3 + 0.1 * (19 - row) as f32, 0.0, 0.0, 1.0]).collect();
+        let (points, mut labels) = columns(20, &cloud);
+        for (label, x) in labels.labels.iter_mut().zip(&points.x) {
+            *label = if *x < 0.75 { Label::Floor } else { Label::Below };
+        }
+        let (mut map, mut hazard) = (Out::new(), Out::new());
+        node().process(&points, &labels, &Pose2::default(), None, &mut map, &mut hazard);
+        let map = map.get().expect("a map");
+        let occupied = map.iter().filter(|(_, cell)| **cell == Occupancy::Occupied);
+        let ahead: Vec<f32> = occupied.map(|(cell, _)| map.raster().centre(cell).x).collect();
+        assert!(!ahead.is_empty() && ahead.iter().all(|x| (0.7..0.9).contains(x)), "{ahead:?}");
+        assert_eq!(map.at(Point2::new(0.55, 0.0)), Some(&Occupancy::Free));
+    }
+
+    #[test]
     fn floor_beside_the_view_is_not_missing() {
         // The near corners of the area are 27° from straight ahead, and the floor is seen up to 0.45 m.
         let kind = |view_angle: f32| {
@@ -304,10 +385,10 @@ mod tests {
         let (mut map, mut hazard) = (Out::new(), Out::new());
         let (points, labels) = columns(2, &[[1.0; 4]; 4]);
         let mut node = node();
-        node.process(&points, &Labels::default(), &Pose2::default(), &mut map, &mut hazard);
-        node.process(&points, &labels, &Pose2::new(f32::NAN, 0.0, 0.0), &mut map, &mut hazard);
+        node.process(&points, &Labels::default(), &Pose2::default(), None, &mut map, &mut hazard);
+        node.process(&points, &labels, &Pose2::new(f32::NAN, 0.0, 0.0), None, &mut map, &mut hazard);
         assert!(map.get().is_none() && hazard.get().is_none());
-        node.process(&Columns::default(), &Labels::default(), &Pose2::default(), &mut map, &mut hazard);
+        node.process(&Columns::default(), &Labels::default(), &Pose2::default(), None, &mut map, &mut hazard);
         assert_eq!(hazard.get().map(|h| h.kind), Some(HazardKind::NoFloor));
     }
 }

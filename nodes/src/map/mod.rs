@@ -1,6 +1,7 @@
 //! Grid maps of the plane, the detection of objects in them and their preparation for path planning; maps of signs and
 //! of line segments (feature `std`).
 
+mod clear;
 mod distance;
 mod grid;
 mod mark;
@@ -10,8 +11,10 @@ mod morphology;
 mod occupancy;
 mod octagon;
 mod signs;
+mod surroundings;
 mod vector;
 
+pub use clear::ClearBox;
 pub use distance::DistanceTransform;
 pub use grid::{Cell, Grid, MAX_CELLS, Occupancy, Raster, TooManyCells};
 pub use mark::MarkScan;
@@ -19,6 +22,7 @@ pub use morphology::{CloseUnknown, GrowObstacles, UnknownRegions, grow};
 pub use occupancy::{OccupancyBuilder, RayCount};
 pub use octagon::{Octagon, OctagonSearch, Station, Stations};
 pub use signs::{MAX_SIGNS, MapLookup, Sign, SignMap, Signs};
+pub use surroundings::MarkSurroundings;
 #[cfg(feature = "localize")]
 pub(crate) use vector::cross;
 pub use vector::{LineSegment, MAX_SEGMENTS, MapError, VectorMap};

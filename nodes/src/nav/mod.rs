@@ -37,6 +37,8 @@ mod search;
 mod smooth;
 mod standstill;
 mod steer;
+#[cfg(feature = "std")]
+mod sweep;
 mod track;
 mod twist;
 
@@ -68,5 +70,7 @@ pub use search::{NoPath, Search, Terrain};
 pub use smooth::{is_clear, simplify, smooth, subdivide};
 pub use standstill::Standstill;
 pub use steer::Steer;
+#[cfg(feature = "std")]
+pub use sweep::SweepStop;
 pub use track::{TrackPose, stand_before};
 pub use twist::Twist;

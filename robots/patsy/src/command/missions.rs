@@ -3,7 +3,7 @@ use apex_sim::in_order;
 use lexopt::{Parser, prelude::Long};
 use patsy::{
     clinic::{FaultKind, Options, PEOPLE},
-    missions::{Row, Run, fault_at, faults_table, picture, run, summary},
+    missions::{Row, Run, activity_table, fault_at, faults_table, picture, run, summary},
 };
 use std::{
     fs,
@@ -46,7 +46,7 @@ pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
     let runs = in_order(&jobs, missions.seeds.jobs, work, show).map_err(|e| e.to_string())?;
     let runs = runs.into_iter().collect::<Result<Vec<Run>, String>>()?;
     let (without, with) = runs.split_at(seeds.len());
-    println!("\n{}", summary(without));
+    println!("\n{}\nActive nodes:\n{}", summary(without), activity_table(without));
     if missions.faults {
         println!("{}", faults_table(without, with));
     }

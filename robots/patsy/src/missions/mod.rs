@@ -6,4 +6,4 @@ mod table;
 
 pub use picture::picture;
 pub use run::{Run, run};
-pub use table::{Row, fault_at, faults_table, summary, table};
+pub use table::{Row, activity_table, fault_at, faults_table, summary, table};

@@ -25,6 +25,8 @@ pub struct Run {
     pub report: Report,
     /// Failures of nodes and claims that did not hold, each once.
     pub failures: Vec<String>,
+    /// Nodes that were active, and for how long, in the order of the program.
+    pub activity: Vec<(&'static str, Duration)>,
     /// State at the beginning and at the end.
     pub ends: [Snapshot; 2],
     /// Walls of the building.
@@ -47,11 +49,12 @@ pub fn run(options: &Options, duration: Duration, record: Option<&Path>) -> Resu
         Some(path) => Some(Recorder::to_file::<Patsy>(path, WhenFull::Wait).map_err(|e| cannot(path, &e))?),
         None => None,
     };
-    let mut watch = Watch { failures: vec![], tap: tap.map(Tap::Record) };
     let end = Time::ZERO + duration;
+    let mut watch = Watch::new(tap.map(Tap::Record));
     let mut clock = SimClock::until(end).with_step(STEP);
     loop {
         let now = clock.now();
+        watch.activity.now = now;
         let next = robot.react_with(now, &mut watch);
         let time = if let Next::At(time) = next { time } else { now };
         if !clock.wait_until(time) {
@@ -65,6 +68,7 @@ pub fn run(options: &Options, duration: Duration, record: Option<&Path>) -> Resu
     Ok(Run {
         options: options.clone(),
         report: clinic.report(),
+        activity: watch.activity.at(end),
         failures: watch.failures,
         ends: [first, clinic.snapshot()],
         plan: clinic.building().plan,
@@ -78,13 +82,46 @@ fn vehicle(clinic: &Clinic) -> Patsy {
     Patsy::new(PatsyParts { scanner, rear, wheels, camera, motors, lift, dispatch })
 }
 
-/// Notes failures, and records.
+/// Notes failures and activity, and records.
 struct Watch {
     failures: Vec<String>,
+    activity: Activity,
     tap: Option<Tap>,
 }
 
+/// Time for which each node was active.
+struct Activity {
+    now: Time,
+    /// Time for which each node was active before, and since when it is now.
+    nodes: Vec<(Duration, Option<Time>)>,
+}
+
+impl Activity {
+    fn change(&mut self, node: usize, active: bool) {
+        let (before, since) = &mut self.nodes[node];
+        if active {
+            since.get_or_insert(self.now);
+        } else if let Some(since) = since.take() {
+            *before += self.now.since(since);
+        }
+    }
+
+    /// Nodes that were active up to the end of a run.
+    fn at(&self, end: Time) -> Vec<(&'static str, Duration)> {
+        let total =
+            |(before, since): &(Duration, Option<Time>)| *before + since.map_or(Duration::ZERO, |t| end.since(t));
+        let nodes =
+            <Patsy as Program>::INFO.nodes.iter().zip(&self.nodes).map(|(node, times)| (node.name, total(times)));
+        nodes.filter(|(_, time)| !time.is_zero()).collect()
+    }
+}
+
 impl Watch {
+    fn new(tap: Option<Tap>) -> Self {
+        let nodes = vec![(Duration::ZERO, None); <Patsy as Program>::INFO.nodes.len()];
+        Self { failures: vec![], activity: Activity { now: Time::ZERO, nodes }, tap }
+    }
+
     fn note(&mut self, failure: String) {
         if !self.failures.contains(&failure) {
             self.failures.push(failure);
@@ -93,6 +130,10 @@ impl Watch {
 }
 
 impl Observer for Watch {
+    fn activity(&mut self, node: usize, active: bool) {
+        self.activity.change(node, active);
+    }
+
     fn failed(&mut self, node: usize, error: &impl fmt::Display) {
         self.note(format!("`{}` failed: {error}", <Patsy as Program>::INFO.nodes[node].name));
     }
@@ -107,5 +148,21 @@ impl Observer for Watch {
 
     fn tap(&mut self) -> Option<&mut Tap> {
         self.tap.as_mut()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn activity_is_added_up_to_the_end() {
+        let mut activity = Activity { now: Time::ZERO, nodes: vec![(Duration::ZERO, None); 3] };
+        for (second, node, active) in [(1, 0, true), (3, 0, false), (4, 1, true), (5, 0, true), (5, 1, false)] {
+            activity.now = Time::from_secs(second);
+            activity.change(node, active);
+        }
+        let times: Vec<Duration> = activity.at(Time::from_secs(9)).into_iter().map(|(_, time)| time).collect();
+        assert_eq!(times, [6, 1].map(Duration::from_secs));
     }
 }

@@ -2,7 +2,7 @@ use super::Run;
 use crate::clinic::{Fault, FaultKind};
 use apex_rt::Time;
 use apex_sim::Random;
-use std::{fmt, time::Duration};
+use std::{cmp::Reverse, fmt, time::Duration};
 
 /// Distance that a vehicle drives after the end of a fault that it has survived, in m.
 const GOES_ON: f32 = 5.0;
@@ -61,6 +61,23 @@ pub fn summary(runs: &[Run]) -> String {
         sum(|run| run.report.bumps.len()),
         sum(|run| run.failures.len()),
     )
+}
+
+/// Table of the nodes that were active for the longest time, with their shares of the time of all runs.
+pub fn activity_table(runs: &[Run]) -> String {
+    let mut times: Vec<(&str, Duration)> = vec![];
+    for (name, time) in runs.iter().flat_map(|run| &run.activity) {
+        match times.iter_mut().find(|(other, _)| other == name) {
+            Some((_, sum)) => *sum += *time,
+            None => times.push((name, *time)),
+        }
+    }
+    times.sort_by_key(|(_, time)| Reverse(*time));
+    let whole: Duration = times.iter().map(|(_, time)| *time).sum();
+    let share = |time: Duration| 100.0 * time.as_secs_f32() / whole.as_secs_f32().max(1e-3);
+    let rows =
+        times.iter().map(|(name, time)| format!("{name:<40}{:>8.0} s{:>6.1} %\n", time.as_secs_f32(), share(*time)));
+    rows.collect()
 }
 
 /// Table of runs with faults: a line for each kind, after one for the runs without.

@@ -1,7 +1,7 @@
 use super::programs::DetectObstacles;
 use apex_nodes::{
     cloud::{Columns, Labels, PointCloud},
-    scan::Pose2,
+    scan::{Pose2, Scan},
 };
 use apex_rt::{Observer, Parameters as _, Program as _, Time};
 
@@ -129,8 +129,8 @@ impl Detector {
         observer: &mut impl Observer,
     ) -> Option<(&Columns, &Labels, &[f32])> {
         let inputs = self.program.inputs();
-        // Both inputs are empty: the last reaction has taken the tokens.
-        let _ = (inputs.cloud.put(cloud.clone()), inputs.pose.put(Pose2::default()));
+        // All inputs are empty: the last reaction has taken the tokens. The scan has no points.
+        let _ = (inputs.cloud.put(cloud.clone()), inputs.pose.put(Pose2::default()), inputs.scan.put(Scan::default()));
         self.program.react_with(Time::ZERO, observer);
         let outputs = self.program.outputs();
         Some((outputs.points.as_ref()?, outputs.labels.as_ref()?, outputs.probabilities.as_deref()?))

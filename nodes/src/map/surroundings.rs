@@ -1,0 +1,134 @@
+use super::{Cell, Grid, Occupancy, Raster};
+use crate::scan::{Point2, Pose2};
+use apex_rt::{Ctx, Out, Time, node};
+
+/// Maximum number of remembered cells. Further ones are not remembered.
+const MOST: usize = 2000;
+
+/// Marks in a map of a building what a camera has seen around the robot, and remembers it.
+///
+/// `surroundings` is a window such as the map of `HazardMap`, in the frame of `odometry`. `pose` is the pose of the
+/// robot in the frame of `map`, ⊥ while it is not known. Occupied cells in view are remembered until they are seen to
+/// be free, or for `memory`.
+#[node]
+#[derive(Debug, Clone)]
+pub struct MarkSurroundings {
+    /// Time for which a cell is remembered.
+    #[param(unit = "s", default = 300.0, range = 0.0..=86400.0)]
+    memory: f32,
+    /// Distance up to which the camera sees cells well.
+    #[param(unit = "m", default = 2.0, range = 0.0..=100.0)]
+    reach: f32,
+    /// Angle of the camera's view across, about the x axis of the robot.
+    #[param(unit = "rad", default = 1.0, range = 0.0..=6.3)]
+    view_angle: f32,
+    /// Remembered cells of the map, and the times at which they were last seen.
+    known: Vec<(Cell, Time)>,
+}
+
+#[node]
+impl MarkSurroundings {
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        map: &Grid<Occupancy>,
+        pose: Option<&Pose2>,
+        odometry: &Pose2,
+        surroundings: Option<&Grid<Occupancy>>,
+        marked: &mut Out<Grid<Occupancy>>,
+    ) {
+        let memory = self.memory;
+        self.known.retain(|(_, at)| ctx.now().since(*at).as_secs_f32() <= memory);
+        let pose = pose.filter(|pose| pose.is_usable() && odometry.is_usable());
+        if let Some((surroundings, pose)) = surroundings.zip(pose) {
+            self.look(surroundings, map.raster(), [pose, odometry], ctx.now());
+        }
+        let marked = marked.get_mut();
+        marked.clone_from(map);
+        for (cell, _) in &self.known {
+            if let Some(cell) = marked.get_mut(*cell) {
+                *cell = Occupancy::Occupied;
+            }
+        }
+    }
+
+    /// Forgets all cells, for example when the robot has moved one of the things in them.
+    #[slot]
+    fn forget(&mut self) {
+        self.known.clear();
+    }
+
+    /// Forgets the cells that are free now, and adds those that are occupied.
+    fn look(&mut self, window: &Grid<Occupancy>, raster: &Raster, [pose, odometry]: [&Pose2; 2], now: Time) {
+        let Self { reach, view_angle, known, .. } = self;
+        let is_in_view = |place: Point2| place.norm() <= *reach && place.angle().abs() <= 0.5 * *view_angle;
+        known.retain(|(cell, _)| {
+            let place = pose.to_inner(raster.centre(*cell));
+            !(is_in_view(place) && window.at(odometry.to_outer(place)) == Some(&Occupancy::Free))
+        });
+        for (cell, _) in window.iter().filter(|(_, cell)| **cell == Occupancy::Occupied) {
+            let place = odometry.to_inner(window.raster().centre(cell));
+            let Some(cell) = raster.cell(pose.to_outer(place)).filter(|_| is_in_view(place)) else { continue };
+            if let Some((_, at)) = known.iter_mut().find(|(other, _)| *other == cell) {
+                *at = now;
+            } else if known.len() < MOST {
+                known.push((cell, now));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::Construct;
+
+    const BUILDING: Raster = Raster { corner: Point2::new(-10.0, -10.0), resolution: 0.1, width: 200, height: 200 };
+    /// Pose in the building; odometry began elsewhere.
+    const POSE: Pose2 = Pose2::new(4.0, 2.0, core::f32::consts::FRAC_PI_2);
+
+    fn window(cells: &[(f32, f32, Occupancy)]) -> Grid<Occupancy> {
+        let raster = Raster { corner: Point2::new(-3.0, -3.0), resolution: 0.05, width: 120, height: 120 };
+        let mut map = Grid::new(raster, Occupancy::Unknown).expect("small");
+        for (x, y, kind) in cells {
+            *map.get_mut(raster.cell(Point2::new(*x, *y)).expect("inside")).expect("inside") = *kind;
+        }
+        map
+    }
+
+    /// Number of marked cells, and whether the one of a place before the robot is.
+    fn look(node: &mut MarkSurroundings, ms: i64, window: Option<&Grid<Occupancy>>) -> (usize, bool) {
+        let map = Grid::new(BUILDING, Occupancy::Free).expect("small");
+        let (ctx, mut out) = (Ctx::new(Time::from_millis(ms)), Out::new());
+        node.process(&ctx, &map, Some(&POSE), &Pose2::default(), window, &mut out);
+        let marked = out.get().expect("a map");
+        let count = marked.cells().iter().filter(|cell| **cell == Occupancy::Occupied).count();
+        (count, marked.at(POSE.to_outer(Point2::new(1.02, 0.22))) == Some(&Occupancy::Occupied))
+    }
+
+    #[test]
+    fn what_was_seen_is_marked_until_it_is_seen_free() {
+        let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0));
+        let hazards = [(1.02, 0.22), (2.5, 0.0), (0.1, 1.0)].map(|(x, y)| (x, y, Occupancy::Occupied));
+        let occupied = window(&hazards);
+        let free = Grid::new(*occupied.raster(), Occupancy::Free).expect("small");
+        assert_eq!(look(&mut node, 0, Some(&occupied)), (1, true));
+        assert_eq!(look(&mut node, 9000, None), (1, true));
+        assert_eq!(look(&mut node, 11_000, None), (0, false));
+        look(&mut node, 12_000, Some(&occupied));
+        assert_eq!(look(&mut node, 12_100, Some(&free)), (0, false));
+        look(&mut node, 13_000, Some(&occupied));
+        node.forget();
+        assert_eq!(look(&mut node, 13_100, None), (0, false));
+    }
+
+    #[test]
+    fn without_a_pose_nothing_is_marked() {
+        let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0));
+        let window = window(&[(1.02, 0.22, Occupancy::Occupied)]);
+        let nan = Pose2::new(f32::NAN, 0.0, 0.0);
+        let (map, mut out) = (Grid::new(BUILDING, Occupancy::Free).expect("small"), Out::new());
+        node.process(&Ctx::new(Time::ZERO), &map, Some(&nan), &nan, Some(&window), &mut out);
+        assert_eq!(out.get(), Some(&map));
+    }
+}

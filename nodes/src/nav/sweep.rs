@@ -1,0 +1,249 @@
+use super::{Articulated, Twist, trailer_rotation};
+use crate::{
+    map::{Grid, Occupancy},
+    math::normalize_angle,
+    scan::{Point2, Pose2},
+};
+use apex_rt::{Ctx, Time, node};
+use libm::sqrtf;
+
+/// Distance between predicted places, and between checked points of a part of the vehicle, in m.
+const STEP: f32 = 0.05;
+/// Largest angle between tractor and trailer that is predicted, in rad.
+const JACKKNIFE: f32 = 1.4;
+
+/// Stops a tractor with a trailer before it drives over an obstacle, missing floor, or floor that was not seen.
+///
+/// `map` is that of `HazardMap`. The areas that both parts of the vehicle sweep, as long as it keeps to its curve, have
+/// to be free in it. Backward, unknown cells are not free: the vehicle only backs up over floor that was seen before.
+/// Forward, an unknown cell counts if the camera should have seen it. What is beneath the vehicle already does not
+/// count.
+///
+/// `base` and `trailer` are the poses of the two axes in the frame of the map, such as that of odometry. `map` may be
+/// ⊥, as clouds come less often than twists. The vehicle stops if there is no map or if the last one is older than
+/// `max_age`, so that a camera that does not work is not taken for free floor.
+#[node]
+#[derive(Debug, Clone)]
+pub struct SweepStop {
+    /// Distance of the tractor's axis from its front.
+    #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
+    front: f32,
+    /// Distance from the tractor's axis back to the hitch.
+    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
+    hitch: f32,
+    /// Distance from the hitch back to the trailer's axis.
+    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
+    drawbar: f32,
+    /// Distance from the trailer's axis back to its rear.
+    #[param(unit = "m", default = 0.15, range = 0.0..=10.0)]
+    rear: f32,
+    /// Width of the vehicle.
+    #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
+    width: f32,
+    /// Distance kept from hazards at the sides and, at a stop, ahead.
+    #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
+    margin: f32,
+    /// Deceleration of the vehicle.
+    #[param(unit = "m/s^2", default = 0.6, range = 0.01..=100.0)]
+    deceleration: f32,
+    /// Length of the curve that is predicted.
+    #[param(unit = "m", default = 1.0, range = 0.0..=10.0)]
+    look_ahead: f32,
+    /// Distance ahead from which on the camera sees the floor.
+    #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
+    near: f32,
+    /// Angle of the camera's view across, about the x axis of the tractor.
+    #[param(unit = "rad", default = 1.0, range = 0.0..=3.2)]
+    view_angle: f32,
+    /// Maximum age of a map.
+    #[param(unit = "s", default = 0.6, range = 0.0..=60.0)]
+    max_age: f32,
+    last: Option<(Time, Grid<Occupancy>)>,
+}
+
+/// Rectangle of a part of the vehicle in the frame of its axis: x from and to, and half of the width, in m.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    from: f32,
+    to: f32,
+    half: f32,
+}
+
+/// Poses of the axes of tractor and trailer.
+type Axes = [Pose2; 2];
+
+#[node]
+impl SweepStop {
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        twist: &Twist,
+        map: Option<&Grid<Occupancy>>,
+        base: &Pose2,
+        trailer: &Pose2,
+    ) -> Twist {
+        match (&mut self.last, map) {
+            (Some((at, last)), Some(map)) => {
+                *at = ctx.now();
+                last.clone_from(map);
+            }
+            (last, Some(map)) => *last = Some((ctx.now(), map.clone())),
+            _ => {}
+        }
+        let is_fresh = |at: Time| ctx.now().since(at).as_secs_f32() <= self.max_age;
+        let Some((_, map)) = self.last.as_ref().filter(|(at, _)| is_fresh(*at)) else { return Twist::ZERO };
+        if !(twist.is_finite() && base.is_usable() && trailer.is_usable()) {
+            return Twist::ZERO;
+        }
+        let gap = self.gap(map, twist, [*base, *trailer]) - self.margin;
+        twist.slowed_to(sqrtf(2.0 * self.deceleration * gap.max(0.0)))
+    }
+
+    /// Distance that the vehicle can drive before it sweeps something that is not free, in m.
+    fn gap(&self, map: &Grid<Occupancy>, twist: &Twist, now: Axes) -> f32 {
+        if twist.x == 0.0 {
+            return f32::INFINITY;
+        }
+        let (curvature, step) = (twist.omega / twist.x, STEP.copysign(twist.x));
+        let count = (self.look_ahead / STEP) as u16;
+        let (mut base, mut heading) = (now[0], now[1].theta);
+        for k in 1..=count {
+            let bend = normalize_angle(&(base.theta - heading)).clamp(-JACKKNIFE, JACKKNIFE);
+            heading += trailer_rotation(1.0, curvature, bend, self.hitch, self.drawbar) * step;
+            base = base.compose(&Pose2::new(step, 0.0, step * curvature));
+            let axes = [base, self.shape().trailer(&base, heading)];
+            if self.meets(map, &axes, &now, twist.x < 0.0) {
+                return f32::from(k - 1) * STEP;
+            }
+        }
+        f32::INFINITY
+    }
+
+    fn shape(&self) -> Articulated {
+        let Self { front, hitch, drawbar, rear, width, .. } = *self;
+        Articulated { hitch, drawbar, front, rear, width }
+    }
+
+    fn parts(&self) -> [Part; 2] {
+        let half = 0.5 * self.width;
+        [Part { from: -self.hitch, to: self.front, half }, Part { from: -self.rear, to: 0.5 * self.drawbar, half }]
+    }
+
+    /// Returns `true` if a part of the vehicle, also with the margin at its sides, is on something that is not free.
+    fn meets(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes, is_backward: bool) -> bool {
+        let covers = |wider: f32, point: Point2| {
+            let parts = self.parts().map(|part| part.widened(wider));
+            parts.iter().zip(now).any(|(part, axis)| part.covers(axis.to_inner(point)))
+        };
+        // What is beneath the vehicle does not count, nor what is beside it as long as it only comes near.
+        [(0.0, 0.0), (self.margin, 2.0 * self.margin)].into_iter().any(|(margin, known)| {
+            self.parts().iter().zip(axes).any(|(part, axis)| {
+                let points = part.widened(margin).points().map(|point| axis.to_outer(point));
+                points.into_iter().any(|point| self.is_hazard(map, point, now, is_backward) && !covers(known, point))
+            })
+        })
+    }
+
+    /// Returns `true` if a point of the map is not free.
+    fn is_hazard(&self, map: &Grid<Occupancy>, point: Point2, now: &Axes, is_backward: bool) -> bool {
+        match map.at(point) {
+            Some(Occupancy::Free) => false,
+            Some(Occupancy::Occupied) => true,
+            _ => is_backward || self.is_in_view(now[0].to_inner(point)),
+        }
+    }
+
+    /// Returns `true` if the camera sees a place in the frame of the tractor.
+    fn is_in_view(&self, place: Point2) -> bool {
+        place.x >= self.near && place.angle().abs() <= 0.5 * self.view_angle
+    }
+}
+
+impl Part {
+    fn widened(self, by: f32) -> Self {
+        Self { half: self.half + by, ..self }
+    }
+
+    fn covers(&self, point: Point2) -> bool {
+        self.from <= point.x && point.x <= self.to && point.y.abs() <= self.half
+    }
+
+    /// Points of the part, about a step apart.
+    fn points(self) -> impl Iterator<Item = Point2> {
+        let [columns, rows] = [self.to - self.from, 2.0 * self.half].map(|size| libm::ceilf(size / STEP).max(1.0));
+        (0..=columns as u16).flat_map(move |i| {
+            let x = self.from + (self.to - self.from) * f32::from(i) / columns;
+            (0..=rows as u16).map(move |k| Point2::new(x, self.half * (2.0 * f32::from(k) / rows - 1.0)))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::Raster;
+    use apex_rt::Construct;
+    use core::f32::consts::FRAC_PI_2;
+
+    fn node() -> SweepStop {
+        SweepStop::construct((0.25, 0.1, 0.55, 0.15, 0.4, 0.05, 0.5, 1.0, 0.4, 1.0, 0.6))
+    }
+
+    /// Floor of 6 m × 6 m about the origin with one cell that is not free.
+    fn floor(place: Point2, cell: Occupancy) -> Grid<Occupancy> {
+        let raster = Raster { corner: Point2::new(-3.0, -3.0), resolution: 0.05, width: 120, height: 120 };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+        *map.get_mut(raster.cell(place).expect("inside")).expect("inside") = cell;
+        map
+    }
+
+    /// Speed that is left of a curve at 1 m/s before a cell that is not free.
+    fn speed(place: (f32, f32), cell: Occupancy, twist: Twist) -> f32 {
+        let map = floor(Point2::new(place.0, place.1), cell);
+        let base = Pose2::default();
+        let trailer = Articulated::PATSY.trailer(&base, 0.0);
+        let limited = node().process(&Ctx::new(Time::ZERO), &twist, Some(&map), &base, &trailer);
+        assert!((limited.omega * twist.x - twist.omega * limited.x).abs() < 1e-5, "the same curve");
+        limited.x
+    }
+
+    #[test]
+    fn obstacles_ahead_and_behind_count_but_not_beside() {
+        let (ahead, back) = (Twist::new(1.0, 0.0, 0.0), Twist::new(-1.0, 0.0, 0.0));
+        let near = speed((0.61, 0.1), Occupancy::Occupied, ahead);
+        assert!((0.4..0.6).contains(&near), "{near}");
+        assert_eq!(speed((0.61, 0.31), Occupancy::Occupied, ahead), 1.0);
+        assert_eq!(speed((0.1, 0.1), Occupancy::Occupied, ahead), 1.0, "beneath the vehicle");
+        assert_eq!(speed((-1.2, 0.1), Occupancy::Occupied, ahead), 1.0);
+        let behind = speed((-1.2, 0.1), Occupancy::Occupied, back);
+        assert!(behind > -0.6 && behind < 0.0, "{behind}");
+    }
+
+    #[test]
+    fn unknown_floor_counts_backward_and_in_view() {
+        let (ahead, back) = (Twist::new(1.0, 0.0, 0.0), Twist::new(-1.0, 0.0, 0.0));
+        assert!(speed((0.7, 0.1), Occupancy::Unknown, ahead) < 0.9);
+        assert_eq!(speed((0.3, 0.2), Occupancy::Unknown, ahead), 1.0);
+        assert!(speed((-1.2, 0.1), Occupancy::Unknown, back) > -0.6);
+    }
+
+    #[test]
+    fn the_trailer_cuts_the_corner() {
+        // Beside the tractor, where only the trailer gets in a curve to the left.
+        let place = (0.3, 0.31);
+        assert_eq!(speed(place, Occupancy::Occupied, Twist::new(1.0, 0.0, 0.0)), 1.0);
+        assert!(speed(place, Occupancy::Occupied, Twist::new(1.0, 0.0, 1.4)) < 0.9);
+    }
+
+    #[test]
+    fn it_stands_without_a_map() {
+        let (mut node, twist) = (node(), Twist::new(0.5, 0.0, 0.1));
+        let (base, trailer) = (Pose2::new(0.0, 0.0, FRAC_PI_2), Pose2::new(0.0, -0.65, FRAC_PI_2));
+        let map = floor(Point2::new(2.9, 2.9), Occupancy::Occupied);
+        let mut at = |ms, map| node.process(&Ctx::new(Time::from_millis(ms)), &twist, map, &base, &trailer);
+        assert_eq!([at(0, None), at(100, Some(&map)), at(600, None)], [Twist::ZERO, twist, twist]);
+        assert_eq!(at(800, None), Twist::ZERO);
+        let nan = Pose2::new(f32::NAN, 0.0, 0.0);
+        assert_eq!(node.process(&Ctx::new(Time::ZERO), &twist, Some(&map), &nan, &trailer), Twist::ZERO);
+    }
+}
