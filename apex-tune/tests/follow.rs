@@ -21,7 +21,7 @@ impl Objective for Valley {
     fn run(&self, values: &[f64], seed: u64) -> Result<Vec<f64>, String> {
         let noise = (seed.wrapping_mul(0x9e37_79b9) % 1000) as f64 / 1000.0;
         let (x, y) = (values[0] - 2.0 - 0.4 * noise, values[1].ln() - 1.0);
-        let cost = if values[0] < -9.0 { f64::NAN } else { 0.1 * noise + x * x + 3.0 * (y - x) * (y - x) };
+        let cost = if values[0] < -5.0 { f64::NAN } else { 0.1 * noise + x * x + 3.0 * (y - x) * (y - x) };
         self.runs.lock().expect("no panic").push((values.to_vec(), seed, cost));
         Ok(vec![cost, values[0] - noise])
     }

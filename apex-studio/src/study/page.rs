@@ -168,7 +168,7 @@ impl Page {
         Self { study, told: None, at: Instant::now() }
     }
 
-    /// What has changed since the last time.
+    /// Changes since the last time, and the state at least once per second.
     pub fn news(&mut self) -> Vec<Told> {
         let reading = self.study.reading();
         let (lines, journal) = reading.follower.state();
