@@ -58,7 +58,9 @@ const tells = {
   errors(error) {
     element("errors").hidden = error === null;
     element("errors").textContent = error ?? "";
-    if (study.state === null && error !== null) state("lost", "the journal cannot be read");
+    if (study.state !== null) return;
+    if (error === null) state("idle", "the journal has no complete line yet");
+    else state("lost", "the journal cannot be read");
   },
   state(told) {
     const grown = told.lines !== study.state?.lines;

@@ -182,8 +182,10 @@ fn a_journal_that_cannot_be_read_is_an_error_until_it_can() {
     page.wait_for(&format!("{error}.includes('No such file')"));
     fs::write(&journal, "<b>of</b> another program\n").expect("a file");
     page.wait_for(&format!("{error}.includes('journal.csv:1: the study of the journal cannot be shown')"));
-    fs::write(&journal, text.as_bytes().iter().map(|byte| byte ^ 0x80).collect::<Vec<_>>()).expect("a file");
-    page.wait_for(&format!("{error}.includes('not a run')"));
+    fs::write(&journal, "\u{fffd}").expect("a file");
+    page.wait_for("document.getElementById('run').textContent === 'the journal has no complete line yet'");
+    fs::write(&journal, b"\xff\xfe\n").expect("a file");
+    page.wait_for(&format!("{error}.includes('journal.csv:1: not a run')"));
     let line = text.match_indices('\n').nth(40).expect("many lines").0 + 1;
     fs::write(&journal, [&text[..line], "0,<img>,1\n", &text[line..]].concat()).expect("a file");
     page.wait_for(&format!("{error}.includes('journal.csv:42: not a run')"));
