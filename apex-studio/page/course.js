@@ -96,7 +96,8 @@ export class Course {
     c.setLineDash([]);
     c.fillStyle = color;
     c.textAlign = "right";
-    c.fillText("defaults", this.canvas.clientWidth - RIGHT - 4, y - 8);
+    // Above the line, or below it if there is no room.
+    c.fillText("defaults", this.canvas.clientWidth - RIGHT - 4, y > TOP + 14 ? y - 8 : y + 9);
     c.textAlign = "left";
   }
 
@@ -109,7 +110,7 @@ export class Course {
     c.textAlign = "left";
     for (const count of marks(0, study.about?.candidates ?? 1, this.canvas.clientWidth / 110)[0]) {
       if (!Number.isInteger(count)) continue;
-      c.fillText(String(count), this.x(count) + 3, height - BOTTOM / 2);
+      if (this.x(count) < this.canvas.clientWidth - 40) c.fillText(String(count), this.x(count) + 3, height - BOTTOM / 2);
       c.globalAlpha = 0.3;
       c.fillRect(this.x(count), TOP, 1, height - BOTTOM - TOP);
       c.globalAlpha = 1;
