@@ -22,7 +22,7 @@ impl Objective for Valley {
         let noise = (seed.wrapping_mul(0x9e37_79b9) % 1000) as f64 / 1000.0;
         let (x, y) = (values[0] - 2.0 - 0.4 * noise, values[1].ln() - 1.0);
         let cost = 0.1 * noise + x * x + 3.0 * (y - x) * (y - x);
-        Ok(vec![if values[0] < -5.0 { f64::NAN } else { cost }])
+        Ok(vec![if values[0] < -5.0 { f64::NAN } else { cost }, values[0] - noise])
     }
 }
 
@@ -54,14 +54,14 @@ fn study() -> Study {
 }
 
 /// The folder of a study for a test, and the whole journal of this study.
-fn folder(name: &str) -> (PathBuf, String) {
+fn folder(name: &str, study: &Study) -> (PathBuf, String) {
     let folder = socket(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("a new folder");
-    let (study, file) = (study(), folder.join("whole"));
+    let file = folder.join("whole");
     let mut journal = Journal::open(&file, &study.description()).expect("a new journal");
     let found = study.run(&Valley, &mut journal, (0, 1), &mut |_| ()).expect("a study");
-    Report::new(&study, found, &Valley, &mut journal).expect("scores").expect("a result");
+    Report::new(study, found, &Valley, &mut journal).expect("scores").expect("a result");
     let text = fs::read_to_string(&file).expect("the journal");
     (folder, text)
 }
@@ -91,7 +91,7 @@ fn mouse(page: &mut Browser, kind: &str, number: usize, x: f64) {
 
 #[test]
 fn a_study_is_followed_while_it_runs() {
-    let (folder, text) = folder("study");
+    let (folder, text) = folder("study", &study());
     let (first, rest) = text.split_at(text.len() / 3);
     append(&folder, first);
     let Some(mut page) = Browser::open(&studio(&folder)) else { return };
@@ -121,7 +121,7 @@ fn a_study_is_followed_while_it_runs() {
 
 #[test]
 fn a_candidate_shows_its_values_and_offers_them_as_a_file() {
-    let (folder, text) = folder("candidate");
+    let (folder, text) = folder("candidate", &study());
     append(&folder, &text);
     let mut follower = Follower::new(folder.join(Journal::FILE));
     while follower.read().expect("a journal") {}
@@ -175,7 +175,7 @@ fn a_candidate_shows_its_values_and_offers_them_as_a_file() {
 
 #[test]
 fn a_journal_that_cannot_be_read_is_an_error_until_it_can() {
-    let (folder, text) = folder("wrong-study");
+    let (folder, text) = folder("wrong-study", &study());
     let Some(mut page) = Browser::open(&studio(&folder)) else { return };
     let error = "document.getElementById('errors').textContent";
     let journal = folder.join(Journal::FILE);
@@ -201,8 +201,44 @@ fn a_journal_that_cannot_be_read_is_an_error_until_it_can() {
 }
 
 #[test]
+fn searches_and_goals_can_be_chosen() {
+    let one = study();
+    let far = Goal { name: "far".to_owned(), unit: "km".to_owned(), maximise: true, ..one.goals[0].clone() };
+    let several = Study { goals: vec![one.goals[0].clone(), far], searches: 3, candidates: 20, ..one };
+    let (folder, text) = folder("several-goals", &several);
+    append(&folder, &text);
+    let Some(mut page) = Browser::open(&studio(&folder)) else { return };
+    page.size(1200, 1900, false);
+    page.wait_for("document.getElementById('progress').textContent === '60 of 60 candidates'");
+    page.wait_for(
+        "/^best .* % against the defaults, defaults .* m<\\/td>$/.test(document.getElementById('value').textContent)",
+    );
+    let choose = |page: &mut Browser, id: &str, number: usize| {
+        page.value(&format!(
+            "{{ const choice = document.getElementById('{id}'); choice.selectedIndex = {number}; choice.dispatchEvent(new Event('change')); }}"
+        ));
+    };
+    let title = "document.querySelector('#candidate h2').textContent";
+    page.wait_for(&format!("/^Candidate .* of search 1, the best$/.test({title})"));
+    choose(&mut page, "search", 2);
+    page.wait_for(&format!("/^Candidate .* of search 3, the best$/.test({title})"));
+    page.wait_for("document.getElementById('scale').textContent.endsWith(' m</td>')");
+    choose(&mut page, "goal", 1);
+    page.wait_for("document.getElementById('scale').textContent.endsWith(' km')");
+    // A goal to be maximised has its greatest values at the good end.
+    let scale = page.value("document.getElementById('scale').textContent");
+    let numbers = page
+        .value("[...document.getElementById('scale').childNodes].map(({ textContent }) => parseFloat(textContent))");
+    assert!(numbers[0].as_f64() > numbers[2].as_f64(), "{scale}: {numbers}");
+    mouse(&mut page, "pointermove", 0, 0.99);
+    page.wait_for("/^candidate 0\\nseed 15: .* km$/.test(document.getElementById('tip').textContent)");
+    assert_eq!(page.complaints, Vec::<String>::new());
+    fs::remove_dir_all(folder).expect("it is still there");
+}
+
+#[test]
 fn the_page_of_a_robot_leads_to_its_studies_and_back() {
-    let (folder, text) = folder("beside");
+    let (folder, text) = folder("beside", &study());
     append(&folder, &text);
     let _robot = start("studied", 3600);
     let robot = Remote { address: socket("studied").display().to_string() };
