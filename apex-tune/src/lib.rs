@@ -3,8 +3,8 @@
 //! A [`Study`] evaluates candidates on the same seeds, in parallel and with the same result on any number of threads.
 //! A candidate that cannot win any more is stopped, which does not change the result either. Every run is written to a
 //! [`Journal`] when it ends: an interrupted study continues from there, and the journals of several machines are
-//! merged. The [`Report`] scores the result on seeds that the study has not seen. A [`Follower`] reads a journal while it
-//! grows, and shows the candidates of the study.
+//! merged. The [`Report`] scores the result on seeds that the study has not seen. A [`Follower`] reads a journal while
+//! it grows, and shows the candidates of the study.
 
 mod course;
 mod description;

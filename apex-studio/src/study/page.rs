@@ -44,8 +44,8 @@ pub enum Told {
 pub enum Asked {
     /// Shows another study, by its number.
     Study(usize),
-    /// Asks for lanes of a search from number `first` on, by number or the best ones first, with at most so many columns
-    /// for the seeds.
+    /// Asks for lanes of a search from number `first` on, by number or the best ones first, with at most so many
+    /// columns for the seeds.
     Lanes { search: u64, first: usize, count: usize, columns: usize, goal: usize, best: bool },
     /// Asks for a candidate.
     Candidate { search: u64, number: usize },
