@@ -204,3 +204,21 @@ fn a_description_is_read_bit_by_bit_and_gives_a_file_with_parameters() {
     assert_eq!(Study::from_description(&study.description()).as_ref(), Ok(&study));
     assert_eq!(study.params(&[0.1 + 0.2, 1e-7]), "[a.b]\nx = 0.30000000000000004\ny = 1e-7\n");
 }
+
+#[test]
+fn a_journal_that_is_too_long_is_shown_in_part() {
+    let (study, folder) = (study(Method::DifferentialEvolution, 1), folder("follow-long"));
+    let file = folder.join("journal");
+    fs::write(&file, study.description() + "\n").expect("a file");
+    let zeros = "0".repeat(1_000_000);
+    (0..80).for_each(|candidate| append(&file, format!("0,{candidate},0,0.{zeros}1\n").as_bytes()));
+    let mut follower = Follower::new(file);
+    let error = loop {
+        match follower.read() {
+            Ok(has_read) => assert!(has_read, "the end was reached"),
+            Err(error) => break error.to_string(),
+        }
+    };
+    assert!(error.contains("the journal is too long: only its first 64 MB are shown"), "{error}");
+    assert_eq!(follower.seen().map_or(0, Seen::runs), 67);
+}
