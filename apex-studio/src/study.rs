@@ -97,6 +97,11 @@ impl Followed {
 }
 
 impl Reading {
+    /// Returns `true` once the file has been looked at.
+    fn has_begun(&self) -> bool {
+        self.changed.is_some() || self.error.is_some() || self.follower.seen().is_some()
+    }
+
     /// Notes the number of runs, unless the last note is young.
     fn count(&mut self) {
         let (now, runs) = (Instant::now(), self.follower.seen().map_or(0, Seen::runs));

@@ -171,6 +171,9 @@ impl Page {
     /// Changes since the last time, and the state at least once per second.
     pub fn news(&mut self) -> Vec<Told> {
         let reading = self.study.reading();
+        if !reading.has_begun() {
+            return vec![];
+        }
         let (lines, journal) = reading.follower.state();
         let is_finished = reading.follower.seen().is_some_and(Seen::is_finished);
         let now = (journal, lines, reading.error.clone(), is_finished);
