@@ -230,6 +230,7 @@ fn searches_and_goals_can_be_chosen() {
     let numbers = page
         .value("[...document.getElementById('scale').childNodes].map(({ textContent }) => parseFloat(textContent))");
     assert!(numbers[0].as_f64() > numbers[2].as_f64(), "{scale}: {numbers}");
+    page.wait_for(&format!("{LANES}.startsWith('0:')"));
     mouse(&mut page, "pointermove", 0, 0.99);
     page.wait_for("/^candidate 0\\nseed 15: .* km$/.test(document.getElementById('tip').textContent)");
     assert_eq!(page.complaints, Vec::<String>::new());
