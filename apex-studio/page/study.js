@@ -1,6 +1,6 @@
 // @ts-check
 // The page of a study: the header, the candidate under the pointer, and the result. The other modules draw.
-import { ask, choose, connect, element, empty, isTyping, listen, make, panel, press, state, tip } from "./page.js";
+import { ask, choose, connect, element, isTyping, listen, make, panel, press, state, tip } from "./page.js";
 import { Candidates } from "./candidates.js";
 import { Course } from "./course.js";
 
@@ -51,7 +51,7 @@ const tells = {
     element("name").title = about.journal;
     const goal = (/** @type {Goal} */ { name, maximise }) => `${maximise ? "maximise" : "minimise"} ${name}`;
     fill("goal", about.goals.map((/** @type {Goal} */ of, /** @type {number} */ at) => [goal(of), at]));
-    element("result").replaceChildren(empty("The study has not ended yet."));
+    element("result").replaceChildren(make("p", "empty", "The study has not ended yet."));
     candidates.begin();
     show();
   },
@@ -105,7 +105,8 @@ function head(told) {
   const isYoung = told.age !== null && told.age < 60;
   if (!element("errors").hidden) state("lost", "the journal has an error");
   else if (told.finished) state("ended", "finished");
-  else state(isYoung ? "running" : "idle", isYoung ? "running" : `no run has ended for ${duration(told.age ?? 0)}`);
+  else if (told.age === null) state("idle", "reading the journal");
+  else state(isYoung ? "running" : "idle", isYoung ? "running" : `no run has ended for ${duration(told.age)}`);
   const ended = told.searches.reduce((sum, { ended }) => sum + ended, 0);
   element("progress").textContent = `${ended} of ${about.candidates * about.searches} candidates`;
   element("left").textContent = told.left === null || !isYoung ? "" : `${duration(told.left)} left`;
@@ -155,7 +156,7 @@ function show() {
   element("copy").hidden = !isKept;
   element("toml").textContent = isKept ? kept?.params ?? "" : "";
   if (lane === null || study.about === null) {
-    place.replaceChildren(empty("There is no complete candidate yet."));
+    place.replaceChildren(make("p", "empty", "There is no complete candidate yet."));
     values.replaceChildren();
     return;
   }
