@@ -275,10 +275,10 @@ enum Command {
     },
     /// Run a robot and open a page on which it can be seen: what is active, fires and fails, values, and parameters.
     #[command(
-        after_help = "Prints the address of the page, which has a secret token. The robot is built again after each change of its source files;\nwhile these have errors, the old one continues. In simulated time (--simulated or --replay) it can be halted and run step\nby step.\n\nExample:\n  apex studio --simulated robot.afg\n  apex studio --replay run.mcap robot.afg\n  apex studio --connect 10.0.0.7:7400 robot.afg\n  apex studio --connect 10.0.0.7:7400 --connect 10.0.0.8:7400"
+        after_help = "Prints the address of the page, which has a secret token. The robot is built again after each change of its source files;\nwhile these have errors, the old one continues. In simulated time (--simulated or --replay) it can be halted and run step\nby step.\n\nExample:\n  apex studio --simulated robot.afg\n  apex studio --replay run.mcap robot.afg\n  apex studio --connect 10.0.0.7:7400 robot.afg\n  apex studio --connect 10.0.0.7:7400 --connect 10.0.0.8:7400\n  apex studio target/apex/tune/Swift"
     )]
     Studio {
-        /// Source file. With --connect, the robot can also be shown without it.
+        /// Source file, or folder of a study of `apex tune`. With --connect, the robot can also be shown without it.
         #[arg(required_unless_present = "connect")]
         file: Option<PathBuf>,
         /// Name of the robot or graph, if the file has several.
@@ -406,9 +406,10 @@ fn main() -> ExitCode {
             let page = studio::Page { listen, read_only, speed };
             match file {
                 Some(file) if connect.is_empty() => {
+                    let is_study = file.is_dir();
                     let launch =
                         studio::Launch { file, robot, replay, simulated, shadow, params, args, how: how.how() };
-                    studio::run(launch, &page)
+                    if is_study { studio::study(&launch, &page) } else { studio::run(launch, &page) }
                 }
                 file => studio::connect(connect, file, &page),
             }

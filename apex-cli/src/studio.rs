@@ -1,18 +1,20 @@
-//! `apex studio`: builds and starts a robot, and opens the page on which it can be seen.
+//! `apex studio`: builds and starts a robot, and opens the page on which it can be seen; or opens the page of a study.
 
 mod launched;
 
 use crate::{
     build::How,
     project::{self, print_error},
-    replace,
+    replace, run, tune,
 };
 use apex_diagram::{Item, diagram};
 use apex_dsl::{
     fix::applied,
     ide::{ArgumentPlace, set_argument},
 };
-use apex_studio::{Addresses, ParamChange, Recorded, Remote, Replayed, Robot, Seat, Shadow, Source, Studio};
+use apex_host::Workspace;
+use apex_studio::{Addresses, ParamChange, Recorded, Remote, Replayed, Robot, Seat, Shadow, Source, Studio, Study};
+use apex_tune::Journal;
 use launched::Launched;
 use std::{
     fs,
@@ -51,6 +53,7 @@ pub fn speed(text: &str) -> Result<f64, String> {
 
 /// Runs the robot and serves its page until Ctrl-C.
 pub fn run(launch: Launch, page: &Page) -> Result<ExitCode, String> {
+    let studies = studies(&launch.file);
     let (file, replay) = (Some(launch.file.clone()), launch.replay.clone());
     let text = Arc::new(Text { file, replay, has_params: launch.params.is_some(), errors: Mutex::default() });
     let name = launch.file.display().to_string();
@@ -64,7 +67,43 @@ pub fn run(launch: Launch, page: &Page) -> Result<ExitCode, String> {
         let robot: Box<dyn Robot> = Box::new(Shadow::new(recorded));
         robots.push(Seat { name: "shadow".to_owned(), robot, source: text, shadow_of: Some(0) });
     }
-    page.serve(robots, Some(page.speed)).map(|()| ExitCode::SUCCESS)
+    page.serve(robots, studies, Some(page.speed)).map(|()| ExitCode::SUCCESS)
+}
+
+/// Serves a page of the study in a folder until Ctrl-C.
+pub fn study(launch: &Launch, page: &Page) -> Result<ExitCode, String> {
+    let Launch { file: folder, robot, replay, simulated, shadow, params, args, .. } = launch;
+    let of_robots = [
+        ("--robot", robot.is_some()),
+        ("--replay", replay.is_some()),
+        ("--simulated", *simulated),
+        ("--shadow", *shadow),
+        ("--params", params.is_some()),
+        ("--", !args.is_empty()),
+    ];
+    if let Some((option, _)) = of_robots.iter().find(|(_, is_given)| *is_given) {
+        return Err(format!("`{option}` is for robots, and `{}` is the folder of a study", folder.display()));
+    }
+    if !folder.join(Journal::FILE).is_file() {
+        return Err(format!(
+            "`{}` is a folder without the journal of a study (`{}`): write the folder in which `apex tune` writes, or a source file",
+            folder.display(),
+            Journal::FILE
+        ));
+    }
+    let study = Study { name: folder.display().to_string(), folder: folder.to_owned() };
+    page.serve(vec![], vec![study], None).map(|()| ExitCode::SUCCESS)
+}
+
+/// Studies of the `tune` items of a source file, in the folders in which `apex tune` writes them.
+fn studies(file: &Path) -> Vec<Study> {
+    let workspace = run::package(file).and_then(|folder| Workspace::load(&folder));
+    let (Ok(workspace), Ok(checked)) = (workspace, project::check(file)) else { return vec![] };
+    let scripts = checked.programs.iter().filter_map(|program| program.script.as_ref());
+    let named = scripts
+        .filter(|script| script.study.is_some())
+        .map(|script| Study { name: script.name.clone(), folder: tune::default_folder(&workspace, &script.name) });
+    named.filter(|study| study.folder.join(Journal::FILE).is_file()).collect()
 }
 
 /// Serves a page of robots that run already until Ctrl-C. `file` has their text.
@@ -76,7 +115,8 @@ pub fn connect(addresses: Vec<String>, file: Option<PathBuf>, page: &Page) -> Re
         let text = Text { file: file.clone(), replay: None, has_params: false, errors: Mutex::default() };
         Seat { name: address.clone(), robot: Box::new(Remote { address }), source: Arc::new(text), shadow_of: None }
     };
-    page.serve(addresses.into_iter().map(seat).collect(), None).map(|()| ExitCode::SUCCESS)
+    let studies = file.as_deref().map(studies).unwrap_or_default();
+    page.serve(addresses.into_iter().map(seat).collect(), studies, None).map(|()| ExitCode::SUCCESS)
 }
 
 /// Shows a robot in the terminal.
@@ -89,10 +129,12 @@ pub fn top(address: String) -> Result<ExitCode, String> {
 }
 
 impl Page {
-    fn serve(&self, robots: Vec<Seat>, speed: Option<f64>) -> Result<(), String> {
-        let studio = Studio { robots, address: self.listen, readonly: self.read_only, speed };
+    fn serve(&self, robots: Vec<Seat>, studies: Vec<Study>, speed: Option<f64>) -> Result<(), String> {
+        let has_robot = !robots.is_empty();
+        let studio = Studio { robots, studies, address: self.listen, readonly: self.read_only, speed };
         let opened = |Addresses { page, foxglove }: &Addresses| {
-            print_error(&format!("studio: {page}\nFoxglove: {foxglove}\nCtrl-C ends it"));
+            let foxglove = if has_robot { format!("Foxglove: {foxglove}\n") } else { String::new() };
+            print_error(&format!("studio: {page}\n{foxglove}Ctrl-C ends it"));
         };
         studio.serve(opened).map_err(|error| {
             format!("cannot open the page at {}: {error}; choose another address with `--listen`", self.listen)

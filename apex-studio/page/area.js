@@ -1,6 +1,6 @@
 // @ts-check
 // A plain editing area over coloured text: a text field without colour above what it says in colours.
-import { ask, tip } from "./studio.js";
+import { ask, tip } from "./page.js";
 
 /** @typedef {{from: [number, number], to: [number, number], is_error: boolean, text: string, concerns: {within: string, names: string[], connects: boolean}[]}} Found */
 /** @typedef {{label: string, detail: string, docs: string, from: [number, number], to: [number, number], text: string, import: [number, string] | null}} Completion */

@@ -1,6 +1,7 @@
 // @ts-check
 // An interval of the timeline that becomes a test.
-import { ask, element, robot, shown } from "./studio.js";
+import { ask, element } from "./page.js";
+import { robot, shown } from "./studio.js";
 
 export class Moment {
   /** @param {import("./timeline.js").Timeline} timeline */

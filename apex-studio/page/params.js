@@ -1,6 +1,7 @@
 // @ts-check
 // The parameters of the robot: sliders where a range is known.
-import { ask, empty, robot } from "./studio.js";
+import { ask, empty, make } from "./page.js";
+import { robot } from "./studio.js";
 
 /** @typedef {{initial: string, value: string, error: string | null, fixed: boolean}} Param */
 
@@ -51,12 +52,6 @@ export class Params {
 
   /** @param {import("./studio.js").ParamInfo} info */
   row(info) {
-    const make = (/** @type {string} */ kind, /** @type {string} */ name, words = "") => {
-      const made = document.createElement(kind);
-      made.className = name;
-      made.textContent = words;
-      return made;
-    };
     const row = make("div", "param");
     row.dataset.param = info.name;
     const [line, error] = [make("div", "row"), make("div", "error")];

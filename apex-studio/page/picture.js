@@ -1,6 +1,7 @@
 // @ts-check
 // The picture of the robot: the SVG of `apex graph`, alive.
-import { ask, robot, select, tip } from "./studio.js";
+import { ask, tip } from "./page.js";
+import { robot, select } from "./studio.js";
 
 /** @typedef {{within: string, names: string[], connects: boolean, text: string}} Concern */
 

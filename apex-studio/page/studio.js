@@ -1,5 +1,6 @@
 // @ts-check
 // The page of `apex studio`: the connection, the header and the lists. The other modules draw.
+import { ask, choose, connect, element, empty, isTyping, listen, panel, press, state, tip } from "./page.js";
 import { Picture } from "./picture.js";
 import { Timeline } from "./timeline.js";
 import { Params } from "./params.js";
@@ -14,9 +15,6 @@ import { Moment } from "./moment.js";
 /** @typedef {{name: string, ty: string, unit: string | null, min: number | null, max: number | null}} ParamInfo */
 /** @typedef {{name: string, docs: string, files: string[], simulated: boolean, nodes: AboutNode[], connections: Connection[], groups: string[], claims: string[], channels: Channel[], params: ParamInfo[]}} About */
 /** @typedef {{active: boolean, fired: number, last: number, problems: number, since: number, fresh: boolean, rate: number}} NodeState */
-
-/** @param {string} id @returns {any} */
-export const element = (id) => document.getElementById(id);
 
 /** What all modules see. */
 export const robot = {
@@ -33,14 +31,6 @@ export const robot = {
   /** @type {string | null} */ selected: null,
 };
 
-/** @type {WebSocket | null} */
-let socket = null;
-
-/** Sends a message to the studio. @param {any} message */
-export function ask(message) {
-  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
-}
-
 /** Selects a node or a nested graph by its full name, everywhere. @param {string | null} name @param {string} [by] */
 export function select(name, by) {
   robot.selected = name;
@@ -52,17 +42,6 @@ export function select(name, by) {
 
 /** @param {number} time */
 export const shown = (time) => `${time.toFixed(3)} s`;
-
-/** Shows a tip near the pointer. @param {string | null} words @param {MouseEvent} [at] */
-export function tip(words, at) {
-  const tip = element("tip");
-  tip.hidden = !words;
-  if (!words || !at) return;
-  tip.textContent = words;
-  const { width, height } = tip.getBoundingClientRect();
-  tip.style.left = `${Math.max(0, Math.min(at.clientX + 14, innerWidth - width - 8))}px`;
-  tip.style.top = `${Math.max(0, Math.min(at.clientY + 14, innerHeight - height - 8))}px`;
-}
 
 const picture = new Picture(element("picture"));
 const timeline = new Timeline(element("timeline"));
@@ -133,12 +112,7 @@ const tells = {
   tokens(all) { values.update(all); },
   beside(all) { values.updateBeside(all); },
   lanes(lanes) { timeline.show(lanes); },
-  robots({ names, shown }) {
-    const choice = element("robot");
-    choice.hidden = names.length < 2;
-    choice.replaceChildren(...names.map((/** @type {string} */ name, /** @type {number} */ at) => new Option(name, String(at))));
-    choice.value = String(shown);
-  },
+  robots({ names, shown, studies }) { choose(names, studies, String(shown)); },
   runs({ earlier, last, shown: run }) {
     const choice = element("earlier");
     choice.hidden = earlier.length === 0;
@@ -146,9 +120,7 @@ const tells = {
     choice.replaceChildren(...earlier.map((/** @type {[number, number]} */ run) => new Option(name(run), String(run[0]))), new Option(`run ${last}`, String(last)));
     choice.value = String(run);
   },
-  refused() { refused = true; state("lost", "wrong token: open the address that `apex studio` has printed"); },
 };
-let refused = false;
 
 /** Forgets everything that the robot has done. */
 function forget() {
@@ -167,12 +139,6 @@ function forget() {
 function centre(of) {
   const { left, bottom } = of.getBoundingClientRect();
   return { clientX: left, clientY: bottom };
-}
-
-/** @param {string} kind @param {string} words */
-function state(kind, words) {
-  element("run").className = kind;
-  element("run").textContent = words;
 }
 
 /** @param {any} told */
@@ -255,14 +221,6 @@ function showSince() {
   }
 }
 
-/** @param {string} words */
-export function empty(words) {
-  const item = document.createElement("li");
-  item.className = "empty";
-  item.textContent = words;
-  return item;
-}
-
 /** @param {number} count @param {{at: number, node: number | null, text: string}[]} all */
 function showProblems(count, all) {
   const list = element("problems");
@@ -301,26 +259,6 @@ function look(at) {
   if (robot.times !== null) ask({ measure: true });
 }
 
-/** Connects to the studio, again and again. */
-function open() {
-  const token = location.hash.slice(1) || sessionStorage.getItem("token") || "";
-  sessionStorage.setItem("token", token);
-  socket = new WebSocket(`ws://${location.host}/live`);
-  socket.addEventListener("open", () => {
-    socket?.send(token);
-    ask({ measure: robot.times !== null });
-    values.watch();
-  });
-  socket.addEventListener("message", ({ data }) => {
-    for (const [kind, told] of Object.entries(JSON.parse(data))) tells[kind]?.(told);
-  });
-  socket.addEventListener("close", () => {
-    if (refused) return;
-    state("lost", "no connection to `apex studio`; trying again");
-    setTimeout(open, 1000);
-  });
-}
-
 /** Shows the share of each node in the computing time, or no longer. */
 function heat() {
   robot.times = robot.times ? null : new Map();
@@ -339,7 +277,11 @@ element("back").addEventListener("click", () => ask("back"));
 element("goto").addEventListener("click", () => timeline.go());
 element("break").addEventListener("change", () => ask({ break: element("break").value }));
 element("restart").addEventListener("click", () => ask("restart"));
-element("robot").addEventListener("change", () => look(Number(element("robot").value)));
+element("robot").addEventListener("change", () => {
+  const chosen = element("robot").value;
+  if (chosen.startsWith("study")) location.assign(`${chosen}${location.hash}`);
+  else look(Number(chosen));
+});
 element("earlier").addEventListener("change", () => {
   ask({ look: Number(element("earlier").value) });
   element("earlier").blur();
@@ -352,31 +294,14 @@ element("speed").addEventListener("change", () => {
 
 /** Shows one of the panels. @param {string} name */
 export function show(name) {
-  for (const tab of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-tab]"))) {
-    tab.setAttribute("aria-selected", String(tab.dataset.tab === name));
-    // One of them is reached by Tab, the others from there by the arrow keys.
-    tab.tabIndex = tab.dataset.tab === name ? 0 : -1;
-  }
-  for (const panel of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-panel]"))) {
-    panel.hidden = panel.dataset.panel !== name;
-  }
+  panel(name);
   if (name === "text") text.show();
 }
 for (const tab of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-tab]"))) {
   tab.addEventListener("click", () => (tab.dataset.tab === "why" ? why.ask() : show(tab.dataset.tab ?? "")));
 }
 
-const tabs = /** @type {HTMLElement[]} */ ([...document.querySelectorAll("[data-tab]")]);
-element("active").closest("aside").querySelector("nav").addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
-  const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-  const at = tabs.indexOf(/** @type {HTMLElement} */ (event.target));
-  if (step === undefined || at < 0) return;
-  const next = tabs[(at + step + tabs.length) % tabs.length];
-  next.click();
-  next.focus();
-});
-element("help").addEventListener("click", () => element("keys").showModal());
-element("keys").addEventListener("click", () => element("keys").close());
+const tabs = listen();
 
 document.addEventListener("keydown", (event) => {
   const target = /** @type {HTMLElement} */ (event.target);
@@ -391,10 +316,7 @@ document.addEventListener("keydown", (event) => {
     text.next();
     return;
   }
-  if (target.matches("input, select, textarea") || event.ctrlKey || event.metaKey || event.altKey) {
-    if (event.key === "Escape") target.blur();
-    return;
-  }
+  if (isTyping(event)) return;
   /** @type {Record<string, () => void>} */
   const keys = {
     " ": pause,
@@ -412,16 +334,11 @@ document.addEventListener("keydown", (event) => {
     0: () => picture.fit(),
     "?": () => element("keys").showModal(),
   };
-  tabs.forEach((tab, at) => { keys[String(at + 1)] = () => tab.click(); });
-  if (element("keys").open) return;
-  if (target.matches("button") && event.key === " ") return;
-  const act = keys[event.key];
-  if (act) {
-    event.preventDefault();
-    act();
-  }
+  press(event, keys, tabs);
 });
 
 show("active");
-addEventListener("hashchange", () => location.reload());
-open();
+connect("live", tells, () => {
+  ask({ measure: robot.times !== null });
+  values.watch();
+});

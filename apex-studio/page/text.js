@@ -1,7 +1,8 @@
 // @ts-check
 // The source files: their texts, which node each line belongs to, and what is saved.
 import { Area } from "./area.js";
-import { ask, element, robot, select } from "./studio.js";
+import { ask, element } from "./page.js";
+import { robot, select } from "./studio.js";
 
 /** @typedef {{text: string, disk: string, built: string, version: number, pieces: [number, number][], found: import("./area.js").Found[], asked: boolean, saving?: string}} File */
 

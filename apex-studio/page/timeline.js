@@ -1,6 +1,7 @@
 // @ts-check
 // The timeline: a lane for each node that was active, failed, or is looked for.
-import { ask, element, robot, select, shown, tip } from "./studio.js";
+import { ask, cleared, colors, element, marks, tip } from "./page.js";
+import { robot, select, shown } from "./studio.js";
 
 const HEIGHT = 18;
 const LABELS = 170;
@@ -91,16 +92,13 @@ export class Timeline {
 
   draw() {
     const { canvas } = this;
-    const colors = this.colors();
-    const color = (/** @type {string} */ name) => colors.get(name) ?? "";
+    const color = colors();
     const lanes = this.filtered();
-    const [width, height] = this.resize(lanes.length);
-    const c = canvas.getContext("2d");
+    const [width, height] = [canvas.clientWidth, Math.max(AXIS + HEIGHT, this.place.clientHeight)];
+    const c = cleared(canvas, width, height);
+    const below = `${Math.max(0, AXIS + lanes.length * HEIGHT - height)}px`;
+    if (this.below.style.height !== below) this.below.style.height = below;
     if (!c) return;
-    c.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-    c.clearRect(0, 0, width, height);
-    c.font = "12px system-ui, sans-serif";
-    c.textBaseline = "middle";
     canvas.dataset.lanes = lanes.map(({ node }) => robot.about?.nodes[node].name).join(" ");
     c.save();
     c.beginPath();
@@ -131,38 +129,11 @@ export class Timeline {
     element("window").textContent = `${shown(Math.max(0, this.end - this.span))} – ${shown(this.end)}`;
   }
 
-  /** The colours of the page. */
-  colors() {
-    const style = getComputedStyle(document.documentElement);
-    const names = ["--ink", "--soft", "--active", "--fire", "--bad", "--accent"];
-    return new Map(names.map((name) => [name, style.getPropertyValue(name)]));
-  }
-
-  /** Gives the canvas the size of what is in view. @param {number} count number of lanes @returns {[number, number]} */
-  resize(count) {
-    const { canvas, place } = this;
-    const [width, height] = [canvas.clientWidth, Math.max(AXIS + HEIGHT, place.clientHeight)];
-    const [w, h] = [Math.round(width * devicePixelRatio), Math.round(height * devicePixelRatio)];
-    // A new size costs a new canvas, also if it is the same one.
-    if (canvas.width !== w || canvas.height !== h) {
-      canvas.width = w;
-      canvas.height = h;
-      canvas.style.height = `${height}px`;
-    }
-    const below = `${Math.max(0, AXIS + count * HEIGHT - height)}px`;
-    if (this.below.style.height !== below) this.below.style.height = below;
-    return [width, height];
-  }
-
   /** @param {CanvasRenderingContext2D} c @param {(name: string) => string} color @param {number} height */
   axis(c, color, height) {
-    const rough = this.span / Math.max(2, this.width() / 110);
-    const power = 10 ** Math.floor(Math.log10(rough));
-    const step = [1, 2, 5, 10].map((f) => f * power).find((s) => s >= rough) ?? power;
-    const digits = Math.max(0, -Math.floor(Math.log10(step)));
+    const [times, digits] = marks(Math.max(0, this.end - this.span), this.end, Math.max(2, this.width() / 110));
     c.fillStyle = color("--soft");
-    for (let t = Math.ceil((this.end - this.span) / step) * step; t <= this.end; t += step) {
-      if (t < -step / 2) continue;
+    for (const t of times) {
       c.fillText(`${t.toFixed(digits)} s`, this.x(t) + 3, AXIS / 2);
       c.globalAlpha = 0.3;
       c.fillRect(this.x(t), 0, 1, height);

@@ -1,7 +1,8 @@
 // @ts-check
 // Tokens of ports: numbers as plots, what has a place in the plane, images, all else as text.
 import { World, drawImage, hasPlace, isPose, read } from "./world.js";
-import { ask, empty, robot } from "./studio.js";
+import { ask, empty } from "./page.js";
+import { robot } from "./studio.js";
 
 const MAX = 4000;
 

@@ -1,6 +1,7 @@
 // @ts-check
 // Why a node is active and fired, or why not: asked for the selected node, at the cursor of the timeline or now.
-import { ask, empty, robot, show } from "./studio.js";
+import { ask, empty } from "./page.js";
+import { robot, show } from "./studio.js";
 
 /** @typedef {{depth: number, text: string, node: number, at: number}} Line */
 

@@ -1,4 +1,4 @@
-//! `apex studio`: a page on which one sees a robot think.
+//! `apex studio`: a page on which one sees a robot think, and one of a study that searches its parameters.
 //!
 //! The robot streams what it does ([`apex_rt::studio`]). This program connects to it, keeps the history, and serves the
 //! page to browsers on this machine. It holds no state that a robot needs: it may come and go.
@@ -23,6 +23,7 @@ mod session;
 mod shadow;
 mod steps;
 mod store;
+mod study;
 mod tokens;
 mod top;
 mod waits;
@@ -30,6 +31,7 @@ mod why;
 
 pub use robot::{Remote, Robot};
 pub use shadow::{Recorded, Shadow};
+pub use study::Study;
 pub use top::top;
 
 use apex_diagram::Item;
@@ -37,6 +39,7 @@ use robot::{Shared, follow};
 use server::{Served, Serving};
 use session::Beside;
 use std::{fmt::Write as _, io, net::SocketAddr, path::PathBuf, sync::Arc, thread};
+use study::Followed;
 use tokio::net::TcpListener;
 
 /// The source of a robot.
@@ -116,6 +119,8 @@ pub struct ParamChange<'a> {
 pub struct Studio {
     /// The robots, of which a page shows one at a time.
     pub robots: Vec<Seat>,
+    /// Studies of `apex tune`, each with a page of its own. Without robots, the first page is that of a study.
+    pub studies: Vec<Study>,
     /// Address of the page.
     pub address: SocketAddr,
     /// `true` if the page may only look.
@@ -180,8 +185,13 @@ impl Studio {
                 robots.push(Served { name, shared, source, travels, beside });
             }
             let robots: Arc<[Served]> = robots.into();
-            let serving =
-                Serving { robots: Arc::clone(&robots), token: token.into(), address, readonly: self.readonly };
+            let serving = Serving {
+                robots: Arc::clone(&robots),
+                studies: self.studies.into_iter().map(|study| Arc::new(Followed::new(study))).collect(),
+                token: token.into(),
+                address,
+                readonly: self.readonly,
+            };
             let served = server::serve(serving, listener, stopped()).await;
             robots.iter().for_each(|robot| robot.shared.end());
             for thread in threads {

@@ -1,9 +1,10 @@
-//! The web server: a page, and a socket for what it asks and is told.
+//! The web server: pages, and sockets for what they ask and are told.
 
 use crate::{
     Source, foxglove,
     robot::Shared,
     session::{Asked, Beside, Session, Told},
+    study::{self, Followed},
 };
 use axum::{
     Router,
@@ -15,6 +16,7 @@ use axum::{
     response::{IntoResponse, Response},
     routing::get,
 };
+use serde::Serialize;
 use std::{io, net::SocketAddr, sync::Arc, time::Duration};
 use tokio::{net::TcpListener, time};
 
@@ -32,6 +34,7 @@ const POLICY: &str = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-
 #[derive(Clone)]
 pub struct Serving {
     pub robots: Arc<[Served]>,
+    pub studies: Arc<[Arc<Followed>]>,
     pub token: Arc<str>,
     pub address: SocketAddr,
     pub readonly: bool,
@@ -56,8 +59,11 @@ pub async fn serve(
 ) -> io::Result<()> {
     let router =
         FILES.iter().fold(Router::new(), |router, file| router.route(file.path, get(|| async { file.response() })));
+    let first = if serving.robots.is_empty() { &STUDY } else { &ROBOT };
     let router = router
+        .route("/", get(|| async { first.response() }))
         .route("/live", get(live))
+        .route("/follow", get(follow))
         .route(
             "/foxglove/{token}",
             get(|serving, headers, Path(token), upgrade| app(serving, headers, token, 0, upgrade)),
@@ -80,9 +86,23 @@ struct File {
     text: &'static str,
 }
 
-const FILES: [File; 13] = [
-    File { path: "/", kind: "text/html; charset=utf-8", text: include_str!("../page/index.html") },
+/// The page of a robot.
+const ROBOT: File = File { path: "/robot", kind: "text/html; charset=utf-8", text: include_str!("../page/index.html") };
+/// The page of a study.
+const STUDY: File = File { path: "/study", kind: "text/html; charset=utf-8", text: include_str!("../page/study.html") };
+
+const FILES: [File; 18] = [
+    ROBOT,
+    STUDY,
     File { path: "/studio.css", kind: "text/css; charset=utf-8", text: include_str!("../page/studio.css") },
+    File { path: "/page.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/page.js") },
+    File { path: "/study.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/study.js") },
+    File {
+        path: "/candidates.js",
+        kind: "text/javascript; charset=utf-8",
+        text: include_str!("../page/candidates.js"),
+    },
+    File { path: "/course.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/course.js") },
     File { path: "/why.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/why.js") },
     File { path: "/moment.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/moment.js") },
     File { path: "/studio.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/studio.js") },
@@ -113,6 +133,14 @@ async fn live(State(serving): State<Serving>, headers: HeaderMap, upgrade: WebSo
         return (StatusCode::FORBIDDEN, why).into_response();
     }
     upgrade.max_message_size(MAX_MESSAGE).on_upgrade(|socket| talk(serving, socket))
+}
+
+/// Serves the page of a study.
+async fn follow(State(serving): State<Serving>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
+    if let Err(why) = serving.admits(&headers) {
+        return (StatusCode::FORBIDDEN, why).into_response();
+    }
+    upgrade.max_message_size(MAX_MESSAGE).on_upgrade(|socket| talk_of_study(serving, socket))
 }
 
 /// Serves an app of Foxglove. It comes from another site, or from none, and has the token in its address.
@@ -177,23 +205,91 @@ impl Serving {
     }
 
     /// The names of all robots. Two of the same kind differ by their addresses.
-    fn names(&self, shown: usize) -> Told {
+    fn robots(&self) -> Vec<String> {
         let name = |robot: &Served| {
             let about = robot.shared.live().about.clone();
             about.map_or_else(|| robot.name.clone(), |about| format!("{} ({})", about.name, robot.name))
         };
-        Told::Robots { names: self.robots.iter().map(name).collect(), shown }
+        self.robots.iter().map(name).collect()
+    }
+
+    /// The names of all studies.
+    fn studies(&self) -> Vec<String> {
+        self.studies.iter().map(|study| study.name.clone()).collect()
+    }
+
+    /// The choice at the top of the page of a robot.
+    fn names(&self, shown: usize) -> Told {
+        Told::Robots { names: self.robots(), shown, studies: self.studies() }
+    }
+
+    /// Page of one of the studies, and the choice at its top.
+    fn study(&self, shown: usize) -> Option<(study::Page, study::Told)> {
+        let page = study::Page::new(Arc::clone(self.studies.get(shown)?));
+        Some((page, study::Told::Studies { names: self.studies(), shown, robots: self.robots() }))
     }
 }
 
-/// Talks to a page until it leaves.
-async fn talk(serving: Serving, mut socket: WebSocket) {
+/// Takes the token with which a page begins. Returns `false` if it is wrong.
+async fn has_token(serving: &Serving, socket: &mut WebSocket) -> bool {
     let token = time::timeout(PATIENCE, socket.recv()).await;
     let is_right =
         matches!(&token, Ok(Some(Ok(Message::Text(text)))) if is_same(text.as_bytes(), serving.token.as_bytes()));
     if !is_right {
         // The page says what to do.
         let _ = socket.send(Message::Text("{\"refused\":null}".into())).await;
+    }
+    is_right
+}
+
+/// Interval at which a page gets news.
+fn ticks() -> time::Interval {
+    let mut tick = time::interval(TICK);
+    // A page that was slow gets the newest state, not all that it missed.
+    tick.set_missed_tick_behavior(time::MissedTickBehavior::Skip);
+    tick
+}
+
+/// Talks to the page of a study until it leaves.
+async fn talk_of_study(serving: Serving, mut socket: WebSocket) {
+    if !has_token(&serving, &mut socket).await {
+        return;
+    }
+    let Some((mut page, names)) = serving.study(0) else { return };
+    if !send(&mut socket, &names).await {
+        return;
+    }
+    let mut tick = ticks();
+    loop {
+        let told = tokio::select! {
+            _ = tick.tick() => page.news(),
+            message = socket.recv() => match message {
+                Some(Ok(Message::Text(text))) => match serde_json::from_str::<study::Asked>(&text) {
+                    Ok(study::Asked::Study(number)) => match serving.study(number) {
+                        Some((other, names)) => {
+                            page = other;
+                            vec![names]
+                        }
+                        None => vec![],
+                    },
+                    Ok(asked) => page.answer(&asked).into_iter().collect(),
+                    Err(_) => vec![],
+                },
+                Some(Ok(Message::Close(_)) | Err(_)) | None => return,
+                Some(Ok(_)) => vec![],
+            },
+        };
+        for told in told {
+            if !send(&mut socket, &told).await {
+                return;
+            }
+        }
+    }
+}
+
+/// Talks to the page of a robot until it leaves.
+async fn talk(serving: Serving, mut socket: WebSocket) {
+    if !has_token(&serving, &mut socket).await {
         return;
     }
     let mut shown = 0;
@@ -201,9 +297,7 @@ async fn talk(serving: Serving, mut socket: WebSocket) {
     if !send(&mut socket, &serving.names(shown)).await {
         return;
     }
-    let mut tick = time::interval(TICK);
-    // A page that was slow gets the newest state, not all that it missed.
-    tick.set_missed_tick_behavior(time::MissedTickBehavior::Skip);
+    let mut tick = ticks();
     loop {
         let told = tokio::select! {
             _ = tick.tick() => session.news(),
@@ -232,7 +326,7 @@ async fn talk(serving: Serving, mut socket: WebSocket) {
 }
 
 /// Sends a message. Returns `false` if the page is gone.
-async fn send(socket: &mut WebSocket, told: &Told) -> bool {
+async fn send(socket: &mut WebSocket, told: &impl Serialize) -> bool {
     let Ok(text) = serde_json::to_string(told) else { return false };
     matches!(time::timeout(PATIENCE, socket.send(Message::Text(text.into()))).await, Ok(Ok(())))
 }

@@ -24,8 +24,8 @@ use std::{
 #[derive(Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Told {
-    /// Names of all robots, and which of them is shown.
-    Robots { names: Vec<String>, shown: usize },
+    /// Names of all robots, which of them is shown, and names of the studies beside them.
+    Robots { names: Vec<String>, shown: usize, studies: Vec<String> },
     /// Numbers and last times in s of the earlier runs of the robot that can be looked at, the number of this one, and
     /// of the one that is shown.
     Runs { earlier: Vec<(u64, f64)>, last: u64, shown: u64 },

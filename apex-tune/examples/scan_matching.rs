@@ -74,6 +74,8 @@ fn parameters() -> Vec<Parameter> {
         unit: unit.to_owned(),
         axis: Axis::new(range[0], range[1], scale, integer).expect("a range"),
         default,
+        targets: vec![],
+        single: true,
     };
     vec![
         parameter("travel", "m", [0.1, 0.6], log, false, d.travel),
@@ -129,6 +131,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let whole = intel(&arguments.folder);
     let (matching, split) = Matching::new(&whole, arguments.length);
     let study = Study {
+        name: "scan matching".to_owned(),
+        objective: 0,
         parameters: parameters(),
         method: Method::DifferentialEvolution,
         goals: vec![Goal {

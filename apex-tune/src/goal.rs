@@ -1,7 +1,8 @@
-use crate::Summary;
+use crate::{Summary, description};
+use serde::{Deserialize, Serialize};
 
 /// Value that a run shall make small or great.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
     /// Name in the report.
     pub name: String,
@@ -12,6 +13,7 @@ pub struct Goal {
     /// Value of a candidate from the values of its runs; the costs of a goal to be maximised are the negative values.
     pub summary: Summary,
     /// Least cost that a run can have; negative infinity if there is none. A run with less has failed.
+    #[serde(with = "description::bound")]
     pub least: f64,
 }
 
@@ -23,7 +25,7 @@ impl Goal {
     }
 
     /// Value of a cost.
-    pub(crate) fn value(&self, cost: f64) -> f64 {
+    pub fn value(&self, cost: f64) -> f64 {
         if self.maximise { -cost } else { cost }
     }
 }

@@ -34,6 +34,10 @@ pub enum JournalError {
     OtherStudy(PathBuf),
     /// Line that is not a run, by number.
     BadLine(PathBuf, usize),
+    /// First line that does not describe a study, and the reason.
+    BadStudy(PathBuf, String),
+    /// File that is longer than this number of bytes; only its beginning is read.
+    TooLong(PathBuf, u64),
 }
 
 impl fmt::Display for JournalError {
@@ -46,6 +50,13 @@ impl fmt::Display for JournalError {
             Self::BadLine(path, line) => {
                 write!(f, "{}:{line}: not a run: expected `search,candidate,seed,value`", path.display())
             }
+            Self::BadStudy(path, reason) => {
+                write!(f, "{}:1: the study of the journal cannot be shown: {reason}", path.display())
+            }
+            Self::TooLong(path, limit) => {
+                let limit = limit >> 20;
+                write!(f, "{}: the journal is too long: only its first {limit} MB are shown", path.display())
+            }
         }
     }
 }
@@ -53,6 +64,9 @@ impl fmt::Display for JournalError {
 impl std::error::Error for JournalError {}
 
 impl Journal {
+    /// Name of the file in the folder of a study.
+    pub const FILE: &str = "journal.csv";
+
     /// Journal without a file.
     pub fn in_memory() -> Self {
         Self { values: HashMap::new(), file: None }
@@ -111,8 +125,13 @@ impl Journal {
             line.push('\n');
             file.write_all(line.as_bytes()).map_err(|error| JournalError::File(path.clone(), error))?;
         }
-        self.values.insert(run, values);
+        self.insert(run, values);
         Ok(())
+    }
+
+    /// Adds a run that is in the file already. Returns `false` if the run was known.
+    pub(crate) fn insert(&mut self, run: Run, values: Vec<f64>) -> bool {
+        self.values.insert(run, values).is_none()
     }
 }
 
@@ -121,13 +140,15 @@ fn parse(path: &Path, text: &str, description: &str) -> Result<HashMap<Run, Vec<
     if lines.next().is_some_and(|first| first != description) {
         return Err(JournalError::OtherStudy(path.to_owned()));
     }
-    let run = |line: &str| {
-        let mut words = line.split(',');
-        let mut number = || words.next()?.parse().ok();
-        let run = Run { search: number()?, candidate: number()?, seed: number()? };
-        let values: Vec<f64> = words.map(|word| word.parse().ok()).collect::<Option<_>>()?;
-        (!values.is_empty()).then_some((run, values))
-    };
     let number = |(i, line)| run(line).ok_or_else(|| JournalError::BadLine(path.to_owned(), i + 2));
     lines.enumerate().map(number).collect()
+}
+
+/// Reads a line with a run.
+pub(crate) fn run(line: &str) -> Option<(Run, Vec<f64>)> {
+    let mut words = line.split(',');
+    let mut number = || words.next()?.parse().ok();
+    let run = Run { search: number()?, candidate: number()?, seed: number()? };
+    let values: Vec<f64> = words.map(|word| word.parse().ok()).collect::<Option<_>>()?;
+    (!values.is_empty()).then_some((run, values))
 }

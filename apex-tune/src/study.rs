@@ -1,10 +1,11 @@
 use crate::{
     Goal, Journal, JournalError, Point, Run,
-    goal::{Fitness, Runs, add_to_front, costs},
-    race::Race,
+    course::Course,
+    goal::{Fitness, costs},
 };
-use apex_optim::{Axis, Best, CmaSearch, DeSearch, Search, Selection, Space};
+use apex_optim::{Axis, Best};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::{fmt, sync::Mutex};
 
 /// Robot or algorithm whose parameters are optimized.
@@ -13,6 +14,16 @@ pub trait Objective: Sync {
     /// values and the same seed must give the same result. NaN or an infinite cost means that the run has failed; a
     /// candidate with a failed run has failed. An error ends the study.
     fn run(&self, values: &[f64], seed: u64) -> Result<Vec<f64>, String>;
+}
+
+/// Objective of a study whose runs are all in journals.
+#[derive(Debug, Clone, Copy)]
+pub struct Known;
+
+impl Objective for Known {
+    fn run(&self, _: &[f64], _: u64) -> Result<Vec<f64>, String> {
+        Err("the journals are not complete: a part is missing, or was not finished (`--shard K/N --resume`)".to_owned())
+    }
 }
 
 /// Error that ends a study.
@@ -36,7 +47,7 @@ impl fmt::Display for StudyError {
 impl std::error::Error for StudyError {}
 
 /// Parameter to be optimized.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
     /// Name in the report.
     pub name: String,
@@ -46,10 +57,14 @@ pub struct Parameter {
     pub axis: Axis,
     /// Value with which the search starts and the result is compared.
     pub default: f64,
+    /// Parameters of the program that have its value, such as `plan.segment.gap`.
+    pub targets: Vec<String>,
+    /// `true` if the values are of single precision.
+    pub single: bool,
 }
 
 /// Method of the search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Method {
     /// Differential evolution.
     DifferentialEvolution,
@@ -58,8 +73,13 @@ pub enum Method {
 }
 
 /// Search for the parameters with the best fitness over some seeds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Study {
+    /// Name.
+    pub name: String,
+    /// Number that another objective changes, such as a hash of its source text.
+    pub objective: u64,
     /// Parameters to be optimized.
     pub parameters: Vec<Parameter>,
     /// Method of all searches.
@@ -118,14 +138,9 @@ pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> R
 }
 
 /// Search number of the runs that score results.
-const SCORES: u64 = u64::MAX;
+pub(crate) const SCORES: u64 = u64::MAX;
 
 impl Study {
-    /// Description in one line: equal for equal studies.
-    pub fn description(&self) -> String {
-        format!("{self:?}")
-    }
-
     /// Default values of the parameters.
     pub fn defaults(&self) -> Vec<f64> {
         self.parameters.iter().map(|p| p.default).collect()
@@ -167,58 +182,13 @@ impl Study {
         journal: &mut Journal,
         progress: &mut dyn FnMut(&Progress),
     ) -> Result<Found, StudyError> {
-        let mut search = self.start(number);
-        let mut found = Found { search: number, best: None, improvements: vec![], runs: 0, saved: 0, front: vec![] };
-        let mut weights = vec![0.0; self.seeds.len()];
-        let mut first = 0;
-        while first < self.candidates {
-            let mut generation = search.ask().to_vec();
-            generation.truncate((self.candidates - first) as usize);
-            let order = hardest_first(&weights);
-            let selection = if self.racing { search.selection() } else { Selection::All };
-            let race = Race { goals: &self.goals, fitness, selection, order: &order };
-            let runs = race.run(generation.len(), |work| {
-                let runs: Vec<(Run, &[f64])> = work
-                    .iter()
-                    .map(|&(c, seed)| {
-                        let run = Run { search: number, candidate: first + c as u64, seed: self.seeds[seed] };
-                        (run, generation[c].as_slice())
-                    })
-                    .collect();
-                self.evaluate(objective, journal, &runs)
-            })?;
-            let told: Vec<f64> = runs.iter().map(|runs| self.told(fitness, runs)).collect();
-            search.tell(&told);
-            first += generation.len() as u64;
-            found.count(&runs);
-            found.improve(first, search.best());
-            if self.goals.len() > 1 {
-                for (values, runs) in
-                    generation.into_iter().zip(&runs).filter(|(_, runs)| runs.iter().all(Option::is_some))
-                {
-                    add_to_front(&mut found.front, Point { values, costs: costs(&self.goals, runs) });
-                }
-            }
-            add_weights(&mut weights, &runs, |run| fitness.of(run));
-            progress(&Progress { search: number, candidates: first, best: found.best.clone() });
+        let mut course = Course::new(self, number, fitness.clone());
+        while !course.is_over() {
+            let runs = course.race(self, |runs| self.evaluate(objective, journal, runs))?;
+            course.end_generation(self, runs);
+            progress(&Progress { search: number, candidates: course.ended(), best: course.found().best.clone() });
         }
-        Ok(found)
-    }
-
-    fn start(&self, number: u64) -> Box<dyn Search> {
-        let space = Space::new(self.parameters.iter().map(|p| p.axis).collect());
-        // An odd multiple: different seeds for different searches.
-        let seed = self.seed.wrapping_add(number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        match self.method {
-            Method::DifferentialEvolution => Box::new(DeSearch::starting_at(space, seed, &self.defaults())),
-            Method::CmaEs => Box::new(CmaSearch::from_better_half(space, seed, &self.defaults())),
-        }
-    }
-
-    /// Fitness of a candidate with all runs; infinite if runs were saved.
-    fn told(&self, fitness: &Fitness, runs: &Runs) -> f64 {
-        let is_complete = runs.iter().all(Option::is_some);
-        if is_complete { fitness.of(&costs(&self.goals, runs)) } else { f64::INFINITY }
+        Ok(course.into_found())
     }
 
     /// Costs on these seeds, by goal. `number` is that of the scored values: the runs are in the journal, too.
@@ -258,45 +228,9 @@ impl Study {
     }
 
     /// Costs of a run, by goal. All are infinite if it has failed.
-    fn costs_of_run(&self, values: &[f64]) -> Vec<f64> {
+    pub(crate) fn costs_of_run(&self, values: &[f64]) -> Vec<f64> {
         let value = |number: usize| values.get(number).copied().unwrap_or(f64::NAN);
         let costs: Vec<f64> = self.goals.iter().enumerate().map(|(number, goal)| goal.cost(value(number))).collect();
         if costs.contains(&f64::INFINITY) { vec![f64::INFINITY; costs.len()] } else { costs }
-    }
-}
-
-impl Found {
-    fn count(&mut self, all: &[Runs]) {
-        for runs in all {
-            let done = runs.iter().flatten().count() as u64;
-            self.runs += done;
-            self.saved += runs.len() as u64 - done;
-        }
-    }
-
-    fn improve(&mut self, candidates: u64, best: Option<&Best>) {
-        if let Some(best) = best.filter(|best| self.best.as_ref() != Some(best)) {
-            self.improvements.push((candidates, best.fitness));
-            self.best = Some(best.clone());
-        }
-    }
-}
-
-/// Numbers of the seeds, those with the greatest costs so far first: with these, bad candidates are recognized early.
-fn hardest_first(weights: &[f64]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..weights.len()).collect();
-    order.sort_by(|a, b| weights[*b].total_cmp(&weights[*a]));
-    order
-}
-
-/// Adds to each seed the share of the others on which a candidate with all runs has been better. `fitness` takes the
-/// costs of a run.
-fn add_weights(weights: &mut [f64], runs: &[Runs], fitness: impl Fn(&[f64]) -> f64) {
-    for runs in runs {
-        let all: Option<Vec<f64>> = runs.iter().map(|run| run.as_deref().map(&fitness)).collect();
-        let Some(all) = all.filter(|all| all.iter().all(|f| f.is_finite())) else { continue };
-        for rank in hardest_first(&all).into_iter().rev().enumerate() {
-            weights[rank.1] += rank.0 as f64 / all.len() as f64;
-        }
     }
 }

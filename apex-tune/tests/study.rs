@@ -31,9 +31,18 @@ fn goal(name: &str, summary: Summary) -> Goal {
 fn study(method: Method, summary: Summary) -> Study {
     let parameter = |name: &str, low, high, scale, default| {
         let axis = Axis::new(low, high, scale, false).expect("a range");
-        Parameter { name: name.to_owned(), unit: "m".to_owned(), axis, default }
+        Parameter {
+            name: name.to_owned(),
+            unit: "m".to_owned(),
+            axis,
+            default,
+            targets: vec![format!("node.{name}")],
+            single: false,
+        }
     };
     Study {
+        name: "Valley".to_owned(),
+        objective: 0,
         parameters: vec![
             parameter("x", -10.0, 10.0, Scale::Linear, 5.0),
             parameter("y", 0.01, 100.0, Scale::Logarithmic, 1.0),

@@ -11,6 +11,7 @@ mod pictures;
 mod several;
 mod shadow;
 mod stream;
+mod study;
 mod text;
 
 use apex_macros::graph;

@@ -5,7 +5,7 @@ use apex_diagram::{Item, diagram};
 use apex_dsl::{catalog::Catalog, passes, report::Diagnostics, source::Sources};
 use apex_host::{Disk, Seen, Workspace};
 use apex_rt::studio::StreamedTime;
-use apex_studio::{ParamChange, Remote, Replayed, Robot, Seat, Source, Studio};
+use apex_studio::{ParamChange, Remote, Replayed, Robot, Seat, Source, Studio, Study};
 use std::{
     fs,
     io::{Read as _, Write as _},
@@ -101,9 +101,15 @@ pub fn studio_of(robot: impl Robot + 'static, readonly: bool) -> (String, Arc<Te
 
 /// Starts a studio for several robots, and returns the address of its page.
 pub fn opened(robots: Vec<Seat>, readonly: bool) -> String {
+    opened_with(robots, vec![], readonly)
+}
+
+/// Starts a studio for robots and studies, and returns the address of its page.
+pub fn opened_with(robots: Vec<Seat>, studies: Vec<Study>, readonly: bool) -> String {
     let (opened, address) = channel();
     thread::spawn(move || {
-        let studio = Studio { robots, address: "127.0.0.1:0".parse().unwrap(), readonly, speed: Some(1.0) };
+        let address = "127.0.0.1:0".parse().unwrap();
+        let studio = Studio { robots, studies, address, readonly, speed: Some(1.0) };
         studio.serve(|addresses| opened.send(addresses.page.clone()).unwrap()).expect("a free port");
     });
     address.recv().expect("it opens")
@@ -497,12 +503,12 @@ fn a_robot_may_end_and_come_back_and_several_pages_see_it() {
     first.wait_for("document.getElementById('run').textContent.includes('wrong token')");
 }
 
-/// Answer of the server to a request for its socket.
-fn answer(address: &str, host: &str, origin: &str) -> String {
+/// Answer of the server to a request for one of its sockets.
+pub fn answer(address: &str, path: &str, host: &str, origin: &str) -> String {
     let mut stream = TcpStream::connect(address).expect("the studio listens");
     write!(
         stream,
-        "GET /live HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+        "GET {path} HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
     )
     .expect("it reads");
     let mut start = [0; 12];
@@ -515,10 +521,10 @@ fn pages_of_other_sites_are_refused() {
     let url = studio("foreign", false).0;
     let address = url.trim_start_matches("http://").split('/').next().expect("an address").to_owned();
     let own = format!("http://{address}");
-    assert_eq!(answer(&address, &address, &own), "HTTP/1.1 101");
-    assert_eq!(answer(&address, &address, "http://example.org"), "HTTP/1.1 403");
-    assert_eq!(answer(&address, "example.org", "http://example.org"), "HTTP/1.1 403");
-    assert_eq!(answer(&address, &address, "null"), "HTTP/1.1 403");
+    assert_eq!(answer(&address, "/live", &address, &own), "HTTP/1.1 101");
+    assert_eq!(answer(&address, "/live", &address, "http://example.org"), "HTTP/1.1 403");
+    assert_eq!(answer(&address, "/live", "example.org", "http://example.org"), "HTTP/1.1 403");
+    assert_eq!(answer(&address, "/live", &address, "null"), "HTTP/1.1 403");
 }
 
 #[test]

@@ -188,6 +188,28 @@ fn film_of_the_competition() {
     fs::remove_dir_all(folder).expect("it is still there");
 }
 
+#[test]
+#[ignore = "draws docs/images/study*.png: cargo test -p apex-tests --test studio -- --ignored pictures"]
+fn pictures_of_a_study() {
+    let folder = socket("study-picture");
+    let cart = root().join("robots/cart/cart.afg");
+    let mut tune = Command::new(apex());
+    tune.arg("tune").arg(cart).args(["Swift", "--candidates", "200", "--quiet", "--output"]).arg(&folder);
+    assert!(tune.stdout(Stdio::null()).status().expect("it starts").success());
+    let studio = Studio::open(Command::new(apex()), root(), &[folder.to_str().expect("UTF-8")]);
+    let mut page = Browser::open(&studio.address).expect("a browser");
+    for (name, is_dark) in [("study.png", false), ("study_dark.png", true)] {
+        page.size(1280, 760, is_dark);
+        page.wait_for("document.getElementById('run').textContent === 'finished'");
+        page.wait_for("document.getElementById('toml').textContent.includes('stiffness')");
+        page.value("new Promise((done) => setTimeout(done, 500))");
+        save(&mut page, name);
+        page.press("2");
+        page.press("o");
+    }
+    fs::remove_dir_all(folder).expect("it is still there");
+}
+
 /// Makes the robot of `docs/debugging.md` in a folder.
 fn robot_with_a_mistake(folder: &Path) {
     fs::create_dir_all(folder).expect("a new folder");

@@ -145,9 +145,7 @@ fn who_may_only_look_changes_no_text() {
     assert_eq!(page.value(&format!("{AREA}.readOnly")), true);
     assert_eq!(page.value("document.getElementById('text-save').hidden"), true);
     // Nor by messages of its own.
-    page.value(
-        "import('./studio.js').then(({ ask }) => ask({ keep: { file: 0, text: 'graph Other {}', over: true } }))",
-    );
+    page.value("import('./page.js').then(({ ask }) => ask({ keep: { file: 0, text: 'graph Other {}', over: true } }))");
     page.value("new Promise((done) => setTimeout(done, 300))");
     assert_eq!(*text.text.lock().unwrap(), None);
 }

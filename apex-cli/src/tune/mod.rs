@@ -3,7 +3,7 @@
 mod result;
 mod worker;
 
-use crate::{build::How, project, run, test};
+use crate::{build::How, project, replace, run, test};
 use apex_dsl::{
     report::nearest,
     script::{Script, Study as Stated, Varied},
@@ -11,8 +11,7 @@ use apex_dsl::{
 };
 use apex_host::Workspace;
 use apex_tune::{
-    Axis, Found, Goal, Journal, Method, Objective, Parameter, Progress, Report, Scale, Study, StudyError, Summary,
-    Timed,
+    Axis, Found, Goal, Journal, Known, Method, Parameter, Progress, Report, Scale, Study, StudyError, Summary, Timed,
 };
 use std::{
     fs,
@@ -25,8 +24,6 @@ use worker::{Workers, scenario};
 
 /// Ratio of the bounds of a range from which on it is searched on a logarithmic scale.
 const LOGARITHMIC: f64 = 100.0;
-/// Name of the journal in its folder.
-const JOURNAL: &str = "journal.csv";
 
 /// A study to run.
 #[derive(clap::Args)]
@@ -102,7 +99,7 @@ pub fn run(wanted: &Wanted) -> Result<ExitCode, String> {
     let (script, stated) = chosen(&studies, wanted)?;
     let folder = run::package(&wanted.file)?;
     let workspace = Workspace::load(&folder)?;
-    let output = wanted.output.clone().unwrap_or_else(|| workspace.cache_folder().join("tune").join(&script.name));
+    let output = wanted.output.clone().unwrap_or_else(|| default_folder(&workspace, &script.name));
     wanted.look(&output)?;
     if wanted.write {
         result::look(&checked, script, stated)?;
@@ -115,21 +112,26 @@ pub fn run(wanted: &Wanted) -> Result<ExitCode, String> {
     let test = names.into_iter().next().ok_or("the program has no such study")?;
     let (workers, defaults) = Workers::start(built, test, &folder, goals)?;
     drop(turn);
-    let study = study(wanted, stated, &defaults)?;
-    let description = format!("{} text {:016x}", study.description(), fingerprint(&checked.sources));
-    let run = Run { wanted, script, study, description, output, workers: &workers };
+    let study = study(wanted, script, stated, &defaults, fingerprint(&checked.sources))?;
+    let run = Run { wanted, script, study: &study, output, workers: &workers };
     let threads = wanted.jobs.unwrap_or(0) as usize;
     let Some(report) = apex_tune::on_threads(threads, || run.report())?? else {
         return Ok(if wanted.shard.is_some() { ExitCode::SUCCESS } else { ExitCode::from(1) });
     };
     let is_better = report.is_better();
     if let Some(file) = &wanted.params {
-        result::params(file, stated, report.values())?;
+        replace::write(file, &study.params(report.values()))?;
     }
     if wanted.write && is_better {
-        result::write(&checked, script, stated, report.values(), &wanted.file)?;
+        let numbers: Vec<String> = study.parameters.iter().zip(report.values()).map(|(p, v)| p.number(*v)).collect();
+        result::write(&checked, script, stated, &numbers, &wanted.file)?;
     }
     Ok(if is_better { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+/// Folder of the study of a `tune` item, unless another one is wanted.
+pub fn default_folder(workspace: &Workspace, name: &str) -> PathBuf {
+    workspace.cache_folder().join("tune").join(name)
 }
 
 /// The study with the name that is wanted, or else the only one.
@@ -157,7 +159,7 @@ fn chosen<'a>(studies: &[(&'a Script, &'a Stated)], wanted: &Wanted) -> Result<(
 impl Wanted {
     /// Reports problems with files before the build.
     fn look(&self, output: &Path) -> Result<(), String> {
-        let journal = output.join(JOURNAL);
+        let journal = output.join(Journal::FILE);
         if self.merge.is_empty() && !self.resume && journal.exists() {
             return Err(format!(
                 "`{}` has the journal of an earlier study: continue it with `--resume`, choose another folder with `--output`, or remove the journal",
@@ -167,7 +169,7 @@ impl Wanted {
         if self.resume && !journal.exists() {
             return Err(format!("there is nothing to resume: `{}` has no journal", output.display()));
         }
-        if let Some(missing) = self.merge.iter().find(|folder| !folder.join(JOURNAL).is_file()) {
+        if let Some(missing) = self.merge.iter().find(|folder| !folder.join(Journal::FILE).is_file()) {
             return Err(format!("`{}` has no journal to be merged", missing.display()));
         }
         if let Some(file) = &self.params {
@@ -181,7 +183,7 @@ impl Wanted {
 }
 
 /// The study with its numbers.
-fn study(wanted: &Wanted, stated: &Stated, defaults: &[f64]) -> Result<Study, String> {
+fn study(wanted: &Wanted, script: &Script, stated: &Stated, defaults: &[f64], objective: u64) -> Result<Study, String> {
     let parameter = |(varied, default): (&Varied, &f64)| {
         if default.is_nan() {
             return Err(format!("`{}` has a type whose values cannot be set", varied.name));
@@ -195,6 +197,8 @@ fn study(wanted: &Wanted, stated: &Stated, defaults: &[f64]) -> Result<Study, St
             unit: varied.unit.clone().unwrap_or_default(),
             axis,
             default: *default,
+            targets: varied.targets.clone(),
+            single: varied.single,
         })
     };
     let goals = stated.goals.iter().map(|goal| Goal {
@@ -212,6 +216,8 @@ fn study(wanted: &Wanted, stated: &Stated, defaults: &[f64]) -> Result<Study, St
         (1..=stated.recordings.len()).flat_map(|recording| (0..stated.seeds).map(move |s| scenario(recording, s)));
     let held_out = (stated.seeds..stated.seeds + stated.held_out).chain(others).collect();
     Ok(Study {
+        name: script.name.clone(),
+        objective,
         parameters: stated.vary.iter().zip(defaults).map(parameter).collect::<Result<_, _>>()?,
         method: if wanted.method == Search::De { Method::DifferentialEvolution } else { Method::CmaEs },
         goals: goals.collect(),
@@ -230,21 +236,11 @@ fn fingerprint(sources: &Sources) -> u64 {
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-/// Objective of a study whose runs are all in journals.
-struct Known;
-
-impl Objective for Known {
-    fn run(&self, _: &[f64], _: u64) -> Result<Vec<f64>, String> {
-        Err("the journals are not complete: a part is missing, or was not finished (`--shard K/N --resume`)".to_owned())
-    }
-}
-
 /// A study that runs.
 struct Run<'a> {
     wanted: &'a Wanted,
     script: &'a Script,
-    study: Study,
-    description: String,
+    study: &'a Study,
     output: PathBuf,
     workers: &'a Workers<'a>,
 }
@@ -262,8 +258,8 @@ impl Run<'_> {
         fs::create_dir_all(&self.output).map_err(|e| format!("cannot write in `{}`: {e}", self.output.display()))?;
         let timed = Timed::new(self.workers);
         let (found, mut journal) = if self.wanted.merge.is_empty() {
-            let mut journal =
-                Journal::open(&self.output.join(JOURNAL), &self.description).map_err(|e| e.to_string())?;
+            let mut journal = Journal::open(&self.output.join(Journal::FILE), &self.study.description())
+                .map_err(|e| e.to_string())?;
             self.begin(&journal)?;
             let found = self.search(&timed, &mut journal, (k - 1, n)).map_err(told)?;
             if n > 1 {
@@ -273,12 +269,12 @@ impl Run<'_> {
             }
             (found, journal)
         } else {
-            let files: Vec<PathBuf> = self.wanted.merge.iter().map(|folder| folder.join(JOURNAL)).collect();
-            let mut journal = Journal::merge(&files, &self.description).map_err(|e| e.to_string())?;
+            let files: Vec<PathBuf> = self.wanted.merge.iter().map(|folder| folder.join(Journal::FILE)).collect();
+            let mut journal = Journal::merge(&files, &self.study.description()).map_err(|e| e.to_string())?;
             let found = self.study.run(&Known, &mut journal, (0, 1), &mut |_| ()).map_err(told)?;
             (found, journal)
         };
-        let Some(report) = Report::new(&self.study, found, &timed, &mut journal).map_err(told)? else {
+        let Some(report) = Report::new(self.study, found, &timed, &mut journal).map_err(told)? else {
             let why = self.workers.failure().map(|reason| format!(": {reason}")).unwrap_or_default();
             project::print_error(&format!("all candidates of `{}` failed{why}", self.script.name));
             return Ok(None);
@@ -303,7 +299,7 @@ impl Run<'_> {
 
     /// Prints what is about to run, and prepares Ctrl-C.
     fn begin(&self, journal: &Journal) -> Result<(), String> {
-        let Study { searches, candidates, parameters, goals, seeds, .. } = &self.study;
+        let Study { searches, candidates, parameters, goals, seeds, .. } = self.study;
         let shows = self.shows();
         if shows {
             let (name, known) = (&self.script.name, journal.len());
@@ -311,6 +307,7 @@ impl Run<'_> {
             let (p, g, s) =
                 (counted(parameters.len(), "parameter"), counted(goals.len(), "goal"), counted(seeds.len(), "seed"));
             project::print_error(&format!("`{name}`: {p}, {g}, {s}, {searches} × {candidates} candidates{known}"));
+            project::print_error(&format!("`apex studio {}` shows it", self.output.display()));
         }
         // The journal is complete at all times.
         let stop = move || {

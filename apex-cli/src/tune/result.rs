@@ -1,4 +1,4 @@
-//! Tuned values, in files.
+//! Tuned values in the text.
 
 use crate::{
     project::{self, Checked, Checker},
@@ -12,28 +12,6 @@ use apex_dsl::{
 };
 use std::{collections::BTreeMap, path::Path};
 
-/// Value as TOML.
-fn number(varied: &Varied, value: f64) -> String {
-    match varied {
-        Varied { integer: true, .. } => format!("{value:.0}"),
-        // The shortest form from which the parameter gets the same value.
-        Varied { single: true, .. } => format!("{:?}", value as f32),
-        _ => format!("{value:?}"),
-    }
-}
-
-/// Writes a file with parameters.
-pub fn params(file: &Path, study: &Study, values: &[f64]) -> Result<(), String> {
-    let mut nodes: BTreeMap<&str, String> = BTreeMap::new();
-    for (varied, value) in study.vary.iter().zip(values) {
-        for (node, name) in varied.targets.iter().filter_map(|target| target.rsplit_once('.')) {
-            nodes.entry(node).or_default().push_str(&format!("{name} = {}\n", number(varied, *value)));
-        }
-    }
-    let tables: Vec<String> = nodes.into_iter().map(|(node, lines)| format!("[{node}]\n{lines}")).collect();
-    replace::write(file, &tables.join("\n"))
-}
-
 /// A change of the text: the place, and what is there before and behind the value.
 struct Change {
     span: Span,
@@ -46,13 +24,13 @@ pub fn look(checked: &Checked, script: &Script, study: &Study) -> Result<(), Str
     study.vary.iter().try_for_each(|varied| place(checked, script, varied).map(|_| ()))
 }
 
-/// Writes the values into the text, unless it would have errors then.
-pub fn write(checked: &Checked, script: &Script, study: &Study, values: &[f64], file: &Path) -> Result<(), String> {
+/// Writes the values, as TOML, into the text, unless it would have errors then.
+pub fn write(checked: &Checked, script: &Script, study: &Study, numbers: &[String], file: &Path) -> Result<(), String> {
     let mut changes: BTreeMap<(u32, u32), (Vec<String>, &str)> = BTreeMap::new();
-    for (varied, value) in study.vary.iter().zip(values) {
+    for (varied, number) in study.vary.iter().zip(numbers) {
         let Change { span, before, behind } = place(checked, script, varied)?;
         let (values, _) = changes.entry((span.start, span.end)).or_insert((vec![], behind));
-        values.push(before + &quantity(&number(varied, *value), varied.unit.as_deref()));
+        values.push(before + &quantity(number, varied.unit.as_deref()));
     }
     let mut checker = Checker::new(file)?;
     let mut text = checker.read(file)?.to_string();

@@ -83,7 +83,7 @@ pub struct Studio {
 }
 
 impl Studio {
-    fn open(arguments: &[&str]) -> Self {
+    pub fn open(arguments: &[&str]) -> Self {
         Self::open_in(Path::new("."), arguments)
     }
 
@@ -121,8 +121,13 @@ pub struct Page(WebSocket<TcpStream>);
 
 impl Page {
     pub fn open(address: &str) -> Self {
+        Self::open_at(address, "live")
+    }
+
+    /// Opens a page of a robot (`live`) or of a study (`follow`).
+    pub fn open_at(address: &str, place: &str) -> Self {
         let (host, token) = address.strip_prefix("http://").and_then(|rest| rest.split_once("/#")).unwrap();
-        let mut request = format!("ws://{host}/live").into_client_request().unwrap();
+        let mut request = format!("ws://{host}/{place}").into_client_request().unwrap();
         request.headers_mut().insert("Origin", format!("http://{host}").parse().unwrap());
         let stream = TcpStream::connect(host).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
@@ -273,6 +278,26 @@ fn a_robot_that_runs_already_is_shown_and_told() {
 }
 
 #[test]
+fn studies_of_a_text_are_listed_beside_the_robot() {
+    let folder = Folder::new("studio-studies");
+    package(&folder, NODES);
+    let studies = "tune InStudio: Robot { vary high.limit; wait 1s; minimise total; }\n\
+        tune Without: Robot { vary high.limit; wait 1s; maximise total; }\n";
+    let robot = ROBOT.replace("graph Robot {", "graph Robot {\n    out total: u64;").replace("end()", "total");
+    let file = folder.file("robot.afg", robot + studies);
+    let default = Path::new(TARGET).join("apex/tune/InStudio");
+    fs::create_dir_all(&default).unwrap();
+    fs::write(default.join("journal.csv"), "of another version\n").unwrap();
+    let studio = Studio::open(&["--connect", folder.0.join("none").to_str().unwrap(), file.to_str().unwrap()]);
+    let robots = Page::open(&studio.address).until("robots", |_| true);
+    assert_eq!(robots["studies"], json!(["InStudio"]));
+    let mut page = Page::open_at(&studio.address, "follow");
+    assert_eq!(page.until("studies", |_| true)["names"], json!(["InStudio"]));
+    page.until("errors", |error| error.as_str().is_some_and(|error| error.contains("does not describe a study")));
+    fs::remove_dir_all(default).unwrap();
+}
+
+#[test]
 fn bad_input_is_reported_before_a_page_is_opened() {
     let folder = Folder::new("studio-bad");
     let file = robot(&folder);
@@ -282,7 +307,12 @@ fn bad_input_is_reported_before_a_page_is_opened() {
     let path = |name: &str| folder.0.join(name).display().to_string();
     folder.file("wrong.mcap", "not a recording");
     folder.file("wrong.afg", "graph Robot { node a = nothing(); }");
-    let wrong: [(&[&str], &str); 8] = [
+    let study = path("study");
+    fs::create_dir(&study).unwrap();
+    folder.file("study/journal.csv", "");
+    let wrong: [(&[&str], &str); 10] = [
+        (&[&path(".")], "is a folder without the journal of a study"),
+        (&["--simulated", &study], "`--simulated` is for robots"),
         (&[&path("none.afg")], "none.afg"),
         (&[&path("wrong.afg")], "nothing"),
         (&["--replay", &path("none.mcap"), file], "none.mcap"),

@@ -3,7 +3,9 @@
 use crate::{
     MADE, TARGET,
     common::{Folder, apex, package, stderr},
+    studio::{Page, Studio},
 };
+use serde_json::json;
 use std::{fs, path::Path, process::Command, sync::PoisonError};
 
 /// In place of that of the library, which takes long to build.
@@ -73,6 +75,14 @@ fn a_study_is_the_same_on_any_number_of_cores_and_machines() {
     assert_eq!(read(&folder, "one/report.md"), read(&folder, "two/report.md"));
     let (one, two) = (read(&folder, "one/journal.csv"), read(&folder, "two/journal.csv"));
     assert_eq!(sorted(&one), sorted(&two));
+    // The page of the studio has the same result, from the journal alone.
+    let studio = Studio::open(&[folder.0.join("two").to_str().unwrap()]);
+    let mut page = Page::open_at(&studio.address, "follow");
+    let state = page.until("state", |state| state["finished"] == true);
+    assert!(shown.contains(page.until("result", |_| true)["cost"].as_str().unwrap()));
+    page.ask(&json!({ "candidate": { "search": state["best"][0], "number": state["best"][1] } }));
+    assert_eq!(page.until("candidate", |_| true)["params"], tuned);
+    drop(studio);
     // Cut off in the middle of a line.
     fs::write(folder.0.join("two/journal.csv"), &two[..two.len() / 2]).unwrap();
     done(tune(&folder, "Swift", "two", &["--resume"]));

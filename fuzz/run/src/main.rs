@@ -22,7 +22,7 @@ use worker::Target;
 pub type Make = fn() -> Box<dyn Target>;
 
 /// All targets, by name.
-pub const TARGETS: [(&str, Make); 8] = [
+pub const TARGETS: [(&str, Make); 9] = [
     ("texts", texts::texts),
     ("catalog", catalog::catalog),
     ("recordings", recordings::recordings),
@@ -31,6 +31,7 @@ pub const TARGETS: [(&str, Make); 8] = [
     ("scans", readers::scans),
     ("models", readers::models),
     ("params", readers::params),
+    ("journals", readers::journals),
 ];
 
 fn main() -> ExitCode {

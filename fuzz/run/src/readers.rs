@@ -13,6 +13,7 @@ use apex_nodes::{
     slam::PoseGraph,
 };
 use apex_rt::params;
+use apex_tune::{Axis, Follower, Goal, Journal, Method, Objective, Parameter, Scale, Study, Summary};
 use std::{env, fmt::Write as _, fs, path::PathBuf, process};
 
 graph! {
@@ -156,4 +157,68 @@ pub fn params() -> Box<dyn Target> {
             }
         },
     )
+}
+
+/// A study with two goals.
+fn study(method: Method) -> Study {
+    let axis = Axis::new(0.1, 20.0, Scale::Logarithmic, false).expect("a range");
+    let parameter = |name: &str| Parameter {
+        name: name.to_owned(),
+        unit: "m".to_owned(),
+        axis,
+        default: 1.0,
+        targets: vec![format!("node.{name}")],
+        single: true,
+    };
+    let goal = |name: &str, maximise| {
+        let (name, unit, summary, least) = (name.to_owned(), String::new(), Summary::Quantile(0.9), f64::NEG_INFINITY);
+        Goal { name, unit, maximise, summary, least }
+    };
+    Study {
+        name: "Fuzzed".to_owned(),
+        objective: 1,
+        parameters: vec![parameter("x"), parameter("y")],
+        method,
+        goals: vec![goal("a", false), goal("b", true)],
+        seeds: vec![0, 1, 2],
+        held_out: vec![3],
+        searches: 3,
+        candidates: 30,
+        seed: 1,
+        racing: true,
+    }
+}
+
+/// Objective that fails for some seeds.
+struct Sum;
+
+impl Objective for Sum {
+    fn run(&self, values: &[f64], seed: u64) -> Result<Vec<f64>, String> {
+        let sum: f64 = values.iter().sum();
+        Ok(vec![if seed == 2 && sum > 20.0 { f64::NAN } else { sum }, sum * seed as f64])
+    }
+}
+
+/// The target with journals of studies.
+pub fn journals() -> Box<dyn Target> {
+    let text = |method| {
+        let (study, file) = (study(method), file("journal", &[]));
+        let mut journal = Journal::open(&file, &study.description()).expect("a new journal");
+        study.run(&Sum, &mut journal, (0, 1), &mut |_| ()).expect("a study");
+        let text = fs::read(&file).expect("the journal");
+        let _ = fs::remove_file(file);
+        text
+    };
+    let texts = vec![text(Method::DifferentialEvolution), text(Method::CmaEs)];
+    reader(texts, &["0", "-1", "1e308", "NaN", "inf", "-inf", ",", "\n", "18446744073709551615", "null"], |input| {
+        let file = file("journal", input);
+        let mut follower = Follower::new(file.clone());
+        while let Ok(true) = follower.read() {}
+        if let Some(seen) = follower.seen() {
+            let candidates = seen.trails().flat_map(|(_, trail)| trail.candidates());
+            candidates.for_each(|candidate| drop(seen.study().params(&candidate.values)));
+            drop((seen.best(), seen.defaults(), seen.range(0)));
+        }
+        let _ = fs::remove_file(file);
+    })
 }
