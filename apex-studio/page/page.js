@@ -127,10 +127,16 @@ export function press(event, keys, tabs) {
   }
 }
 
-/** Colours of the page, by name. */
+/** Colours of the page, by name: each is computed once for a drawing. */
 export function colors() {
   const style = getComputedStyle(document.documentElement);
-  return (/** @type {string} */ name) => style.getPropertyValue(name);
+  /** @type {Map<string, string>} */
+  const known = new Map();
+  return (/** @type {string} */ name) => {
+    const color = known.get(name) ?? style.getPropertyValue(name);
+    known.set(name, color);
+    return color;
+  };
 }
 
 /** Gives a canvas a size, and clears it. @param {HTMLCanvasElement} canvas @param {number} width @param {number} height */

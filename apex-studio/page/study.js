@@ -182,22 +182,27 @@ function fate({ fate, runs }) {
   return `${of}: ${words[fate]}`;
 }
 
+/** Line of a table, whose first word is a heading, or all of them. @param {string[]} words @param {boolean} [areHeadings] */
+function line(words, areHeadings = false) {
+  const row = make("tr", "");
+  row.append(...words.map((word, column) => make(areHeadings || column === 0 ? "th" : "td", "", word)));
+  return row;
+}
+
+/** Name of a goal or parameter, with its unit. @param {{name: string, unit: string}} of */
+const label = ({ name, unit }) => `${name}${unit === "" ? "" : ` [${unit}]`}`;
+
 /** Values by goal, against those of the defaults. @param {Lane} lane */
 function goals(lane) {
   const table = make("table", "goals");
-  const line = (/** @type {string[]} */ words) => {
-    const row = make("tr", "");
-    row.append(...words.map((word, at) => make(at === 0 ? "th" : "td", "", word)));
-    table.append(row);
-  };
-  line(["", "value", "defaults"]);
+  table.append(line(["", "value", "defaults"]));
   study.about?.goals.forEach((goal, at) => {
-    const { name, unit, maximise, summary } = goal;
+    const { maximise, summary } = goal;
     const sign = lane.fate === "complete" || lane.fate === "failed" ? "" : maximise ? "≤ " : "≥ ";
     const value = lane.goals[at];
     const shown = lane.fate === "failed" ? "failed" : value === null ? "–" : sign + number(value);
     const defaults = study.state?.defaults ?? null;
-    line([`${name}${unit === "" ? "" : ` [${unit}]`} ${summary}`, shown, defaults === null ? "–" : number(defaults[at])]);
+    table.append(line([`${label(goal)} ${summary}`, shown, defaults === null ? "–" : number(defaults[at])]));
   });
   return table;
 }
@@ -232,14 +237,9 @@ function result({ goals, lost, cost, warning, better }) {
   const about = /** @type {About} */ (study.about);
   const table = (/** @type {string[][]} */ lines) => {
     const made = make("table", "goals");
-    made.append(...lines.map((words, at) => {
-      const row = make("tr", "");
-      row.append(...words.map((word, column) => make(at === 0 || column === 0 ? "th" : "td", "", word)));
-      return row;
-    }));
+    made.append(...lines.map((words, at) => line(words, at === 0)));
     return made;
   };
-  const label = (/** @type {{name: string, unit: string}} */ { name, unit }) => `${name}${unit === "" ? "" : ` [${unit}]`}`;
   const scores = about.goals.map((goal, at) => [`${label(goal)} ${goal.summary}`, ...goals[at].map((value) => number(value))]);
   const parts = about.parameters.map((parameter, at) => [label(parameter), number(lost[at])]);
   element("result").replaceChildren(

@@ -128,19 +128,27 @@ impl File {
     }
 }
 
+/// Serves the page of a robot.
 async fn live(State(serving): State<Serving>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
-    if let Err(why) = serving.admits(&headers) {
-        return (StatusCode::FORBIDDEN, why).into_response();
-    }
-    upgrade.max_message_size(MAX_MESSAGE).on_upgrade(|socket| talk(serving, socket))
+    page(serving, &headers, upgrade, RobotPage::begin)
 }
 
 /// Serves the page of a study.
 async fn follow(State(serving): State<Serving>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
-    if let Err(why) = serving.admits(&headers) {
+    page(serving, &headers, upgrade, StudyPage::begin)
+}
+
+/// Serves a page that `begin` returns with the first message to it.
+fn page<P: Page>(
+    serving: Serving,
+    headers: &HeaderMap,
+    upgrade: WebSocketUpgrade,
+    begin: fn(Serving) -> Option<(P, P::Told)>,
+) -> Response {
+    if let Err(why) = serving.admits(headers) {
         return (StatusCode::FORBIDDEN, why).into_response();
     }
-    upgrade.max_message_size(MAX_MESSAGE).on_upgrade(|socket| talk_of_study(serving, socket))
+    upgrade.max_message_size(MAX_MESSAGE).on_upgrade(move |socket| talk(serving, socket, begin))
 }
 
 /// Serves an app of Foxglove. It comes from another site, or from none, and has the token in its address.
@@ -242,77 +250,101 @@ async fn has_token(serving: &Serving, socket: &mut WebSocket) -> bool {
     is_right
 }
 
-/// Interval at which a page gets news.
-fn ticks() -> time::Interval {
-    let mut tick = time::interval(TICK);
-    // A page that was slow gets the newest state, not all that it missed.
-    tick.set_missed_tick_behavior(time::MissedTickBehavior::Skip);
-    tick
+/// A page in a browser.
+trait Page: Send + 'static {
+    /// Message to the page.
+    type Told: Serialize + Send + Sync;
+
+    /// Changes since the last time.
+    fn news(&mut self) -> Vec<Self::Told>;
+
+    /// Answer to a message of the page, which may be anything.
+    fn answer(&mut self, text: &str) -> Vec<Self::Told>;
 }
 
-/// Talks to the page of a study until it leaves.
-async fn talk_of_study(serving: Serving, mut socket: WebSocket) {
+/// The page of a robot.
+struct RobotPage {
+    serving: Serving,
+    session: Session,
+}
+
+impl RobotPage {
+    fn begin(serving: Serving) -> Option<(Self, Told)> {
+        let (session, names) = (serving.session(0)?, serving.names(0));
+        Some((Self { serving, session }, names))
+    }
+}
+
+impl Page for RobotPage {
+    type Told = Told;
+
+    fn news(&mut self) -> Vec<Told> {
+        self.session.news()
+    }
+
+    fn answer(&mut self, text: &str) -> Vec<Told> {
+        let told = match serde_json::from_str(text) {
+            Ok(Asked::Robot(robot)) => self.serving.session(robot).map(|other| {
+                self.session = other;
+                self.serving.names(robot)
+            }),
+            Ok(asked) => self.session.answer(asked),
+            Err(_) => None,
+        };
+        told.into_iter().collect()
+    }
+}
+
+/// The page of a study.
+struct StudyPage {
+    serving: Serving,
+    page: study::Page,
+}
+
+impl StudyPage {
+    fn begin(serving: Serving) -> Option<(Self, study::Told)> {
+        let (page, names) = serving.study(0)?;
+        Some((Self { serving, page }, names))
+    }
+}
+
+impl Page for StudyPage {
+    type Told = study::Told;
+
+    fn news(&mut self) -> Vec<study::Told> {
+        self.page.news()
+    }
+
+    fn answer(&mut self, text: &str) -> Vec<study::Told> {
+        let told = match serde_json::from_str(text) {
+            Ok(study::Asked::Study(number)) => self.serving.study(number).map(|(other, names)| {
+                self.page = other;
+                names
+            }),
+            Ok(asked) => self.page.answer(&asked),
+            Err(_) => None,
+        };
+        told.into_iter().collect()
+    }
+}
+
+/// Talks to a page until it leaves.
+async fn talk<P: Page>(serving: Serving, mut socket: WebSocket, begin: fn(Serving) -> Option<(P, P::Told)>) {
     if !has_token(&serving, &mut socket).await {
         return;
     }
-    let Some((mut page, names)) = serving.study(0) else { return };
+    let Some((mut page, names)) = begin(serving) else { return };
     if !send(&mut socket, &names).await {
         return;
     }
-    let mut tick = ticks();
+    let mut tick = time::interval(TICK);
+    // A page that was slow gets the newest state, not all that it missed.
+    tick.set_missed_tick_behavior(time::MissedTickBehavior::Skip);
     loop {
         let told = tokio::select! {
             _ = tick.tick() => page.news(),
             message = socket.recv() => match message {
-                Some(Ok(Message::Text(text))) => match serde_json::from_str::<study::Asked>(&text) {
-                    Ok(study::Asked::Study(number)) => match serving.study(number) {
-                        Some((other, names)) => {
-                            page = other;
-                            vec![names]
-                        }
-                        None => vec![],
-                    },
-                    Ok(asked) => page.answer(&asked).into_iter().collect(),
-                    Err(_) => vec![],
-                },
-                Some(Ok(Message::Close(_)) | Err(_)) | None => return,
-                Some(Ok(_)) => vec![],
-            },
-        };
-        for told in told {
-            if !send(&mut socket, &told).await {
-                return;
-            }
-        }
-    }
-}
-
-/// Talks to the page of a robot until it leaves.
-async fn talk(serving: Serving, mut socket: WebSocket) {
-    if !has_token(&serving, &mut socket).await {
-        return;
-    }
-    let mut shown = 0;
-    let Some(mut session) = serving.session(shown) else { return };
-    if !send(&mut socket, &serving.names(shown)).await {
-        return;
-    }
-    let mut tick = ticks();
-    loop {
-        let told = tokio::select! {
-            _ = tick.tick() => session.news(),
-            message = socket.recv() => match message {
-                Some(Ok(Message::Text(text))) => match serde_json::from_str::<Asked>(&text) {
-                    Ok(Asked::Robot(robot)) => match serving.session(robot) {
-                        Some(other) => {
-                            (session, shown) = (other, robot);
-                            vec![serving.names(shown)]
-                        }
-                        None => vec![],
-                    },
-                    Ok(asked) => session.answer(asked).into_iter().collect(),
-                    Err(_) => vec![],
-                },
+                Some(Ok(Message::Text(text))) => page.answer(&text),
                 Some(Ok(Message::Close(_)) | Err(_)) | None => return,
                 Some(Ok(_)) => vec![],
             },

@@ -1,5 +1,6 @@
 //! A real browser, over the DevTools protocol.
 
+use base64::{Engine as _, prelude::BASE64_STANDARD};
 use serde_json::{Value, json};
 use std::{
     env, fs,
@@ -115,9 +116,10 @@ impl Browser {
         self.call("Emulation.setEmulatedMedia", json!({ "features": [theme] }));
     }
 
-    /// A picture of the page, as PNG in base 64.
-    pub fn picture(&mut self) -> String {
-        self.call("Page.captureScreenshot", json!({}))["data"].as_str().unwrap_or_default().to_owned()
+    /// A picture of the page, as PNG.
+    pub fn picture(&mut self) -> Vec<u8> {
+        let answer = self.call("Page.captureScreenshot", json!({}));
+        BASE64_STANDARD.decode(answer["data"].as_str().unwrap_or_default()).expect("base 64")
     }
 
     /// Sends a key to the page.

@@ -1,7 +1,6 @@
 //! The pictures of the documentation: of robots that run, so that they are drawn on demand only.
 
 use crate::{browser::Browser, socket};
-use base64::{Engine as _, prelude::BASE64_STANDARD};
 use std::{
     env, fs,
     io::{self, BufRead as _, BufReader},
@@ -59,8 +58,7 @@ impl Drop for Studio {
 }
 
 fn save(page: &mut Browser, name: &str) {
-    let picture = BASE64_STANDARD.decode(page.picture()).expect("base 64");
-    fs::write(root().join("docs/images").join(name), picture).expect("a folder for pictures");
+    fs::write(root().join("docs/images").join(name), page.picture()).expect("a folder for pictures");
 }
 
 /// Pictures of the page, one after the other, as RGBA.
@@ -75,8 +73,7 @@ impl Film {
         let mut film = Self { size: (0, 0), frames: vec![] };
         let mut next = Instant::now();
         for _ in 0..count {
-            let picture = BASE64_STANDARD.decode(page.picture()).expect("base 64");
-            let mut decoder = png::Decoder::new(io::Cursor::new(picture));
+            let mut decoder = png::Decoder::new(io::Cursor::new(page.picture()));
             decoder.set_transformations(png::Transformations::ALPHA);
             let mut reader = decoder.read_info().expect("a picture");
             let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
@@ -155,8 +152,7 @@ fn pictures() {
         page.size(640, 760, true);
         page.press("0");
         page.value("new Promise((done) => setTimeout(done, 500))");
-        let picture = BASE64_STANDARD.decode(page.picture()).expect("base 64");
-        fs::write(place, picture).expect("a place for it");
+        fs::write(place, page.picture()).expect("a place for it");
     }
     fs::remove_dir_all(folder).expect("it is still there");
 }

@@ -93,7 +93,7 @@ enum Kind {
 impl Item {
     /// Takes the next item from `rest`.
     fn next(rest: &mut token_stream::IntoIter) -> Option<Self> {
-        let (mut head, mut kind, mut last_word) = (TokenStream::new(), None, None);
+        let (mut head, mut kind, mut is_const) = (TokenStream::new(), None, false);
         for token in rest {
             match token {
                 TokenTree::Group(body) if body.delimiter() == Delimiter::Brace && kind != Some(Kind::Value) => {
@@ -104,11 +104,11 @@ impl Item {
                     return Some(Self { head, kind, body: None });
                 }
                 TokenTree::Ident(word) => {
-                    if kind.is_none() || word == "fn" && last_word.is_some_and(|last| last == "const") {
+                    if kind.is_none() || word == "fn" && is_const {
                         kind = Kind::of(&word);
                     }
-                    head.extend([TokenTree::Ident(word.clone())]);
-                    last_word = Some(word);
+                    is_const = word == "const";
+                    head.extend([TokenTree::Ident(word)]);
                 }
                 other => head.extend([other]),
             }

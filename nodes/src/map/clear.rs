@@ -1,7 +1,6 @@
 use super::{Grid, Occupancy};
 use crate::scan::Pose2;
 use apex_rt::{Out, node};
-use libm::fabsf;
 
 /// Marks the cells of a map in a box as free, for example those of a container that a vehicle is to drive beneath.
 ///
@@ -31,8 +30,7 @@ impl ClearBox {
         cleared.clone_from(map);
         let Some(middle) = place.map(|place| pose.compose(place)) else { return };
         for (cell, _) in map.iter() {
-            let p = middle.to_inner(map.raster().centre(cell));
-            let is_inside = fabsf(p.x) <= 0.5 * self.length && fabsf(p.y) <= 0.5 * self.width;
+            let is_inside = middle.is_in_box(map.raster().centre(cell), self.length, self.width);
             if let Some(cell) = cleared.get_mut(cell).filter(|_| is_inside) {
                 *cell = Occupancy::Free;
             }

@@ -22,7 +22,7 @@ pub struct MarkSurroundings {
     /// Angle of the camera's view across, about the x axis of the robot.
     #[param(unit = "rad", default = 1.0, range = 0.0..=6.3)]
     view_angle: f32,
-    /// Remembered cells of the map, and the times at which they were last seen.
+    /// Remembered cells of the map in their order, and the times at which they were last seen.
     known: Vec<(Cell, Time)>,
 }
 
@@ -69,10 +69,10 @@ impl MarkSurroundings {
         for (cell, _) in window.iter().filter(|(_, cell)| **cell == Occupancy::Occupied) {
             let place = odometry.to_inner(window.raster().centre(cell));
             let Some(cell) = raster.cell(pose.to_outer(place)).filter(|_| is_in_view(place)) else { continue };
-            if let Some((_, at)) = known.iter_mut().find(|(other, _)| *other == cell) {
-                *at = now;
-            } else if known.len() < MOST {
-                known.push((cell, now));
+            match known.binary_search_by_key(&cell, |(cell, _)| *cell) {
+                Ok(place) => known[place].1 = now,
+                Err(place) if known.len() < MOST => known.insert(place, (cell, now)),
+                Err(_) => {}
             }
         }
     }

@@ -5,7 +5,6 @@ use crate::{
     scan::{Point2, Pose2},
 };
 use apex_rt::{Ctx, Out, Time, node};
-use libm::sqrtf;
 use std::collections::VecDeque;
 
 /// Maximum number of remembered hazards.
@@ -66,7 +65,7 @@ impl HazardStop {
         last.driven += last.speed * ctx.now().since(last.twist_at).as_secs_f32();
         let ahead = self.front + self.margin + last.driven;
         let gap = last.hazard.map_or(f32::INFINITY, |hazard| hazard.position.x - ahead);
-        let twist = twist.slowed_to(sqrtf(2.0 * self.deceleration * gap.max(0.0)));
+        let twist = twist.stoppable(gap, self.deceleration);
         (last.twist_at, last.speed) = (ctx.now(), twist.x);
         twist
     }

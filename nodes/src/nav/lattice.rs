@@ -365,8 +365,8 @@ fn bend(pose: &Pose2, trailer: f32) -> f32 {
 ///
 /// `start`, `goal` and the path are in the frame of the map. The obstacles of the map must be grown by half of the
 /// width of the vehicle. `costs` are those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of
-/// the vehicle; without it, the trailer is straight behind. If there is no path, the output is ⊥ and `no_path` gives
-/// the reason.
+/// the vehicle. If it is ⊥, the trailer is assumed to be straight behind. Without a path, the output is ⊥ and `no_path`
+/// gives the reason.
 #[node]
 #[derive(Debug, Clone)]
 pub struct CurvePlanner {

@@ -16,6 +16,7 @@ mod follow;
 mod guard;
 #[cfg(feature = "std")]
 mod hazard;
+mod latest;
 #[cfg(feature = "std")]
 mod lattice;
 #[cfg(feature = "std")]

@@ -1,6 +1,6 @@
-use super::Twist;
+use super::{Twist, latest::Latest};
 use crate::scan::{Point2, Scan};
-use apex_rt::{Ctx, Time, node};
+use apex_rt::{Ctx, node};
 use libm::{fmaxf, sqrtf};
 
 /// Strip before a round robot that has to be free: as wide as the robot, and as long as its stopping distance.
@@ -77,19 +77,17 @@ pub struct SafetyField {
     /// trailer.
     #[param(default = false)]
     keep_curve: bool,
-    last: Option<(Time, Scan)>,
+    last: Latest<Scan>,
 }
 
 #[node]
 impl SafetyField {
     fn process(&mut self, ctx: &Ctx, twist: &Twist, scan: Option<&Scan>) -> Twist {
-        if let Some(scan) = scan {
-            self.last = Some((ctx.now(), scan.clone()));
-        }
+        self.last.update(ctx.now(), scan);
         let Self { radius, margin, deceleration, latency, .. } = *self;
         let field = ProtectiveField { radius, margin, deceleration, latency };
-        match &self.last {
-            Some((at, scan)) if twist.is_finite() && ctx.now().since(*at).as_secs_f32() <= self.max_age => {
+        match self.last.young(ctx.now(), self.max_age) {
+            Some(scan) if twist.is_finite() => {
                 let limited = field.limit(twist, scan.points().map(|(_, point)| point));
                 if self.keep_curve { twist.slowed_to(limited.velocity().norm()) } else { limited }
             }
@@ -101,7 +99,7 @@ impl SafetyField {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use apex_rt::Construct;
+    use apex_rt::{Construct, Time};
     use core::f32::consts::{PI, TAU};
 
     const FIELD: ProtectiveField = ProtectiveField { radius: 0.3, margin: 0.1, deceleration: 1.0, latency: 0.0 };

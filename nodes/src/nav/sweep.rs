@@ -1,11 +1,10 @@
-use super::{Articulated, Twist, trailer_rotation};
+use super::{Articulated, Twist, latest::Latest, trailer_rotation};
 use crate::{
     map::{Grid, Occupancy},
     math::normalize_angle,
     scan::{Point2, Pose2},
 };
-use apex_rt::{Ctx, Time, node};
-use libm::sqrtf;
+use apex_rt::{Ctx, node};
 
 /// Distance between predicted places, and between checked points of a part of the vehicle, in m.
 const STEP: f32 = 0.05;
@@ -20,8 +19,8 @@ const JACKKNIFE: f32 = 1.4;
 /// count.
 ///
 /// `base` and `trailer` are the poses of the two axes in the frame of the map, such as that of odometry. `map` may be
-/// ⊥, as clouds come less often than twists. The vehicle stops if there is no map or if the last one is older than
-/// `max_age`, so that a camera that does not work is not taken for free floor.
+/// ⊥, as clouds come less often than twists: the last map counts for `max_age`. The vehicle stops without such a map,
+/// so that a broken camera is not taken for free floor.
 #[node]
 #[derive(Debug, Clone)]
 pub struct SweepStop {
@@ -58,7 +57,7 @@ pub struct SweepStop {
     /// Maximum age of a map.
     #[param(unit = "s", default = 0.6, range = 0.0..=60.0)]
     max_age: f32,
-    last: Option<(Time, Grid<Occupancy>)>,
+    last: Latest<Grid<Occupancy>>,
 }
 
 /// Rectangle of a part of the vehicle in the frame of its axis: x from and to, and half of the width, in m.
@@ -82,21 +81,13 @@ impl SweepStop {
         base: &Pose2,
         trailer: &Pose2,
     ) -> Twist {
-        match (&mut self.last, map) {
-            (Some((at, last)), Some(map)) => {
-                *at = ctx.now();
-                last.clone_from(map);
-            }
-            (last, Some(map)) => *last = Some((ctx.now(), map.clone())),
-            _ => {}
-        }
-        let is_fresh = |at: Time| ctx.now().since(at).as_secs_f32() <= self.max_age;
-        let Some((_, map)) = self.last.as_ref().filter(|(at, _)| is_fresh(*at)) else { return Twist::ZERO };
+        self.last.update(ctx.now(), map);
+        let Some(map) = self.last.young(ctx.now(), self.max_age) else { return Twist::ZERO };
         if !(twist.is_finite() && base.is_usable() && trailer.is_usable()) {
             return Twist::ZERO;
         }
         let gap = self.gap(map, twist, [*base, *trailer]) - self.margin;
-        twist.slowed_to(sqrtf(2.0 * self.deceleration * gap.max(0.0)))
+        twist.stoppable(gap, self.deceleration)
     }
 
     /// Distance that the vehicle can drive before it sweeps something that is not free, in m.
@@ -182,7 +173,7 @@ impl Part {
 mod tests {
     use super::*;
     use crate::map::Raster;
-    use apex_rt::Construct;
+    use apex_rt::{Construct, Time};
     use core::f32::consts::FRAC_PI_2;
 
     fn node() -> SweepStop {

@@ -42,6 +42,13 @@ impl Twist {
         Self::of(self.velocity().scaled(share), self.omega * share)
     }
 
+    /// The twist on the same curve, slowed down so far that it can be stopped within `gap` m with a `deceleration` in
+    /// m/s².
+    #[cfg(feature = "std")]
+    pub(super) fn stoppable(&self, gap: f32, deceleration: f32) -> Self {
+        self.slowed_to(libm::sqrtf(2.0 * deceleration * gap.max(0.0)))
+    }
+
     /// Returns `true` if all components are finite.
     pub const fn is_finite(&self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.omega.is_finite()

@@ -132,6 +132,13 @@ impl Pose2 {
         Point2::new(cos * d.x + sin * d.y, cos * d.y - sin * d.x)
     }
 
+    /// Returns `true` if a point of the outer frame is in a box of this length and width, in m, whose middle has this
+    /// pose.
+    pub(crate) fn is_in_box(&self, point: Point2, length: f32, width: f32) -> bool {
+        let p = self.to_inner(point);
+        libm::fabsf(p.x) <= 0.5 * length && libm::fabsf(p.y) <= 0.5 * width
+    }
+
     /// Transforms a pose from this frame to the outer frame.
     #[must_use]
     pub fn compose(&self, inner: &Self) -> Self {

@@ -1,6 +1,5 @@
 use super::{Pose2, Scan};
 use apex_rt::{Out, node};
-use libm::fabsf;
 
 /// Marks the beams of a scan that end in a box as not measured (NaN): in a load, or in a part of the robot itself.
 ///
@@ -23,8 +22,7 @@ impl HideBox {
         rest.clone_from(scan);
         let Some(place) = place else { return };
         for (beam, point) in scan.points() {
-            let p = place.to_inner(point);
-            if fabsf(p.x) <= 0.5 * self.length && fabsf(p.y) <= 0.5 * self.width {
+            if place.is_in_box(point, self.length, self.width) {
                 rest.ranges[beam] = f32::NAN;
             }
         }
