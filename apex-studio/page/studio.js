@@ -160,7 +160,7 @@ function tick(told) {
   for (const node of robot.nodes) node.fresh = false;
   for (const line of robot.connections) line.fresh = false;
   let changed = false;
-  // Before another robot is there, the last words of this one are void.
+  // The program is not there yet.
   if (robot.about === null) return;
   for (const [at, active, since, fired, last, problems] of told.nodes) {
     const node = robot.nodes[at];
@@ -246,8 +246,18 @@ function showProblems(count, all) {
   tab.append(number);
 }
 
+/** The robot that was asked for last, until the studio answers. @type {number | null} */
+let coming = null;
+
+/** Handles a message, except late ones about the robot that was shown before. @param {string} kind @param {any} told */
+function hear(kind, told) {
+  if (kind === "robots" && told.shown === coming) coming = null;
+  if (coming === null) tells[kind](told);
+}
+
 /** Shows another robot. @param {number} at */
 function look(at) {
+  coming = at;
   select(null);
   text.forget();
   picture.forget();
@@ -338,7 +348,9 @@ document.addEventListener("keydown", (event) => {
 });
 
 show("active");
-connect("live", tells, () => {
+const hears = Object.fromEntries(Object.keys(tells).map((kind) => [kind, (/** @type {any} */ told) => hear(kind, told)]));
+connect("live", hears, () => {
+  coming = null;
   ask({ measure: robot.times !== null });
   values.watch();
 });

@@ -2,7 +2,6 @@
 
 #[test]
 fn errors() {
-    let cases = trybuild::TestCases::new();
-    cases.compile_fail("fail/*.rs");
-    cases.pass("pass/*.rs");
+    // Only failures: with programs that compile, each would be built by itself, and all that it needs completely.
+    trybuild::TestCases::new().compile_fail("fail/*.rs");
 }

@@ -8,6 +8,7 @@ use std::{
     net::TcpStream,
     path::PathBuf,
     process::{Child, Command, Stdio},
+    sync::{Arc, Mutex, PoisonError, Weak},
     thread,
     time::{Duration, Instant},
 };
@@ -16,10 +17,17 @@ use tungstenite::{Message, WebSocket, client};
 /// Time that a page has to show something.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// A browser with one page.
-pub struct Browser {
+/// The program of the browser, for all tests that run at the same time.
+struct Program {
     process: Child,
     profile: PathBuf,
+    /// Where it speaks the protocol.
+    address: String,
+}
+
+/// A browser with one page, which shares nothing with those of other tests.
+pub struct Browser {
+    _program: Arc<Program>,
     socket: WebSocket<TcpStream>,
     session: String,
     count: u64,
@@ -27,15 +35,18 @@ pub struct Browser {
     pub complaints: Vec<String>,
 }
 
-impl Browser {
-    /// Opens a page, or says that there is no browser.
-    pub fn open(url: &str) -> Option<Self> {
-        let Some(program) = ["chromium", "chromium-browser", "google-chrome"].into_iter().find(|name| is_there(name))
-        else {
-            assert!(env::var_os("CI").is_none(), "there is no Chromium");
-            println!("skipped: there is no Chromium; `apt install chromium`");
-            return None;
-        };
+impl Program {
+    /// The program that runs, or a new one. It ends with its last page.
+    fn shared() -> Option<Arc<Self>> {
+        static LAST: Mutex<Weak<Program>> = Mutex::new(Weak::new());
+        let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+        let program = last.upgrade().or_else(|| Self::start().map(Arc::new))?;
+        *last = Arc::downgrade(&program);
+        Some(program)
+    }
+
+    fn start() -> Option<Self> {
+        let program = ["chromium", "chromium-browser", "google-chrome"].into_iter().find(|name| is_there(name))?;
         let profile = tempfile();
         let options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--remote-debugging-port=0"];
         let mut command = Command::new(program);
@@ -47,12 +58,38 @@ impl Browser {
             .expect("the browser tells its address");
         // The browser must not wait for a reader of its messages.
         thread::spawn(move || lines.for_each(drop));
-        let host =
-            address.strip_prefix("ws://").and_then(|rest| rest.split('/').next()).expect("an address").to_owned();
+        Some(Self { process, profile, address })
+    }
+
+    /// A new connection to it.
+    fn connect(&self) -> WebSocket<TcpStream> {
+        let host = self.address.strip_prefix("ws://").and_then(|rest| rest.split('/').next()).expect("an address");
         let stream = TcpStream::connect(host).expect("the browser listens");
-        let (socket, _) = client(&address, stream).expect("the browser answers");
-        let mut browser = Self { process, profile, socket, session: String::new(), count: 0, complaints: vec![] };
-        let target = browser.call("Target.createTarget", json!({ "url": "about:blank" }));
+        client(&self.address, stream).expect("the browser answers").0
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+        let _ = fs::remove_dir_all(&self.profile);
+    }
+}
+
+impl Browser {
+    /// Opens a page, or says that there is no browser.
+    pub fn open(url: &str) -> Option<Self> {
+        let Some(program) = Program::shared() else {
+            assert!(env::var_os("CI").is_none(), "there is no Chromium");
+            println!("skipped: there is no Chromium; `apt install chromium`");
+            return None;
+        };
+        let socket = program.connect();
+        let mut browser = Self { _program: program, socket, session: String::new(), count: 0, complaints: vec![] };
+        let context = browser.call("Target.createBrowserContext", json!({ "disposeOnDetach": true }));
+        let page = json!({ "url": "about:blank", "browserContextId": context["browserContextId"], "newWindow": true });
+        let target = browser.call("Target.createTarget", page);
         let attached = json!({ "targetId": target["targetId"], "flatten": true });
         let session = browser.call("Target.attachToTarget", attached);
         browser.session = session["sessionId"].as_str().expect("a session").to_owned();
@@ -128,14 +165,6 @@ impl Browser {
         for kind in ["keyDown", "keyUp"] {
             self.call("Input.dispatchKeyEvent", json!({ "type": kind, "key": key, "text": text }));
         }
-    }
-}
-
-impl Drop for Browser {
-    fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-        let _ = fs::remove_dir_all(&self.profile);
     }
 }
 

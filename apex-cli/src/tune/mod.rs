@@ -65,6 +65,9 @@ pub struct Wanted {
     /// Write the tuned values into the source file.
     #[arg(long)]
     write: bool,
+    /// Build without optimisations, which takes less time: for a few short runs.
+    #[arg(long)]
+    debug: bool,
     /// Print only errors and the result.
     #[arg(short, long)]
     quiet: bool,
@@ -104,7 +107,7 @@ pub fn run(wanted: &Wanted) -> Result<ExitCode, String> {
     if wanted.write {
         result::look(&checked, script, stated)?;
     }
-    let how = How::new(true, wanted.quiet);
+    let how = How::new(!wanted.debug, wanted.quiet);
     let Some(test::Found { built, names, turn }) = test::built(&wanted.file, &checked, &[&script.name], how)? else {
         return Ok(ExitCode::from(2));
     };

@@ -36,7 +36,7 @@ fn cart(name: &str) -> Folder {
 /// Command for a study with few candidates, whose results are in `output`.
 fn tune(folder: &Folder, study: &str, output: &str, more: &[&str]) -> Command {
     let mut command = apex();
-    command.arg("tune").arg(folder.0.join("cart.afg")).args([study, "--candidates", "24", "--output"]);
+    command.arg("tune").arg(folder.0.join("cart.afg")).args([study, "--debug", "--candidates", "24", "--output"]);
     command.arg(folder.0.join(output)).args(more).env("CARGO_TARGET_DIR", TARGET);
     command
 }
