@@ -17,6 +17,7 @@ mod import_runs;
 mod memory;
 mod new;
 mod nodes;
+mod params;
 mod record;
 #[cfg(unix)]
 mod studio;

@@ -184,6 +184,7 @@ fn a_shadow_gets_the_inputs_of_the_robot_and_hands_its_parameters_over() {
     let studio = Studio::open(&["--shadow", file.to_str().unwrap()]);
     let (mut first, mut second) = (Page::open(&studio.address), Page::open(&studio.address));
     second.ask(&json!({ "robot": 1 }));
+    second.until("robots", |robots| robots["shown"] == 1);
     assert_eq!(first.until("about", |_| true)["beside"], "shadow");
     assert_eq!(second.until("about", |_| true)["beside"], "robot");
     // Numbers that no second run would have again.
