@@ -10,6 +10,9 @@ import { robot, select } from "./studio.js";
 /** `true` for a node that the compiler has inserted into a connection. @param {number} node */
 const isInserted = (node) => ["relay", "probe"].includes(robot.about?.nodes[node]?.kind ?? "");
 
+/** Pixels per unit of the picture from which on its words, of 10 units and more, can be read. */
+const READABLE = 0.3;
+
 /** Classes of the state of boxes, and of lines. */
 const BOX = ["is-active", "is-firing", "has-problem", "is-waiting"];
 const LINE = ["flows", "is-awaited"];
@@ -266,6 +269,8 @@ export class Picture {
   look() {
     const { x, y, width, height } = this.view;
     this.svg?.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
+    const scale = Math.min(this.place.clientWidth / width, this.place.clientHeight / height);
+    this.place.classList.toggle("is-far", scale < READABLE);
   }
 
   /** Words about what is under the pointer. @param {Element} target */
