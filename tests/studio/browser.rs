@@ -21,7 +21,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 struct Program {
     process: Child,
     profile: PathBuf,
-    /// Where it speaks the protocol.
+    /// Address at which it speaks the protocol.
     address: String,
 }
 
