@@ -12,8 +12,8 @@ export function ask(message) {
   if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
 }
 
-/** Connects to the studio, again and again. @param {string} place @param {Record<string, (told: any) => void>} tells what to do with each kind of message @param {() => void} begin asks for what is needed */
-export function connect(place, tells, begin) {
+/** Connects to the studio, again and again. @param {string} place @param {(kind: string, told: any) => void} hear handles a message of a kind @param {() => void} begin asks for what is needed */
+export function connect(place, hear, begin) {
   const token = location.hash.slice(1) || sessionStorage.getItem("token") || "";
   sessionStorage.setItem("token", token);
   let refused = false;
@@ -27,13 +27,13 @@ export function connect(place, tells, begin) {
       if (kind === "refused") {
         refused = true;
         state("lost", "wrong token: open the address that `apex studio` has printed");
-      } else tells[kind]?.(told);
+      } else hear(kind, told);
     }
   });
   socket.addEventListener("close", () => {
     if (refused) return;
     state("lost", "no connection to `apex studio`; trying again");
-    setTimeout(() => connect(place, tells, begin), 1000);
+    setTimeout(() => connect(place, hear, begin), 1000);
   });
 }
 

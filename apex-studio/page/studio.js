@@ -252,7 +252,7 @@ let coming = null;
 /** Handles a message, except late ones about the robot that was shown before. @param {string} kind @param {any} told */
 function hear(kind, told) {
   if (kind === "robots" && told.shown === coming) coming = null;
-  if (coming === null) tells[kind](told);
+  if (coming === null) tells[kind]?.(told);
 }
 
 /** Shows another robot. @param {number} at */
@@ -348,8 +348,7 @@ document.addEventListener("keydown", (event) => {
 });
 
 show("active");
-const hears = Object.fromEntries(Object.keys(tells).map((kind) => [kind, (/** @type {any} */ told) => hear(kind, told)]));
-connect("live", hears, () => {
+connect("live", hear, () => {
   coming = null;
   ask({ measure: robot.times !== null });
   values.watch();

@@ -298,7 +298,7 @@ document.addEventListener("keydown", (event) => {
 
 panel("candidate");
 tip(null);
-connect("follow", tells, () => {
+connect("follow", (kind, told) => tells[kind]?.(told), () => {
   const number = Number(location.search.slice(1));
   if (number > 0) ask({ study: number });
 });

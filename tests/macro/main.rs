@@ -2,6 +2,6 @@
 
 #[test]
 fn errors() {
-    // Only failures: with programs that compile, each would be built by itself, and all that it needs completely.
+    // Only failures: beside a program that compiles, such as `inline.rs`, each would be built alone, and completely.
     trybuild::TestCases::new().compile_fail("fail/*.rs");
 }
