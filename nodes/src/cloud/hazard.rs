@@ -1,6 +1,7 @@
 use super::{Columns, Label, Labels, rolling::Rolling};
 use crate::{
     map::{Grid, Occupancy},
+    persons::Persons,
     scan::{Point2, Pose2, Scan},
 };
 use apex_rt::{Out, node};
@@ -42,9 +43,10 @@ pub struct Area {
 ///
 /// Two rolling windows of cells: m_f holds where floor was seen, m_o the share of obstacles among the points of a cell,
 /// averaged over the clouds, so that single false detections do not count. Floor between two consecutive
-/// points of a column that are floor is seen too. Where the floor ends in a column before a point far below it, m_f
-/// holds that floor is missing. Obstacles at points of `scan`, which is in the frame of the robot, do not count: the
-/// scanner sees them itself, and they may be persons, who do not stay. `pose` is that of the robot in a fixed frame:
+/// points of a column that are floor is seen too. Where the floor ends in a column before a point far below it, in two
+/// clouds, m_f holds that floor is missing. Obstacles at points of `scan`, which is in the frame of the robot, do not
+/// count: the scanner sees them itself, and they may be persons, who do not stay. Neither do those at `persons`. `pose`
+/// is that of the robot in a fixed frame, which is also that of the persons and of `trailer`, the axis of a trailer:
 /// wheel odometry is enough.
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
@@ -84,6 +86,19 @@ pub struct HazardMap {
     /// missing within it.
     #[param(unit = "rad", default = PI, range = 0.0..=3.2)]
     view_angle: f32,
+    /// Distance from the robot up to which `forget` forgets obstacles.
+    #[param(unit = "m", default = 1.8, range = 0.0..=100.0)]
+    forgotten: f32,
+    /// Radius of the discs about the robot and its trailer in which there is floor, as they stand on it; twice as large
+    /// in the first cloud.
+    #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
+    stands: f32,
+    /// Last position of the robot.
+    here: Point2,
+    /// `true` after the first cloud.
+    is_on: bool,
+    /// Number of the cloud, from 0 again after 255.
+    cloud: u8,
     floor: Rolling<Ground>,
     obstacles: Rolling<f32>,
     /// Number of obstacle points and of all points of this cloud, by cell.
@@ -98,32 +113,47 @@ enum Ground {
     #[default]
     Unknown,
     Floor,
+    /// Missing in the cloud of this number alone, which may be wrong.
+    Doubtful(u8),
+    /// Missing in two clouds since it was floor.
     Missing,
 }
 
 /// Distance in the direction of view, and across, up to which an obstacle is at a point of a scan, in m.
-const SCANNED: [f32; 2] = [0.3, 0.1];
+const SCANNED: [f32; 2] = [0.3, 0.2];
+/// Distance from the position of a person up to which the person is seen, with both legs in a step, in m.
+const PERSON: f32 = 0.45;
 /// Length of the strip beyond the end of the floor in which it is missing, in m.
 const BRINK: f32 = 0.3;
 
 #[node]
 impl HazardMap {
+    #[allow(clippy::too_many_arguments, reason = "they are the ports")]
     fn process(
         &mut self,
         points: &Columns,
         labels: &Labels,
         pose: &Pose2,
         scan: Option<&Scan>,
+        persons: Option<&Persons>,
+        trailer: Option<&Pose2>,
         map: &mut Out<Grid<Occupancy>>,
         hazard: &mut Out<Hazard>,
     ) {
         if !pose.is_usable() || !points.fits(labels) {
             return;
         }
+        self.cloud = self.cloud.wrapping_add(1);
+        self.here = pose.position();
         self.floor.follow(pose.position(), self.size, self.resolution);
         self.obstacles.follow(pose.position(), self.size, self.resolution);
+        // Where the robot is switched on, it never saw the floor before its feet.
+        let radius = if self.is_on { self.stands } else { 2.0 * self.stands };
+        self.is_on = true;
+        self.stand(self.here, radius);
+        trailer.into_iter().for_each(|trailer| self.stand(trailer.position(), radius));
         self.see_floor(points, labels, pose);
-        self.see_obstacles(points, labels, pose, scan);
+        self.see_obstacles(points, labels, pose, scan, persons);
         self.draw(map.get_mut());
         let area = Area { near: self.near, far: self.far, width: self.width };
         if let Some(nearest) = self.nearest(&area, pose) {
@@ -131,11 +161,22 @@ impl HazardMap {
         }
     }
 
-    /// Forgets all obstacles, but not the floor: for example those of a container that the robot has driven beneath.
-    /// Floor that an obstacle hid has to be seen again.
+    /// Forgets the obstacles around the robot, but not the floor: for example those of a container that the robot has
+    /// driven beneath. Floor that an obstacle hid has to be seen again.
     #[slot]
     fn forget(&mut self) {
-        self.obstacles = Rolling::default();
+        for place in disc(self.here, self.forgotten, self.resolution) {
+            if let Some(index) = self.obstacles.index(place) {
+                *self.obstacles.get_mut(index) = 0.0;
+            }
+        }
+    }
+
+    /// Marks the floor around an axle that stands on it, and that the robot sees no longer.
+    fn stand(&mut self, axle: Point2, radius: f32) {
+        for place in disc(axle, radius, self.resolution) {
+            self.mark(place, place, Ground::Unknown);
+        }
     }
 
     /// Marks the cells of floor points in m_f, those between consecutive ones, and those where the floor ends.
@@ -154,7 +195,7 @@ impl HazardMap {
                         if let Some(below) = below.take() {
                             let way = below - point;
                             let share = (BRINK / way.norm().max(f32::MIN_POSITIVE)).min(1.0);
-                            self.mark(point, point + way.scaled(share), Ground::Missing);
+                            self.mark(point, point + way.scaled(share), Ground::Doubtful(self.cloud));
                         }
                         if let Some(last) = last.filter(|last| (*last - point).norm() <= self.max_gap) {
                             self.mark(point, last, Ground::Unknown);
@@ -182,13 +223,22 @@ impl HazardMap {
             *cell = match (ground, *cell) {
                 (Ground::Unknown, Ground::Unknown) => Ground::Floor,
                 (Ground::Unknown, known) => known,
+                (Ground::Doubtful(_), Ground::Missing) => Ground::Missing,
+                (Ground::Doubtful(now), Ground::Doubtful(before)) if now != before => Ground::Missing,
                 (ground, _) => ground,
             };
         }
     }
 
     /// Adds the share of obstacles among the points of each cell to the average m_o.
-    fn see_obstacles(&mut self, points: &Columns, labels: &Labels, pose: &Pose2, scan: Option<&Scan>) {
+    fn see_obstacles(
+        &mut self,
+        points: &Columns,
+        labels: &Labels,
+        pose: &Pose2,
+        scan: Option<&Scan>,
+        persons: Option<&Persons>,
+    ) {
         let raster = self.obstacles.raster();
         self.sums.resize(raster.width * raster.height, (0.0, 0));
         for (i, label) in labels.labels.iter().enumerate() {
@@ -200,7 +250,11 @@ impl HazardMap {
             if label.is_hazard() && scan.is_some_and(|scan| is_scanned(scan, place)) {
                 continue;
             }
-            let Some(index) = self.obstacles.index(pose.to_outer(place)) else { continue };
+            let place = pose.to_outer(place);
+            if label.is_hazard() && persons.is_some_and(|persons| is_person(persons, place)) {
+                continue;
+            }
+            let Some(index) = self.obstacles.index(place) else { continue };
             let (sum, count) = &mut self.sums[index];
             if *count == 0 {
                 self.touched.push(index);
@@ -226,7 +280,7 @@ impl HazardMap {
                 _ if probability >= self.threshold => Occupancy::Occupied,
                 Ground::Missing => Occupancy::Occupied,
                 Ground::Floor => Occupancy::Free,
-                Ground::Unknown => Occupancy::Unknown,
+                Ground::Unknown | Ground::Doubtful(_) => Occupancy::Unknown,
             };
         }
     }
@@ -268,6 +322,19 @@ fn is_scanned(scan: &Scan, place: Point2) -> bool {
     ranges.any(|range| (range - distance).abs() <= SCANNED[0])
 }
 
+/// Places in a disc, about a cell apart.
+fn disc(centre: Point2, radius: f32, resolution: f32) -> impl Iterator<Item = Point2> {
+    let count = (radius / resolution) as i32;
+    let offsets = (-count..=count).flat_map(move |i| (-count..=count).map(move |k| (i, k)));
+    let places = offsets.map(move |(i, k)| Point2::new(i as f32, k as f32).scaled(resolution));
+    places.filter(move |off| off.norm() <= radius).map(move |off| centre + off)
+}
+
+/// Returns `true` if a person is at a place.
+fn is_person(persons: &Persons, place: Point2) -> bool {
+    persons.iter().any(|person| (person.position - place).norm_squared() <= PERSON * PERSON)
+}
+
 /// Number of steps that are not longer than a cell.
 fn steps(length: f32, resolution: f32) -> usize {
     (length / resolution).ceil().max(0.0) as usize
@@ -280,7 +347,7 @@ mod tests {
     use apex_rt::Construct;
 
     fn node() -> HazardMap {
-        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 2.0, 0.5, 0.4, 1.0, 0.4, PI))
+        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 2.0, 0.5, 0.4, 1.0, 0.4, PI, 1.0, 0.2))
     }
 
     /// Floor from 0.3 m to `until`, across 1.2 m, with an optional obstacle at this x.
@@ -298,7 +365,7 @@ mod tests {
             *label = if is_there(*x) { Label::Obstacle } else { Label::Floor };
         }
         let (mut map, mut hazard) = (Out::new(), Out::new());
-        node.process(&points, &labels, pose, None, &mut map, &mut hazard);
+        node.process(&points, &labels, pose, None, None, None, &mut map, &mut hazard);
         let map = map.get().expect("a map");
         (hazard.get().copied(), map.cells().iter().filter(|c| **c == Occupancy::Occupied).count())
     }
@@ -361,12 +428,52 @@ mod tests {
             *label = if *x < 0.75 { Label::Floor } else { Label::Below };
         }
         let (mut map, mut hazard) = (Out::new(), Out::new());
-        node().process(&points, &labels, &Pose2::default(), None, &mut map, &mut hazard);
+        let mut node = node();
+        let mut look = || {
+            node.process(&points, &labels, &Pose2::default(), None, None, None, &mut map, &mut hazard);
+            let map = map.get().expect("a map");
+            let occupied = map.iter().filter(|(_, cell)| **cell == Occupancy::Occupied);
+            occupied.map(|(cell, _)| map.raster().centre(cell).x).collect::<Vec<f32>>()
+        };
+        assert_eq!(look(), [], "one cloud may be wrong");
+        let ahead = look();
         let map = map.get().expect("a map");
-        let occupied = map.iter().filter(|(_, cell)| **cell == Occupancy::Occupied);
-        let ahead: Vec<f32> = occupied.map(|(cell, _)| map.raster().centre(cell).x).collect();
         assert!(!ahead.is_empty() && ahead.iter().all(|x| (0.7..0.9).contains(x)), "{ahead:?}");
         assert_eq!(map.at(Point2::new(0.55, 0.0)), Some(&Occupancy::Free));
+    }
+
+    #[test]
+    fn persons_are_no_obstacles_and_the_robot_stands_on_floor() {
+        let mut node = node();
+        let (points, mut labels) = columns(4, &[[0.8, 0.0, 0.1, 1.0]; 4]);
+        labels.labels.fill(Label::Obstacle);
+        let mut at = |persons: Option<&Persons>| {
+            let (mut map, mut hazard) = (Out::new(), Out::new());
+            for _ in 0..9 {
+                node.process(&points, &labels, &Pose2::default(), None, persons, None, &mut map, &mut hazard);
+            }
+            let map = map.get().expect("a map");
+            [(0.8, 0.0), (0.1, 0.1), (0.3, 0.3)].map(|(x, y)| map.at(Point2::new(x, y)).copied().expect("inside"))
+        };
+        let person = crate::persons::Person { position: Point2::new(1.0, 0.2), ..Default::default() };
+        let [unknown, free] = [Occupancy::Unknown, Occupancy::Free];
+        assert_eq!(at(Some(&core::iter::once(person).collect())), [unknown, free, unknown]);
+        assert_eq!(at(None), [Occupancy::Occupied, free, unknown]);
+    }
+
+    #[test]
+    fn there_is_floor_where_the_vehicle_is_switched_on_and_where_it_drives() {
+        let (points, labels) = columns(1, &[[f32::NAN; 4]]);
+        let mut node = node();
+        let mut at = |x: f32, places: [f32; 4]| {
+            let (mut map, mut hazard) = (Out::new(), Out::new());
+            let [pose, trailer] = [x, x - 0.7].map(|x| Pose2::new(x, 0.0, 0.0));
+            node.process(&points, &labels, &pose, None, None, Some(&trailer), &mut map, &mut hazard);
+            let map = map.get().expect("a map");
+            places.map(|x| map.at(Point2::new(x, 0.0)) == Some(&Occupancy::Free))
+        };
+        assert_eq!(at(0.05, [-1.0, -0.3, 0.35, 0.55]), [true, true, true, false]);
+        assert_eq!(at(0.55, [-1.0, 0.35, 0.65, 0.85]), [true, true, true, false]);
     }
 
     #[test]
@@ -385,10 +492,19 @@ mod tests {
         let (mut map, mut hazard) = (Out::new(), Out::new());
         let (points, labels) = columns(2, &[[1.0; 4]; 4]);
         let mut node = node();
-        node.process(&points, &Labels::default(), &Pose2::default(), None, &mut map, &mut hazard);
-        node.process(&points, &labels, &Pose2::new(f32::NAN, 0.0, 0.0), None, &mut map, &mut hazard);
+        node.process(&points, &Labels::default(), &Pose2::default(), None, None, None, &mut map, &mut hazard);
+        node.process(&points, &labels, &Pose2::new(f32::NAN, 0.0, 0.0), None, None, None, &mut map, &mut hazard);
         assert!(map.get().is_none() && hazard.get().is_none());
-        node.process(&Columns::default(), &Labels::default(), &Pose2::default(), None, &mut map, &mut hazard);
+        node.process(
+            &Columns::default(),
+            &Labels::default(),
+            &Pose2::default(),
+            None,
+            None,
+            None,
+            &mut map,
+            &mut hazard,
+        );
         assert_eq!(hazard.get().map(|h| h.kind), Some(HazardKind::NoFloor));
     }
 }

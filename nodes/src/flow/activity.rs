@@ -90,6 +90,38 @@ impl<T: Clone> Action<T> {
     }
 }
 
+/// Counts failures of something that is tried several times: the first ones trigger `again`, the last one `give_up`,
+/// and the count begins anew. Activity that arrives with a failure leaves with the event.
+#[node]
+#[derive(Debug, Clone)]
+pub struct Attempts {
+    /// Number of failures after which it is given up.
+    #[param(default = 3, range = 1..=1000)]
+    limit: u32,
+    failures: u32,
+}
+
+#[node]
+impl Attempts {
+    /// Notes a failure.
+    #[slot]
+    fn failed(&mut self, again: Event<()>, #[failure] give_up: Event<()>) {
+        self.failures += 1;
+        if self.failures < self.limit {
+            again.emit(());
+        } else {
+            self.failures = 0;
+            give_up.emit(());
+        }
+    }
+
+    /// Notes a success: the count begins anew.
+    #[slot]
+    fn succeeded(&mut self) {
+        self.failures = 0;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,6 +148,21 @@ mod tests {
         node.succeed(&ctx.of_node(true), apex_rt::event(&mut done));
         node.fail(&ctx, apex_rt::event(&mut None));
         assert_eq!(done, Some(()));
+    }
+
+    #[test]
+    fn only_failures_in_a_row_count() {
+        let mut node = Attempts { limit: 2, failures: 0 };
+        let mut fails = || {
+            let (mut again, mut give_up) = (None, None);
+            node.failed(apex_rt::event(&mut again), apex_rt::event(&mut give_up));
+            (again.is_some(), give_up.is_some())
+        };
+        assert_eq!([fails(), fails(), fails()], [(true, false), (false, true), (true, false)]);
+        node.succeeded();
+        let (mut again, mut give_up) = (None, None);
+        node.failed(apex_rt::event(&mut again), apex_rt::event(&mut give_up));
+        assert_eq!((again, give_up), (Some(()), None));
     }
 
     #[test]

@@ -9,7 +9,7 @@ mod event;
 mod pace;
 mod route;
 
-pub use activity::{Action, ActivityGate, Deactivate, Wait};
+pub use activity::{Action, ActivityGate, Attempts, Deactivate, Wait};
 pub use batch::{Collect, Delay, MAX_BATCH};
 pub use buffer::{Hold, Latch, Latest, constant};
 pub use event::{Counter, Debounce, Relay, Signal, Toggle, either, emit, equals, tick};

@@ -9,7 +9,8 @@ const MOST: usize = 2000;
 ///
 /// `surroundings` is a window such as the map of `HazardMap`, in the frame of `odometry`. `pose` is the pose of the
 /// robot in the frame of `map`, ⊥ while it is not known. Occupied cells in view are remembered until they are seen to
-/// be free, or for `memory`.
+/// be free, or for `memory`. Those of the last window are marked around the robot too, as a node such as `SweepStop`
+/// stops before them.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MarkSurroundings {
@@ -22,6 +23,18 @@ pub struct MarkSurroundings {
     /// Angle of the camera's view across, about the x axis of the robot.
     #[param(unit = "rad", default = 1.0, range = 0.0..=6.3)]
     view_angle: f32,
+    /// Distance up to which cells of the last window are marked that are no longer in view, nor remembered: where
+    /// odometry still tells where they are.
+    #[param(unit = "m", default = 3.0, range = 0.0..=100.0)]
+    near: f32,
+    /// Distance from the robot up to which `forget` forgets cells.
+    #[param(unit = "m", default = 1.8, range = 0.0..=100.0)]
+    forgotten: f32,
+    /// Last window.
+    last: Grid<Occupancy>,
+    /// Last position of the robot in the map, and the cells of the map.
+    here: Point2,
+    raster: Raster,
     /// Remembered cells of the map in their order, and the times at which they were last seen.
     known: Vec<(Cell, Time)>,
 }
@@ -42,6 +55,8 @@ impl MarkSurroundings {
         let pose = pose.filter(|pose| pose.is_usable() && odometry.is_usable());
         if let Some((surroundings, pose)) = surroundings.zip(pose) {
             self.look(surroundings, map.raster(), [pose, odometry], ctx.now());
+            self.last.clone_from(surroundings);
+            (self.here, self.raster) = (pose.position(), *map.raster());
         }
         let marked = marked.get_mut();
         marked.clone_from(map);
@@ -50,12 +65,29 @@ impl MarkSurroundings {
                 *cell = Occupancy::Occupied;
             }
         }
+        if let Some(pose) = pose {
+            self.mark_window(marked, [pose, odometry]);
+        }
     }
 
-    /// Forgets all cells, for example when the robot has moved one of the things in them.
+    /// Marks the occupied cells of the last window, also those that are not in view.
+    fn mark_window(&self, marked: &mut Grid<Occupancy>, [pose, odometry]: [&Pose2; 2]) {
+        let (window, raster) = (&self.last, *marked.raster());
+        for (cell, _) in window.iter().filter(|(_, cell)| **cell == Occupancy::Occupied) {
+            let place = odometry.to_inner(window.raster().centre(cell));
+            let is_near = place.norm() <= self.near;
+            if let Some(cell) = raster.cell(pose.to_outer(place)).filter(|_| is_near).and_then(|c| marked.get_mut(c)) {
+                *cell = Occupancy::Occupied;
+            }
+        }
+    }
+
+    /// Forgets the cells around the robot, for example when the robot has lifted the thing in them.
     #[slot]
     fn forget(&mut self) {
-        self.known.clear();
+        let (here, raster, reach) = (self.here, self.raster, self.forgotten);
+        self.known.retain(|(cell, _)| (raster.centre(*cell) - here).norm() > reach);
+        self.last = Grid::default();
     }
 
     /// Forgets the cells that are free now, and adds those that are occupied.
@@ -108,7 +140,7 @@ mod tests {
 
     #[test]
     fn what_was_seen_is_marked_until_it_is_seen_free() {
-        let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0));
+        let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0, 0.0, 1.5));
         let hazards = [(1.02, 0.22), (2.5, 0.0), (0.1, 1.0)].map(|(x, y)| (x, y, Occupancy::Occupied));
         let occupied = window(&hazards);
         let free = Grid::new(*occupied.raster(), Occupancy::Free).expect("small");
@@ -123,8 +155,18 @@ mod tests {
     }
 
     #[test]
+    fn what_is_near_is_marked_out_of_view_too() {
+        let window = window(&[(1.0, 0.2), (-1.0, 0.0), (0.1, 1.5)].map(|(x, y)| (x, y, Occupancy::Occupied)));
+        let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0, 1.2, 1.5));
+        assert_eq!(look(&mut node, 0, Some(&window)).0, 2);
+        assert_eq!(look(&mut node, 9000, None).0, 2);
+        node.forget();
+        assert_eq!(look(&mut node, 9100, None).0, 0);
+    }
+
+    #[test]
     fn without_a_pose_nothing_is_marked() {
-        let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0));
+        let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0, 0.0, 1.5));
         let window = window(&[(1.02, 0.22, Occupancy::Occupied)]);
         let nan = Pose2::new(f32::NAN, 0.0, 0.0);
         let (map, mut out) = (Grid::new(BUILDING, Occupancy::Free).expect("small"), Out::new());

@@ -15,7 +15,7 @@ use libm::remainderf;
 use std::collections::BinaryHeap;
 
 /// Number of headings of the states.
-const HEADINGS: usize = 16;
+const HEADINGS: usize = 32;
 /// Side of a state, in m.
 const SIDE: f32 = 0.2;
 /// Length of a step, in m.
@@ -32,6 +32,8 @@ const NEAR: f32 = 4.0;
 const TRIES: usize = 8;
 /// Maximum angle between the vehicle and its trailer, in rad.
 const MAX_BEND: f32 = 1.2;
+/// Distance from the places of the trailer at the start within which the map does not count, in m: it stands there.
+const STANDS: f32 = 0.2;
 /// Maximum number of expanded states.
 const MOST: usize = 60_000;
 /// Length of a way to nowhere.
@@ -53,6 +55,14 @@ pub struct CurveDrive {
     pub body: &'static [f32],
 }
 
+impl CurveDrive {
+    /// Places on the trailer that must not touch anything, at a pose and with this heading of the trailer.
+    fn places(&self, pose: &Pose2, trailer: f32) -> impl Iterator<Item = Point2> {
+        let (hitch, drawbar) = (pose.to_outer(Point2::new(-self.hitch, 0.0)), self.drawbar);
+        self.body.iter().map(move |place| hitch + Point2::polar(place - drawbar, trailer))
+    }
+}
+
 /// Planner for vehicles that only drive forward in curves of a smallest radius: A* on states of position and heading,
 /// with arcs as steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A passively steered trailer is
 /// predicted on the way. The heuristic is the length of the shortest way on the map without regard to the heading.
@@ -63,6 +73,8 @@ pub struct CurveSearch {
     estimates: Grid<f32>,
     nodes: Vec<Node>,
     open: BinaryHeap<Open>,
+    /// Places of the trailer at the start.
+    stands: Vec<Point2>,
     /// Least cost with which a state was expanded.
     best: Vec<f32>,
 }
@@ -77,8 +89,8 @@ struct Node {
     /// Curvature of the way to it, in 1/m.
     curvature: f32,
     before: u32,
-    /// `true` if a Dubins curve leads from here to the goal.
-    ends: bool,
+    /// Number of the goal to which a Dubins curve leads from here.
+    ends: Option<u8>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,8 +115,8 @@ impl PartialOrd for Open {
 }
 
 impl CurveSearch {
-    /// Writes a path from `start` to `goal`, which ends with the heading of the goal, into `path`, with points about
-    /// 0.1 m apart. `trailer` is the heading of the trailer at the start, in rad.
+    /// Writes a path from `start` to the goal that is reached at the least cost, which ends with the heading of that
+    /// goal, into `path`, with points about 0.1 m apart. `trailer` is the heading of the trailer at the start, in rad.
     ///
     /// # Errors
     /// There is no such path. `path` is then empty.
@@ -112,19 +124,21 @@ impl CurveSearch {
         &mut self,
         terrain: &Terrain<'_>,
         vehicle: &CurveDrive,
-        [start, goal]: [&Pose2; 2],
+        start: &Pose2,
+        goals: &[Pose2],
         trailer: f32,
         path: &mut Path,
     ) -> Result<(), NoPath> {
         path.points.clear();
-        path.heading = goal.theta;
-        check(terrain, start, goal)?;
-        self.estimate(terrain, goal);
+        check(terrain, start, goals)?;
+        self.estimate(terrain, goals);
         self.begin(start, trailer);
+        self.stands.clear();
+        self.stands.extend(vehicle.places(start, trailer));
         let mut expanded = 0;
         while let Some(Open { node: at, .. }) = self.open.pop() {
             let node = self.nodes[at as usize];
-            if node.ends {
+            if let Some(goal) = node.ends.and_then(|number| goals.get(usize::from(number))) {
                 self.trace(at, vehicle, goal, path);
                 return Ok(());
             }
@@ -139,7 +153,7 @@ impl CurveSearch {
             }
             let rest = self.rest(node.pose.position());
             if rest < NEAR || expanded % TRIES == 1 {
-                self.try_to_end(terrain, vehicle, at, goal);
+                (0..).zip(goals).for_each(|goal| self.try_to_end(terrain, vehicle, at, goal));
             }
             for steering in STEERING {
                 self.step(terrain, vehicle, at, steering / vehicle.radius);
@@ -153,7 +167,7 @@ impl CurveSearch {
         self.open.clear();
         self.best.clear();
         self.best.resize(self.estimates.cells().len() * HEADINGS, f32::INFINITY);
-        self.nodes.push(Node { pose: *start, trailer, cost: 0.0, curvature: 0.0, before: NONE, ends: false });
+        self.nodes.push(Node { pose: *start, trailer, cost: 0.0, curvature: 0.0, before: NONE, ends: None });
         self.open.push(Open { estimate: 0.0, node: 0 });
     }
 
@@ -172,7 +186,7 @@ impl CurveSearch {
 
     fn step(&mut self, terrain: &Terrain<'_>, vehicle: &CurveDrive, before: u32, curvature: f32) {
         let node = self.nodes[before as usize];
-        let drive = Drive { terrain, vehicle };
+        let drive = Drive { terrain, vehicle, stands: &self.stands };
         let Some((length, trailer)) = drive.arc(&node.pose, node.trailer, curvature, STEP) else { return };
         let bend = [curvature.abs(), (curvature - node.curvature).abs()].map(|c| c * vehicle.radius);
         let cost = node.cost + length + BENDING[0] * STEP * bend[0] + BENDING[1] * bend[1];
@@ -180,29 +194,29 @@ impl CurveSearch {
         let (Some(state), rest) = (self.state(&pose), self.rest(pose.position())) else { return };
         if rest.is_finite() && cost < self.best[state] {
             self.open.push(Open { estimate: cost + rest, node: self.nodes.len() as u32 });
-            self.nodes.push(Node { pose, trailer, cost, curvature, before, ends: false });
+            self.nodes.push(Node { pose, trailer, cost, curvature, before, ends: None });
         }
     }
 
-    /// Adds the shortest free Dubins curve from a node to the goal.
-    fn try_to_end(&mut self, terrain: &Terrain<'_>, vehicle: &CurveDrive, before: u32, goal: &Pose2) {
+    /// Adds the shortest free Dubins curve from a node to a goal.
+    fn try_to_end(&mut self, terrain: &Terrain<'_>, vehicle: &CurveDrive, before: u32, (number, goal): (u8, &Pose2)) {
         let node = self.nodes[before as usize];
         let mut best: Option<f32> = None;
         for curve in curves(&node.pose, goal, vehicle.radius, 0.0) {
             let length = curve.length();
             if best.is_none_or(|best| length < best) {
-                best = Drive { terrain, vehicle }.curve(&curve, node.trailer).or(best);
+                best = Drive { terrain, vehicle, stands: &self.stands }.curve(&curve, node.trailer).or(best);
             }
         }
         if let Some(length) = best {
             let cost = node.cost + length;
             self.open.push(Open { estimate: cost, node: self.nodes.len() as u32 });
-            self.nodes.push(Node { cost, before, ends: true, ..node });
+            self.nodes.push(Node { cost, before, ends: Some(number), ..node });
         }
     }
 
-    /// Distances of all coarse cells from the goal (Dijkstra 1959). A coarse cell is open if a part of it is.
-    fn estimate(&mut self, terrain: &Terrain<'_>, goal: &Pose2) {
+    /// Distances of all coarse cells from the nearest goal (Dijkstra 1959). A coarse cell is open if a part of it is.
+    fn estimate(&mut self, terrain: &Terrain<'_>, goals: &[Pose2]) {
         let fine = terrain.map.raster();
         let part = libm::roundf(SIDE / fine.resolution).max(1.0) as usize;
         let raster = Raster {
@@ -216,7 +230,7 @@ impl CurveSearch {
             return;
         }
         let mut open = BinaryHeap::new();
-        if let Some(cell) = raster.cell(goal.position()) {
+        for cell in goals.iter().filter_map(|goal| raster.cell(goal.position())) {
             self.reach(cell, 0.0, &mut open);
         }
         while let Some(Open { estimate, node }) = open.pop() {
@@ -244,6 +258,7 @@ impl CurveSearch {
     }
 
     fn trace(&self, end: u32, vehicle: &CurveDrive, goal: &Pose2, path: &mut Path) {
+        path.heading = goal.theta;
         let (mut at, mut nodes) = (self.nodes[end as usize].before, vec![]);
         while at != NONE {
             nodes.push(self.nodes[at as usize]);
@@ -271,17 +286,19 @@ fn places(length: f32) -> impl Iterator<Item = f32> {
     (0..count as u32).map(move |i| length * i as f32 / count)
 }
 
-fn check(terrain: &Terrain<'_>, start: &Pose2, goal: &Pose2) -> Result<(), NoPath> {
+fn check(terrain: &Terrain<'_>, start: &Pose2, goals: &[Pose2]) -> Result<(), NoPath> {
     let raster = terrain.map.raster();
     if terrain.costs.is_some_and(|costs| costs.raster() != raster) {
         return Err(NoPath::OtherRaster);
     }
     let from = raster.cell(start.position()).ok_or(NoPath::StartOutside)?;
-    let to = raster.cell(goal.position()).ok_or(NoPath::GoalOutside)?;
     if !(terrain.is_open(from) && start.theta.is_finite()) {
         return Err(NoPath::StartBlocked);
     }
-    if terrain.is_open(to) && goal.theta.is_finite() { Ok(()) } else { Err(NoPath::GoalBlocked) }
+    let mut inside = goals.iter().filter_map(|goal| Some((goal, raster.cell(goal.position())?))).peekable();
+    inside.peek().ok_or(NoPath::GoalOutside)?;
+    let is_open = inside.any(|(goal, cell)| terrain.is_open(cell) && goal.theta.is_finite());
+    if is_open { Ok(()) } else { Err(NoPath::GoalBlocked) }
 }
 
 /// Least cost of the open fine cells of a coarse cell, or `None` if none is open.
@@ -297,6 +314,7 @@ fn openness(terrain: &Terrain<'_>, raster: &Raster, cell: Cell, part: usize) -> 
 struct Drive<'a> {
     terrain: &'a Terrain<'a>,
     vehicle: &'a CurveDrive,
+    stands: &'a [Point2],
 }
 
 impl Drive<'_> {
@@ -341,15 +359,13 @@ impl Drive<'_> {
 
     /// Cost at a pose, or `None` if something is touched there.
     fn fits(&self, pose: &Pose2, trailer: f32) -> Option<f32> {
-        let Self { terrain, vehicle } = self;
+        let Self { terrain, vehicle, stands } = self;
         let raster = terrain.map.raster();
         let is_free = |point: Point2| raster.cell(point).filter(|cell| terrain.is_open(*cell));
         is_free(pose.to_outer(Point2::new(vehicle.front, 0.0)))?;
-        if !vehicle.body.is_empty() {
-            let hitch = pose.to_outer(Point2::new(-vehicle.hitch, 0.0));
-            for place in vehicle.body {
-                is_free(hitch + Point2::polar(place - vehicle.drawbar, trailer))?;
-            }
+        let is_start = |place: Point2| stands.iter().any(|at| (*at - place).norm_squared() <= STANDS * STANDS);
+        if vehicle.places(pose, trailer).any(|place| is_free(place).is_none() && !is_start(place)) {
+            return None;
         }
         is_free(pose.position()).map(|cell| terrain.cost(cell))
     }
@@ -363,10 +379,11 @@ fn bend(pose: &Pose2, trailer: f32) -> f32 {
 /// Plans a path for a vehicle that only drives forward in curves, such as a tractor with a trailer (see
 /// [`CurveSearch`]). The path ends with the heading of the goal.
 ///
-/// `start`, `goal` and the path are in the frame of the map. The obstacles of the map must be grown by half of the
-/// width of the vehicle. `costs` are those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of
-/// the vehicle. If it is ⊥, the trailer is assumed to be straight behind. Without a path, the output is ⊥ and `no_path`
-/// gives the reason.
+/// `start`, `goal` and the path are in the frame of the map. `other` is another goal that is as good, such as the other
+/// end of something that the vehicle drives beneath: the path leads to the one that is reached at the least cost. The
+/// obstacles of the map must be grown by half of the width of the vehicle. `costs` are those of `CostMap`. `trailer` is
+/// the pose of the trailer's axis in the frame of the vehicle. If it is ⊥, the trailer is assumed to be straight
+/// behind. Without a path, the output is ⊥ and `no_path` gives the reason.
 #[node]
 #[derive(Debug, Clone)]
 pub struct CurvePlanner {
@@ -391,10 +408,12 @@ pub struct CurvePlanner {
 
 #[node]
 impl CurvePlanner {
+    #[allow(clippy::too_many_arguments, reason = "they are the ports")]
     fn process(
         &mut self,
         start: &Pose2,
         goal: &Pose2,
+        other: Option<&Pose2>,
         map: &Grid<Occupancy>,
         costs: Option<&Grid<f32>>,
         trailer: Option<&Pose2>,
@@ -405,7 +424,9 @@ impl CurvePlanner {
         let Self { radius, front, hitch, drawbar, body, .. } = *self;
         let vehicle = CurveDrive { radius, front, hitch, drawbar, body };
         let heading = start.theta + trailer.filter(|pose| pose.is_finite()).map_or(0.0, |pose| pose.theta);
-        if let Err(why) = self.search.plan(&terrain, &vehicle, [start, goal], heading, path.get_mut()) {
+        let both = [*goal, other.copied().unwrap_or(*goal)];
+        let goals = if other.is_some() { &both[..] } else { &both[..1] };
+        if let Err(why) = self.search.plan(&terrain, &vehicle, start, goals, heading, path.get_mut()) {
             path.clear();
             no_path.emit(why);
         }
@@ -430,9 +451,13 @@ mod tests {
     }
 
     fn plan(map: &Grid<Occupancy>, start: Pose2, goal: Pose2) -> Result<Path, NoPath> {
+        plan_to_any(map, start, &[goal])
+    }
+
+    fn plan_to_any(map: &Grid<Occupancy>, start: Pose2, goals: &[Pose2]) -> Result<Path, NoPath> {
         let mut path = Path::default();
         let terrain = Terrain { map, costs: None, unknown_is_open: false };
-        CurveSearch::default().plan(&terrain, &VEHICLE, [&start, &goal], start.theta, &mut path).map(|()| path)
+        CurveSearch::default().plan(&terrain, &VEHICLE, &start, goals, start.theta, &mut path).map(|()| path)
     }
 
     #[test]
@@ -462,12 +487,40 @@ mod tests {
             (40..60).for_each(|j| *map.get_mut(Cell::new(j, i)).expect("inside") = Occupancy::Free);
         }
         let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
-        let ends = [&Pose2::new(2.5, 5.0, 0.0), &Pose2::new(5.0, 2.0, -FRAC_PI_2)];
+        let (start, goals) = (Pose2::new(2.5, 5.0, 0.0), [Pose2::new(5.0, 2.0, -FRAC_PI_2)]);
         let is_way = |body: &'static [f32]| {
             let (mut path, vehicle) = (Path::default(), CurveDrive { body, ..VEHICLE });
-            CurveSearch::default().plan(&terrain, &vehicle, ends, 0.0, &mut path).is_ok()
+            CurveSearch::default().plan(&terrain, &vehicle, &start, &goals, 0.0, &mut path).is_ok()
         };
         assert_eq!([is_way(&[]), is_way(&[0.0]), is_way(&[-4.0, -3.0, -2.0, 0.0])], [true, true, false]);
+    }
+
+    #[test]
+    fn a_load_that_stands_beside_an_obstacle_gets_away() {
+        let mut map = room();
+        // Something in the grown map where the trailer is.
+        for y in 18..22 {
+            *map.get_mut(Cell::new(13, y)).expect("inside") = Occupancy::Occupied;
+        }
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let vehicle = CurveDrive { body: &[0.0], ..VEHICLE };
+        let is_way = |start: Pose2| {
+            let goals = [Pose2::new(5.0, 2.0, 0.0)];
+            CurveSearch::default().plan(&terrain, &vehicle, &start, &goals, 0.0, &mut Path::default()).is_ok()
+        };
+        // Through the obstacle there is no way.
+        assert_eq!([2.0, 0.8].map(|x| is_way(Pose2::new(x, 2.0, 0.0))), [true, false]);
+    }
+
+    #[test]
+    fn of_two_goals_the_nearer_one_that_is_free_is_reached() {
+        let (map, start) = (room(), Pose2::new(2.0, 2.0, 0.0));
+        let (near, far, blocked) = (Pose2::new(4.0, 2.0, 0.0), Pose2::new(3.0, 2.0, PI), Pose2::new(6.05, 2.0, 0.0));
+        let end = |goals: &[Pose2]| plan_to_any(&map, start, goals).map(|path| (path.goal(), path.heading));
+        let at = |goal: Pose2| Ok((Some(goal.position()), goal.theta));
+        assert_eq!([end(&[near, far]), end(&[far, near])], [at(near), at(near)]);
+        assert_eq!(end(&[blocked, far]), at(far));
+        assert_eq!(end(&[blocked]), Err(NoPath::GoalBlocked));
     }
 
     #[test]

@@ -63,7 +63,7 @@ pub use payload::{Articulated, BackUp, PlannedApproach, ReactiveApproach, traile
 pub use pid::Pid;
 #[cfg(feature = "std")]
 pub use plan::{PathPlanner, Planner, Smoothing};
-pub use pose::{compose, relative, shift};
+pub use pose::{compose, relative, shift, turned};
 pub use safety::{ProtectiveField, SafetyField};
 #[cfg(feature = "std")]
 pub use search::{NoPath, Search, Terrain};

@@ -15,7 +15,7 @@ const JACKKNIFE: f32 = 1.4;
 ///
 /// `map` is that of `HazardMap`. The areas that both parts of the vehicle sweep, as long as it keeps to its curve, have
 /// to be free in it. Backward, unknown cells are not free: the vehicle only backs up over floor that was seen before.
-/// Forward, an unknown cell counts if the camera should have seen it. What is beneath the vehicle already does not
+/// Forward, an unknown cell counts if the camera should have seen it, now or before. What is beneath the vehicle already does not
 /// count.
 ///
 /// `base` and `trailer` are the poses of the two axes in the frame of the map, such as that of odometry. `map` may be
@@ -120,19 +120,33 @@ impl SweepStop {
         [Part { from: -self.hitch, to: self.front, half }, Part { from: -self.rear, to: 0.5 * self.drawbar, half }]
     }
 
-    /// Returns `true` if a part of the vehicle, also with the margin at its sides, is on something that is not free.
+    /// Parts of the vehicle with the drawbar between them: what is beside it is neither before one part nor behind the
+    /// other.
+    fn whole(&self) -> [Part; 2] {
+        let [tractor, trailer] = self.parts();
+        [tractor, Part { to: self.drawbar, ..trailer }]
+    }
+
+    /// Returns `true` if a part of the vehicle is on something that is not free, or an obstacle is within the margin at
+    /// its sides.
     fn meets(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes, is_backward: bool) -> bool {
-        let covers = |wider: f32, point: Point2| {
-            let parts = self.parts().map(|part| part.widened(wider));
-            parts.iter().zip(now).any(|(part, axis)| part.covers(axis.to_inner(point)))
-        };
-        // What is beneath the vehicle does not count, nor what is beside it as long as it only comes near.
-        [(0.0, 0.0), (self.margin, 2.0 * self.margin)].into_iter().any(|(margin, known)| {
-            self.parts().iter().zip(axes).any(|(part, axis)| {
-                let points = part.widened(margin).points().map(|point| axis.to_outer(point));
-                points.into_iter().any(|point| self.is_hazard(map, point, now, is_backward) && !covers(known, point))
-            })
+        let beneath = self.whole().map(|part| part.widened(0.5 * map.raster().resolution));
+        self.any_point(axes, 0.0, |point| self.is_hazard(map, point, now, is_backward) && !covers(&beneath, now, point))
+            || self.comes_near(map, axes, now)
+    }
+
+    /// Returns `true` if an obstacle is within the margin at the sides that is not near already: else the vehicle could
+    /// not get away from it in either direction.
+    fn comes_near(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes) -> bool {
+        let near = self.whole().map(|part| part.grown(2.0 * self.margin));
+        self.any_point(axes, self.margin, |point| {
+            map.at(point) == Some(&Occupancy::Occupied) && !covers(&near, now, point)
         })
+    }
+
+    /// Returns `true` if `is` holds for a point of the parts, which are wider by `margin` on both sides.
+    fn any_point(&self, axes: &Axes, margin: f32, is: impl Fn(Point2) -> bool) -> bool {
+        self.parts().iter().zip(axes).any(|(part, axis)| part.widened(margin).points().any(|p| is(axis.to_outer(p))))
     }
 
     /// Returns `true` if a point of the map is not free.
@@ -144,15 +158,26 @@ impl SweepStop {
         }
     }
 
-    /// Returns `true` if the camera sees a place in the frame of the tractor.
+    /// Returns `true` if the camera sees a place in the frame of the tractor, or saw it before the tractor came so near:
+    /// in a curve this is only certain for what is straight ahead.
     fn is_in_view(&self, place: Point2) -> bool {
-        place.x >= self.near && place.angle().abs() <= 0.5 * self.view_angle
+        let share = if place.x >= self.near { 0.5 } else { 0.25 };
+        place.x >= self.front && place.angle().abs() <= share * self.view_angle
     }
+}
+
+/// Returns `true` if one of the parts of a vehicle covers a point.
+fn covers(parts: &[Part; 2], axes: &Axes, point: Point2) -> bool {
+    parts.iter().zip(axes).any(|(part, axis)| part.covers(axis.to_inner(point)))
 }
 
 impl Part {
     fn widened(self, by: f32) -> Self {
         Self { half: self.half + by, ..self }
+    }
+
+    fn grown(self, by: f32) -> Self {
+        Self { from: self.from - by, to: self.to + by, half: self.half + by }
     }
 
     fn covers(&self, point: Point2) -> bool {
@@ -208,6 +233,16 @@ mod tests {
         assert_eq!(speed((-1.2, 0.1), Occupancy::Occupied, ahead), 1.0);
         let behind = speed((-1.2, 0.1), Occupancy::Occupied, back);
         assert!(behind > -0.6 && behind < 0.0, "{behind}");
+    }
+
+    #[test]
+    fn what_is_beside_the_hitch_holds_it_in_no_direction() {
+        for (x, y) in [(-0.25, 0.24), (-0.15, 0.24), (0.3, 0.27), (-0.85, 0.27), (-0.25, 0.19), (-0.2, 0.19)] {
+            for speed_of in [1.0, -1.0] {
+                let twist = Twist::new(speed_of, 0.0, 0.0);
+                assert_eq!(speed((x, y), Occupancy::Occupied, twist), speed_of, "at {x}, {y}");
+            }
+        }
     }
 
     #[test]

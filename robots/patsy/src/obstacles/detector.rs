@@ -1,6 +1,7 @@
 use super::programs::DetectObstacles;
 use apex_nodes::{
     cloud::{Columns, Labels, PointCloud},
+    persons::Persons,
     scan::{Pose2, Scan},
 };
 use apex_rt::{Observer, Parameters as _, Program as _, Time};
@@ -129,8 +130,9 @@ impl Detector {
         observer: &mut impl Observer,
     ) -> Option<(&Columns, &Labels, &[f32])> {
         let inputs = self.program.inputs();
-        // All inputs are empty: the last reaction has taken the tokens. The scan has no points.
+        // All inputs are empty: the last reaction has taken the tokens. The scan has no points, and there are no persons.
         let _ = (inputs.cloud.put(cloud.clone()), inputs.pose.put(Pose2::default()), inputs.scan.put(Scan::default()));
+        let _ = (inputs.persons.put(Persons::default()), inputs.trailer.put(Pose2::default()));
         self.program.react_with(Time::ZERO, observer);
         let outputs = self.program.outputs();
         Some((outputs.points.as_ref()?, outputs.labels.as_ref()?, outputs.probabilities.as_deref()?))
