@@ -5,6 +5,7 @@ use crate::{
     scan::{Point2, Pose2},
 };
 use apex_rt::{Ctx, node};
+use libm::{fmaxf, fminf};
 
 /// Distance between predicted places, and between checked points of a part of the vehicle, in m.
 const STEP: f32 = 0.05;
@@ -15,8 +16,8 @@ const JACKKNIFE: f32 = 1.4;
 ///
 /// `map` is that of `HazardMap`. The areas that both parts of the vehicle sweep, as long as it keeps to its curve, have
 /// to be free in it. Backward, unknown cells are not free: the vehicle only backs up over floor that was seen before.
-/// Forward, an unknown cell counts if the camera should have seen it, now or before. What is beneath the vehicle already does not
-/// count.
+/// Forward, an unknown cell counts if the camera should see it, and the vehicle stops while the camera still sees it:
+/// nearer to the front it would no longer count. What is beneath the vehicle already does not count.
 ///
 /// `base` and `trailer` are the poses of the two axes in the frame of the map, such as that of odometry. `map` may be
 /// ⊥, as clouds come less often than twists: the last map counts for `max_age`. The vehicle stops without such a map,
@@ -98,16 +99,21 @@ impl SweepStop {
         let (curvature, step) = (twist.omega / twist.x, STEP.copysign(twist.x));
         let count = (self.look_ahead / STEP) as u16;
         let (mut base, mut heading) = (now[0], now[1].theta);
+        let mut unseen = f32::INFINITY;
         for k in 1..=count {
             let bend = normalize_angle(&(base.theta - heading)).clamp(-JACKKNIFE, JACKKNIFE);
             heading += trailer_rotation(1.0, curvature, bend, self.hitch, self.drawbar) * step;
             base = base.compose(&Pose2::new(step, 0.0, step * curvature));
             let axes = [base, self.shape().trailer(&base, heading)];
+            let free = f32::from(k - 1) * STEP;
             if self.meets(map, &axes, &now, twist.x < 0.0) {
-                return f32::from(k - 1) * STEP;
+                return fminf(free, unseen);
+            }
+            if unseen.is_infinite() && twist.x > 0.0 && self.is_unseen(map, &axes, &now) {
+                unseen = fmaxf(free - (self.near - self.front), 0.0);
             }
         }
-        f32::INFINITY
+        unseen
     }
 
     fn shape(&self) -> Articulated {
@@ -130,9 +136,19 @@ impl SweepStop {
     /// Returns `true` if a part of the vehicle is on something that is not free, or an obstacle is within the margin at
     /// its sides.
     fn meets(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes, is_backward: bool) -> bool {
+        let is_free = |point| match map.at(point) {
+            Some(Occupancy::Occupied) => false,
+            known => known == Some(&Occupancy::Free) || !is_backward,
+        };
         let beneath = self.whole().map(|part| part.widened(0.5 * map.raster().resolution));
-        self.any_point(axes, 0.0, |point| self.is_hazard(map, point, now, is_backward) && !covers(&beneath, now, point))
+        self.any_point(axes, 0.0, |point| !is_free(point) && !covers(&beneath, now, point))
             || self.comes_near(map, axes, now)
+    }
+
+    /// Returns `true` if a part of the vehicle is where the camera sees no floor, though it should.
+    fn is_unseen(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes) -> bool {
+        let is_known = |point| matches!(map.at(point), Some(Occupancy::Free | Occupancy::Occupied));
+        self.any_point(axes, 0.0, |point| !is_known(point) && self.is_in_view(now[0].to_inner(point)))
     }
 
     /// Returns `true` if an obstacle is within the margin at the sides that is not near already: else the vehicle could
@@ -149,20 +165,9 @@ impl SweepStop {
         self.parts().iter().zip(axes).any(|(part, axis)| part.widened(margin).points().any(|p| is(axis.to_outer(p))))
     }
 
-    /// Returns `true` if a point of the map is not free.
-    fn is_hazard(&self, map: &Grid<Occupancy>, point: Point2, now: &Axes, is_backward: bool) -> bool {
-        match map.at(point) {
-            Some(Occupancy::Free) => false,
-            Some(Occupancy::Occupied) => true,
-            _ => is_backward || self.is_in_view(now[0].to_inner(point)),
-        }
-    }
-
-    /// Returns `true` if the camera sees a place in the frame of the tractor, or saw it before the tractor came so near:
-    /// in a curve this is only certain for what is straight ahead.
+    /// Returns `true` if the camera sees a place in the frame of the tractor.
     fn is_in_view(&self, place: Point2) -> bool {
-        let share = if place.x >= self.near { 0.5 } else { 0.25 };
-        place.x >= self.front && place.angle().abs() <= share * self.view_angle
+        place.x >= self.near && place.angle().abs() <= 0.5 * self.view_angle
     }
 }
 
@@ -197,7 +202,7 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::Raster;
+    use crate::map::{Cell, Raster};
     use apex_rt::{Construct, Time};
     use core::f32::consts::FRAC_PI_2;
 
@@ -242,6 +247,30 @@ mod tests {
                 let twist = Twist::new(speed_of, 0.0, 0.0);
                 assert_eq!(speed((x, y), Occupancy::Occupied, twist), speed_of, "at {x}, {y}");
             }
+        }
+    }
+
+    /// The camera sees neither floor nor a bottom there, and no longer the nearest part of it.
+    #[test]
+    fn it_stops_before_a_pit_that_was_not_seen() {
+        for side in [-0.3, 0.12] {
+            let mut map = floor(Point2::default(), Occupancy::Free);
+            let cells: Vec<Cell> = map.iter().map(|(cell, _)| cell).collect();
+            for cell in cells {
+                let place = map.raster().centre(cell);
+                if place.x > 1.0 && place.y > side {
+                    *map.get_mut(cell).expect("inside") = Occupancy::Unknown;
+                }
+            }
+            let (mut node, mut x, mut speed) = (node(), 0.0, 0.0);
+            for step in 0..200 {
+                let (base, ctx) = (Pose2::new(x, 0.0, 0.0), Ctx::new(Time::from_millis(80 * step)));
+                let trailer = Articulated::PATSY.trailer(&base, 0.0);
+                let twist = Twist::new(0.8, 0.0, 0.0);
+                speed = node.process(&ctx, &twist, Some(&map), &base, &trailer).x;
+                x += 0.08 * speed;
+            }
+            assert!(speed == 0.0 && (0.4..0.75).contains(&x), "{speed} m/s at {x} m");
         }
     }
 
