@@ -91,7 +91,7 @@ impl<T: Clone> Action<T> {
 }
 
 /// Counts failures of something that is tried several times: the first ones trigger `again`, the last one `give_up`,
-/// and the count begins anew. Activity that arrives with a failure leaves with the event.
+/// and the count begins again. Activity that arrives with a failure leaves with the event.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Attempts {
@@ -115,7 +115,7 @@ impl Attempts {
         }
     }
 
-    /// Notes a success: the count begins anew.
+    /// Notes a success: the count begins again.
     #[slot]
     fn succeeded(&mut self) {
         self.failures = 0;

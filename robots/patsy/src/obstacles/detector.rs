@@ -130,7 +130,8 @@ impl Detector {
         observer: &mut impl Observer,
     ) -> Option<(&Columns, &Labels, &[f32])> {
         let inputs = self.program.inputs();
-        // All inputs are empty: the last reaction has taken the tokens. The scan has no points, and there are no persons.
+        // All inputs are empty: the last reaction has taken the tokens. The scan has no points, and there are no
+        // persons.
         let _ = (inputs.cloud.put(cloud.clone()), inputs.pose.put(Pose2::default()), inputs.scan.put(Scan::default()));
         let _ = (inputs.persons.put(Persons::default()), inputs.trailer.put(Pose2::default()));
         self.program.react_with(Time::ZERO, observer);
