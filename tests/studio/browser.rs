@@ -78,7 +78,7 @@ impl Drop for Program {
 }
 
 impl Browser {
-    /// Opens a page. Returns `None` with a message if there is no browser; in CI this is a failure.
+    /// Opens a page. Returns `None` with a message without a browser; in CI this is a failure.
     pub fn open(url: &str) -> Option<Self> {
         let Some(program) = Program::shared() else {
             assert!(env::var_os("CI").is_none(), "there is no Chromium");

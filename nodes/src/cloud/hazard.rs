@@ -93,10 +93,8 @@ pub struct HazardMap {
     /// in the first cloud.
     #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
     stands: f32,
-    /// Last position of the robot.
-    here: Point2,
-    /// `true` after the first cloud.
-    is_on: bool,
+    /// Position of the robot at the last cloud.
+    here: Option<Point2>,
     /// Number of the cloud, from 0 again after 255.
     cloud: u8,
     floor: Rolling<Ground>,
@@ -144,16 +142,16 @@ impl HazardMap {
             return;
         }
         self.cloud = self.cloud.wrapping_add(1);
-        self.here = pose.position();
         self.floor.follow(pose.position(), self.size, self.resolution);
         self.obstacles.follow(pose.position(), self.size, self.resolution);
         // Where the robot is switched on, it never saw the floor before its feet.
-        let radius = if self.is_on { self.stands } else { 2.0 * self.stands };
-        self.is_on = true;
-        self.stand(self.here, radius);
-        trailer.into_iter().for_each(|trailer| self.stand(trailer.position(), radius));
+        let is_first = self.here.replace(pose.position()).is_none();
+        let radius = if is_first { 2.0 * self.stands } else { self.stands };
+        [Some(pose), trailer].into_iter().flatten().for_each(|axle| self.stand(axle.position(), radius));
         self.see_floor(points, labels, pose);
-        self.see_obstacles(points, labels, pose, scan, persons);
+        self.see_obstacles(points, labels, pose, |place, outer| {
+            scan.is_some_and(|scan| is_scanned(scan, place)) || persons.is_some_and(|persons| is_person(persons, outer))
+        });
         self.draw(map.get_mut());
         let area = Area { near: self.near, far: self.far, width: self.width };
         if let Some(nearest) = self.nearest(&area, pose) {
@@ -165,7 +163,8 @@ impl HazardMap {
     /// driven beneath. Floor that an obstacle hid has to be seen again.
     #[slot]
     fn forget(&mut self) {
-        for place in disc(self.here, self.forgotten, self.resolution) {
+        let Some(here) = self.here else { return };
+        for place in disc(here, self.forgotten, self.resolution) {
             if let Some(index) = self.obstacles.index(place) {
                 *self.obstacles.get_mut(index) = 0.0;
             }
@@ -230,14 +229,14 @@ impl HazardMap {
         }
     }
 
-    /// Adds the share of obstacles among the points of each cell to the average m_o.
+    /// Adds the share of obstacles among the points of each cell to the average m_o. `passes` tells of a place, in the
+    /// frame of the robot and in the fixed one, if an obstacle there does not count.
     fn see_obstacles(
         &mut self,
         points: &Columns,
         labels: &Labels,
         pose: &Pose2,
-        scan: Option<&Scan>,
-        persons: Option<&Persons>,
+        passes: impl Fn(Point2, Point2) -> bool,
     ) {
         let raster = self.obstacles.raster();
         self.sums.resize(raster.width * raster.height, (0.0, 0));
@@ -247,14 +246,11 @@ impl HazardMap {
                 continue;
             }
             let place = Point2::new(points.x[i], points.y[i]);
-            if label.is_hazard() && scan.is_some_and(|scan| is_scanned(scan, place)) {
+            let outer = pose.to_outer(place);
+            if label.is_hazard() && passes(place, outer) {
                 continue;
             }
-            let place = pose.to_outer(place);
-            if label.is_hazard() && persons.is_some_and(|persons| is_person(persons, place)) {
-                continue;
-            }
-            let Some(index) = self.obstacles.index(place) else { continue };
+            let Some(index) = self.obstacles.index(outer) else { continue };
             let (sum, count) = &mut self.sums[index];
             if *count == 0 {
                 self.touched.push(index);

@@ -73,10 +73,8 @@ impl MarkSurroundings {
     /// Marks the occupied cells of the last window, also those that are not in view.
     fn mark_window(&self, marked: &mut Grid<Occupancy>, [pose, odometry]: [&Pose2; 2]) {
         let (window, raster) = (&self.last, *marked.raster());
-        for (cell, _) in window.iter().filter(|(_, cell)| **cell == Occupancy::Occupied) {
-            let place = odometry.to_inner(window.raster().centre(cell));
-            let is_near = place.norm() <= self.near;
-            if let Some(cell) = raster.cell(pose.to_outer(place)).filter(|_| is_near).and_then(|c| marked.get_mut(c)) {
+        for place in occupied(window, odometry).filter(|place| place.norm() <= self.near) {
+            if let Some(cell) = raster.cell(pose.to_outer(place)).and_then(|cell| marked.get_mut(cell)) {
                 *cell = Occupancy::Occupied;
             }
         }
@@ -98,9 +96,8 @@ impl MarkSurroundings {
             let place = pose.to_inner(raster.centre(*cell));
             !(is_in_view(place) && window.at(odometry.to_outer(place)) == Some(&Occupancy::Free))
         });
-        for (cell, _) in window.iter().filter(|(_, cell)| **cell == Occupancy::Occupied) {
-            let place = odometry.to_inner(window.raster().centre(cell));
-            let Some(cell) = raster.cell(pose.to_outer(place)).filter(|_| is_in_view(place)) else { continue };
+        for place in occupied(window, odometry).filter(|place| is_in_view(*place)) {
+            let Some(cell) = raster.cell(pose.to_outer(place)) else { continue };
             match known.binary_search_by_key(&cell, |(cell, _)| *cell) {
                 Ok(place) => known[place].1 = now,
                 Err(place) if known.len() < MOST => known.insert(place, (cell, now)),
@@ -108,6 +105,12 @@ impl MarkSurroundings {
             }
         }
     }
+}
+
+/// Places of the occupied cells of a window, in the frame of the robot.
+fn occupied<'a>(window: &'a Grid<Occupancy>, odometry: &'a Pose2) -> impl Iterator<Item = Point2> + 'a {
+    let cells = window.iter().filter(|(_, cell)| **cell == Occupancy::Occupied);
+    cells.map(|(cell, _)| odometry.to_inner(window.raster().centre(cell)))
 }
 
 #[cfg(test)]

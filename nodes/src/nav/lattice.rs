@@ -132,9 +132,7 @@ impl CurveSearch {
         path.points.clear();
         check(terrain, start, goals)?;
         self.estimate(terrain, goals);
-        self.begin(start, trailer);
-        self.stands.clear();
-        self.stands.extend(vehicle.places(start, trailer));
+        self.begin(vehicle, start, trailer);
         let mut expanded = 0;
         while let Some(Open { node: at, .. }) = self.open.pop() {
             let node = self.nodes[at as usize];
@@ -162,7 +160,9 @@ impl CurveSearch {
         Err(NoPath::Unreachable)
     }
 
-    fn begin(&mut self, start: &Pose2, trailer: f32) {
+    fn begin(&mut self, vehicle: &CurveDrive, start: &Pose2, trailer: f32) {
+        self.stands.clear();
+        self.stands.extend(vehicle.places(start, trailer));
         self.nodes.clear();
         self.open.clear();
         self.best.clear();
@@ -201,11 +201,12 @@ impl CurveSearch {
     /// Adds the shortest free Dubins curve from a node to a goal.
     fn try_to_end(&mut self, terrain: &Terrain<'_>, vehicle: &CurveDrive, before: u32, (number, goal): (u8, &Pose2)) {
         let node = self.nodes[before as usize];
+        let drive = Drive { terrain, vehicle, stands: &self.stands };
         let mut best: Option<f32> = None;
         for curve in curves(&node.pose, goal, vehicle.radius, 0.0) {
             let length = curve.length();
             if best.is_none_or(|best| length < best) {
-                best = Drive { terrain, vehicle, stands: &self.stands }.curve(&curve, node.trailer).or(best);
+                best = drive.curve(&curve, node.trailer).or(best);
             }
         }
         if let Some(length) = best {
@@ -314,6 +315,7 @@ fn openness(terrain: &Terrain<'_>, raster: &Raster, cell: Cell, part: usize) -> 
 struct Drive<'a> {
     terrain: &'a Terrain<'a>,
     vehicle: &'a CurveDrive,
+    /// Places of the trailer at the start.
     stands: &'a [Point2],
 }
 
@@ -424,8 +426,8 @@ impl CurvePlanner {
         let Self { radius, front, hitch, drawbar, body, .. } = *self;
         let vehicle = CurveDrive { radius, front, hitch, drawbar, body };
         let heading = start.theta + trailer.filter(|pose| pose.is_finite()).map_or(0.0, |pose| pose.theta);
-        let both = [*goal, other.copied().unwrap_or(*goal)];
-        let goals = if other.is_some() { &both[..] } else { &both[..1] };
+        let both = [*goal, *other.unwrap_or(goal)];
+        let goals = &both[..1 + usize::from(other.is_some())];
         if let Err(why) = self.search.plan(&terrain, &vehicle, start, goals, heading, path.get_mut()) {
             path.clear();
             no_path.emit(why);
@@ -508,7 +510,7 @@ mod tests {
             let goals = [Pose2::new(5.0, 2.0, 0.0)];
             CurveSearch::default().plan(&terrain, &vehicle, &start, &goals, 0.0, &mut Path::default()).is_ok()
         };
-        // Through the obstacle there is no way.
+        // No way leads through the obstacle.
         assert_eq!([2.0, 0.8].map(|x| is_way(Pose2::new(x, 2.0, 0.0))), [true, false]);
     }
 

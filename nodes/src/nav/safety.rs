@@ -19,8 +19,8 @@ pub struct ProtectiveField {
 }
 
 impl ProtectiveField {
-    /// Distance that the robot can move in a direction before an obstacle is within its margin, in m. It is infinite if
-    /// there is no such obstacle, and 0 if one is within the margin already and would come nearer by more than `graze`.
+    /// Distance that the robot can move in a direction before an obstacle is within its margin, in m: infinite without
+    /// such an obstacle, 0 with one that is within the margin already and would come nearer by more than `graze`.
     /// Points beside or behind the robot do not count. The direction and the points are in the frame of the robot.
     pub fn gap(&self, direction: Point2, points: impl Iterator<Item = Point2>) -> f32 {
         let reach = self.radius + self.margin;
@@ -28,9 +28,13 @@ impl ProtectiveField {
         let gaps = points.filter_map(|point| {
             let (ahead, aside) = (unit.dot(point), unit.perpendicular().dot(point));
             let chord = reach * reach - aside * aside;
+            let is_met = ahead > 0.0 && chord > 0.0;
+            if !is_met {
+                return None;
+            }
             let gap = ahead - sqrtf(chord);
-            let is_grazed = || gap <= 0.0 && point.norm() - aside.abs() <= self.graze;
-            (ahead > 0.0 && chord > 0.0 && !is_grazed()).then(|| fmaxf(gap, 0.0))
+            let is_grazed = gap <= 0.0 && point.norm() - aside.abs() <= self.graze;
+            (!is_grazed).then(|| fmaxf(gap, 0.0))
         });
         gaps.fold(f32::INFINITY, f32::min)
     }

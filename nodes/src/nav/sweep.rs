@@ -136,12 +136,13 @@ impl SweepStop {
     /// Returns `true` if a part of the vehicle is on something that is not free, or an obstacle is within the margin at
     /// its sides.
     fn meets(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes, is_backward: bool) -> bool {
-        let is_free = |point| match map.at(point) {
-            Some(Occupancy::Occupied) => false,
-            known => known == Some(&Occupancy::Free) || !is_backward,
+        let is_hazard = |point| match map.at(point) {
+            Some(Occupancy::Free) => false,
+            Some(Occupancy::Occupied) => true,
+            _ => is_backward,
         };
         let beneath = self.whole().map(|part| part.widened(0.5 * map.raster().resolution));
-        self.any_point(axes, 0.0, |point| !is_free(point) && !covers(&beneath, now, point))
+        self.any_point(axes, 0.0, |point| is_hazard(point) && !covers(&beneath, now, point))
             || self.comes_near(map, axes, now)
     }
 
