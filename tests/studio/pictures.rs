@@ -225,7 +225,7 @@ fn pictures_of_a_mistake() {
     let folder = socket("mistake");
     robot_with_a_mistake(&folder);
     let mut command = Command::new(apex());
-    command.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("made")).envs(SETTINGS);
+    command.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("../tests/trybuild")).envs(SETTINGS);
     let rover = folder.join("rover");
     let studio = Studio::open(command, &rover, &["--simulated", "--speed", "4", "robot.afg"]);
     let mut page = Browser::open(&studio.address).expect("a browser");

@@ -5,6 +5,7 @@ use apex_tests::{
     Libraries, root,
     texts::{Case, Shape},
 };
+use rayon::prelude::*;
 use serde_json::Value;
 use std::{
     collections::BTreeMap,
@@ -12,7 +13,6 @@ use std::{
     path::{Path, PathBuf},
     process::Command,
     sync::LazyLock,
-    thread,
 };
 
 /// An error of rustc.
@@ -30,9 +30,9 @@ pub struct Message {
     pub in_text: bool,
 }
 
-/// The packages, which are written again for each batch.
+/// The packages, which are written again for each batch, and their metadata from cargo.
 pub struct Packages {
-    known: BTreeMap<(usize, bool), Workspace>,
+    workspaces: BTreeMap<(usize, bool), Workspace>,
 }
 
 fn folder() -> PathBuf {
@@ -107,7 +107,13 @@ impl Packages {
         // Adds the packages to the lock file. Unlike `metadata`, this downloads nothing for other platforms.
         let made = cargo().args(["update", "--workspace", "--offline"]).output().expect("cargo runs");
         assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-        Self { known: BTreeMap::new() }
+        let all: Vec<(usize, Shape)> =
+            (0..count).flat_map(|slot| [Shape::Library, Shape::Both].map(|shape| (slot, shape))).collect();
+        let load = |(slot, shape): &(usize, Shape)| {
+            let workspace = Workspace::load(&folder.join(package(*slot, *shape)));
+            ((*slot, *shape == Shape::Both), workspace.expect("cargo knows the packages of the texts"))
+        };
+        Self { workspaces: all.par_iter().map(load).collect() }
     }
 
     /// Writes the files of a case. Returns the folder of its package.
@@ -120,12 +126,9 @@ impl Packages {
         package
     }
 
-    /// Metadata of a package from cargo.
-    pub fn workspace(&mut self, slot: usize, shape: Shape) -> &Workspace {
-        let package = folder().join(package(slot, shape));
-        self.known
-            .entry((slot, shape == Shape::Both))
-            .or_insert_with(|| Workspace::load(&package).expect("cargo knows the packages of the texts"))
+    /// Metadata of a package.
+    pub fn workspace(&self, slot: usize, shape: Shape) -> &Workspace {
+        &self.workspaces[&(slot, shape == Shape::Both)]
     }
 }
 
@@ -138,15 +141,7 @@ fn cargo() -> Command {
 /// Errors of rustc in packages, including their tests.
 pub fn check_all(packages: &[(usize, Shape)]) -> Vec<Vec<Message>> {
     static LIBRARIES: LazyLock<Libraries> = LazyLock::new(|| Libraries::ask(Path::new(env!("CARGO_TARGET_TMPDIR"))));
-    let threads = thread::available_parallelism().map_or(1, usize::from);
-    let share = packages.len().div_ceil(threads).max(1);
-    thread::scope(|scope| {
-        let parts = packages.chunks(share);
-        let errors =
-            |part: &[(usize, Shape)]| part.iter().map(|(slot, shape)| check(&LIBRARIES, *slot, *shape)).collect();
-        let workers: Vec<_> = parts.map(|part| scope.spawn(move || -> Vec<_> { errors(part) })).collect();
-        workers.into_iter().flat_map(|worker| worker.join().expect("rustc runs")).collect()
-    })
+    packages.par_iter().map(|(slot, shape)| check(&LIBRARIES, *slot, *shape)).collect()
 }
 
 /// Errors in one package.

@@ -14,6 +14,7 @@ use apex_dsl::{
 };
 use apex_host::{Disk, Seen};
 use apex_tests::texts::{Call, Case, Shape};
+use rayon::prelude::*;
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -47,8 +48,13 @@ impl Checker {
         Self { packages: Packages::new(count) }
     }
 
+    /// Checks cases on all cores, each in the package of its index.
+    pub fn check_all(&self, cases: &[Case]) -> Vec<Checked> {
+        cases.par_iter().enumerate().map(|(slot, case)| self.check(slot, case)).collect()
+    }
+
     /// Writes `case` into a package and checks all of its calls of `graph!`.
-    pub fn check(&mut self, slot: usize, case: &Case) -> Checked {
+    fn check(&self, slot: usize, case: &Case) -> Checked {
         let folder = self.packages.write(slot, case);
         let workspace = self.packages.workspace(slot, case.shape);
         let target = call_of(slot, case.shape);

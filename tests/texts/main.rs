@@ -36,11 +36,10 @@ struct Found {
 
 impl Found {
     /// Checks cases, and compiles those that are accepted.
-    fn look_at(&mut self, checker: &mut Checker, seeds: impl Iterator<Item = u64>) {
+    fn look_at(&mut self, checker: &Checker, seeds: impl Iterator<Item = u64>) {
         let cases: Vec<Case> = seeds.map(generate).collect();
         let mut accepted = vec![];
-        for (slot, case) in cases.iter().enumerate() {
-            let checked = checker.check(slot, case);
+        for (slot, (case, checked)) in cases.iter().zip(checker.check_all(&cases)).enumerate() {
             for kind in &case.kinds {
                 let counts = self.by_kind.entry(*kind).or_default();
                 counts.0 += 1;
@@ -74,7 +73,7 @@ impl Found {
 }
 
 /// Reduces a case while it fails in the same way.
-fn smallest(checker: &mut Checker, case: &Case, failure: &Failure) -> (Case, Failure) {
+fn smallest(checker: &Checker, case: &Case, failure: &Failure) -> (Case, Failure) {
     let (mut case, mut failure) = (case.clone(), failure.clone());
     for _ in 0..ROUNDS {
         let mut smaller = case.smaller();
@@ -83,8 +82,8 @@ fn smallest(checker: &mut Checker, case: &Case, failure: &Failure) -> (Case, Fai
         for batch in smaller.chunks(BATCH) {
             let mut same = vec![];
             let mut accepted = vec![];
-            for (slot, case) in batch.iter().enumerate() {
-                match checker.check(slot, case) {
+            for (slot, (case, checked)) in batch.iter().zip(checker.check_all(batch)).enumerate() {
+                match checked {
                     Checked::Accepted(names) => accepted.push((slot, case, names)),
                     Checked::Failed(other) => same.push((case, other)),
                     Checked::Refused(_) => {}
@@ -125,15 +124,15 @@ fn what_is_accepted_compiles() {
     let count = number("APEX_TEXTS").unwrap_or(100);
     let first = number("APEX_TEXTS_SEED").unwrap_or(1);
     println!("{count} texts, APEX_TEXTS_SEED={first}");
-    let mut checker = Checker::new(BATCH);
+    let checker = Checker::new(BATCH);
     let mut found = Found::default();
-    found.look_at(&mut checker, KNOWN.iter().copied().filter(|_| count > 1));
+    found.look_at(&checker, KNOWN.iter().copied().filter(|_| count > 1));
     found.failures.iter().for_each(|(case, failure)| keep(case, failure));
     let mut seed = first;
     while seed < first + count {
         let end = (seed + BATCH as u64).min(first + count);
         let before = found.failures.len();
-        found.look_at(&mut checker, seed..end);
+        found.look_at(&checker, seed..end);
         found.failures[before..].iter().for_each(|(case, failure)| keep(case, failure));
         seed = end;
         if (seed - first) % 1000 < BATCH as u64 {
@@ -157,7 +156,7 @@ fn what_is_accepted_compiles() {
     for failures in classes.values().take(shown) {
         let Some((case, failure)) = failures.iter().min_by_key(|(case, _)| case.size()) else { continue };
         let raw = env::var_os("APEX_TEXTS_RAW").is_some();
-        let (case, failure) = if raw { (case.clone(), failure.clone()) } else { smallest(&mut checker, case, failure) };
+        let (case, failure) = if raw { (case.clone(), failure.clone()) } else { smallest(&checker, case, failure) };
         println!("\n=== {}\n{failure}\n{}", failure.class(), case.shown());
     }
     // With wrong Rust code beside it, a source file is neither correct nor wrong.

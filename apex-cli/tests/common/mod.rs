@@ -1,6 +1,7 @@
 //! The built command, and folders for it to work in.
 
 use std::{
+    ffi::OsStr,
     fs,
     path::{Path, PathBuf},
     process::{Command, Output},
@@ -15,6 +16,12 @@ impl Folder {
         let path = std::env::temp_dir().join(format!("apex-cli-{}-{name}", std::process::id()));
         fs::create_dir_all(&path).unwrap();
         Self(path)
+    }
+
+    /// The name that it was given.
+    pub fn name(&self) -> &str {
+        let name = self.0.file_name().and_then(OsStr::to_str).unwrap();
+        name.splitn(4, '-').last().unwrap()
     }
 
     /// Writes a file in it.
@@ -52,15 +59,23 @@ pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-/// Makes a package with nodes and no program of its own.
+/// Makes a package with nodes and no program of its own. It has the name of the folder: cargo takes packages of one name
+/// that are workspaces of their own for the same if they share a target folder.
 pub fn package(folder: &Folder, nodes: &str) {
+    let name = folder.name();
     let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let (macros, runtime) = (checkout.join("apex-macros"), checkout.join("apex-rt"));
     let manifest = format!(
-        "[package]\nname = \"robot\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n\
+        "[package]\nname = {name:?}\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n\
          apex-macros = {{ path = {macros:?} }}\napex-rt = {{ path = {runtime:?} }}\n"
     );
     folder.file("Cargo.toml", manifest);
     fs::create_dir_all(folder.0.join("src")).unwrap();
     folder.file("src/lib.rs", nodes);
+    lock(&folder.0);
+}
+
+/// Gives a package the versions of the workspace: the same for all tests, so that they are built once, and downloaded.
+pub fn lock(package: &Path) {
+    fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.lock"), package.join("Cargo.lock")).unwrap();
 }

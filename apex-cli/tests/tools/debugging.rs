@@ -2,12 +2,12 @@
 //! parameter, mends the text and makes a test, and compares everything with the page.
 
 use crate::{
-    MADE, TARGET,
-    common::{Folder, apex, stderr},
+    TARGET, builds,
+    common::{Folder, apex, lock, stderr},
     studio::{Page, Studio},
 };
 use serde_json::{Value, json};
-use std::{fmt::Write as _, fs, path::Path, process::Command, sync::PoisonError};
+use std::{fmt::Write as _, fs, path::Path, process::Command};
 
 /// The blocks of the page, without their language.
 fn blocks() -> Vec<String> {
@@ -67,10 +67,13 @@ fn halted_after(page: &mut Page, from: f64, to: f64) -> f64 {
 
 #[test]
 fn the_page_on_debugging_can_be_followed() {
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let folder = Folder::new("debugging");
-    run(apex().args(["new", "rover"]).current_dir(&folder.0));
-    let (rover, file) = (folder.0.join("rover"), folder.0.join("rover/robot.afg"));
+    // Not `rover`, like that of the tour: cargo would take the packages for the same.
+    let rover = folder.0.join("lost-rover");
+    run(apex().args(["new", "lost-rover"]).current_dir(&folder.0));
+    lock(&rover);
+    let file = rover.join("robot.afg");
     let right = fs::read_to_string(&file).unwrap();
     let (mistake, mended) = (block("    scan     -> wide -> drive.free"), block("    scan     -> free -> drive.free"));
     let wrong = right.replace(&mended, &mistake);

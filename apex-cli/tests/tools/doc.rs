@@ -146,7 +146,7 @@ fn pages_of_texts_and_of_what_they_use() {
     let pages = pages(&folder.0.join("pages"));
     assert_linked(&pages);
     for (page, parts) in [
-        ("index.html", &["A part that stands in a robot.", "On or off.", "Adds up.", "<code>robot</code>"][..]),
+        ("index.html", &["A part that stands in a robot.", "On or off.", "Adds up.", "<code>doc_pages</code>"][..]),
         ("robot.html", &["href=\"robot.Robot.html\"", "<code>adds</code>", "Adds &lt;b&gt;nothing&lt;/b&gt;."]),
         (
             "robot.Robot.html",
@@ -158,7 +158,7 @@ fn pages_of_texts_and_of_what_they_use() {
                 "Distance to drive.",
                 "inner\n    total\n",
                 "<code>step = step</code>",
-                "href=\"robot.ramp.html\"",
+                "href=\"doc_pages.ramp.html\"",
                 "href=\"parts.Lamp.html\"",
                 "<code>claim conserved</code> <span class=\"soft\">holds</span>",
                 "robot Robot(\n",
@@ -170,7 +170,7 @@ fn pages_of_texts_and_of_what_they_use() {
         ),
         ("parts.Lamp.html", &["<svg ", "<code>shining</code>", "Dark.", "press / lit"]),
         (
-            "robot.Total.html",
+            "doc_pages.Total.html",
             &[
                 "use crate::Total;",
                 "src/lib.rs:12",
@@ -180,7 +180,7 @@ fn pages_of_texts_and_of_what_they_use() {
                 "href=\"parts.Inner.html\"",
             ],
         ),
-        ("robot.ramp.html", &["in <code>m</code> · range <code>1..=9</code> · default <code>2</code>"]),
+        ("doc_pages.ramp.html", &["in <code>m</code> · range <code>1..=9</code> · default <code>2</code>"]),
     ] {
         for part in parts {
             assert!(pages[page].contains(part), "{page} has no {part}:\n{}", pages[page]);
@@ -195,7 +195,7 @@ fn no_page_runs_what_stands_in_a_text() {
     let pages = pages(&folder.0.join("pages"));
     let shown =
         |page: &str, script: &str| pages[page].matches(&format!("&lt;script&gt;{script}&lt;/script&gt;")).count();
-    assert!(shown("robot.ramp.html", "alert(1)") > 0 && shown("robot.html", "alert(2)") > 0);
+    assert!(shown("doc_script.ramp.html", "alert(1)") > 0 && shown("robot.html", "alert(2)") > 0);
     for (name, page) in &pages {
         assert!(!page.contains("<script") && !page.contains("<b>"), "{name}");
         assert!(page.contains("default-src 'none'"), "{name}");

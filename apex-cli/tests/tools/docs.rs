@@ -1,8 +1,8 @@
 //! The examples in `docs/tools.md` agree with the command.
 
 use crate::{
-    MADE, TARGET,
-    common::{Folder, apex},
+    TARGET, builds,
+    common::{Folder, apex, lock},
 };
 use std::{fs, path::Path};
 
@@ -29,6 +29,7 @@ fn runs(begin: &str, folder: &Path) {
 fn the_new_project_of_the_page_and_its_documentation() {
     let folder = Folder::new("docs-new");
     runs("new", &folder.0);
+    lock(&folder.0.join("my-robot"));
     runs("doc", &folder.0.join("my-robot"));
 }
 
@@ -45,6 +46,7 @@ fn copy_of_the_firmware(to: &Path) {
         "[package]\nname = \"firmware\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n";
     fs::create_dir_all(to.join("src")).unwrap();
     fs::write(to.join("Cargo.toml"), format!("{package}{dependencies}")).unwrap();
+    lock(to);
     for file in ["firmware.afg", "src/lib.rs", "src/line.rs"] {
         fs::copy(from.join(file), to.join(file)).unwrap();
     }
@@ -52,7 +54,7 @@ fn copy_of_the_firmware(to: &Path) {
 
 #[test]
 fn the_memory_of_the_page() {
-    let _one_at_a_time = MADE.lock().unwrap_or_else(|broken| broken.into_inner());
+    let _guard = builds();
     let console = block("console\n$ apex explain --memory");
     let (command, said) = console.split_once('\n').unwrap();
     let arguments = command.strip_prefix("$ apex ").unwrap().split(' ');

@@ -1,8 +1,8 @@
 use crate::{
-    MADE, TARGET,
+    TARGET, builds,
     common::{Folder, apex, package, stderr},
 };
-use std::{fs, path::Path, process::Output, sync::PoisonError};
+use std::{fs, path::Path, process::Output};
 
 fn import(file: &Path, more: &[&str]) -> Output {
     apex().arg("import").arg(file).args(more).output().unwrap()
@@ -199,7 +199,7 @@ yaml:
     let runs = written.replace("graph TwoTrees {", "graph TwoTrees {\n    once() -> exit;\n");
     fs::write(&text, runs).unwrap();
     package(&folder, "use apex_rt::prelude::*;\npub mod nodes;\n#[node]\npub fn once() -> u8 { 1 }\n");
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let mut command = apex();
     command.args(["run", "--robot", "TwoTrees"]).arg(&text).env("CARGO_TARGET_DIR", TARGET);
     let ran = command.output().unwrap();

@@ -1,11 +1,11 @@
 //! A graph file of CS::APEX that runs, with its nodes written in Rust and a test in the language.
 
 use crate::{
-    MADE, TARGET,
+    TARGET, builds,
     common::{Folder, apex, package, stderr},
     import_files::{FILES, text_of},
 };
-use std::{fs, path::Path, sync::PoisonError};
+use std::{fs, path::Path};
 
 /// Nodes of `follow_person`, written by hand. Tokens are numbers: a goal, a path and a distance.
 const NODES: &str = r#"//! Nodes of a robot that follows a person.
@@ -155,7 +155,7 @@ fn follows(folder: &Folder, file: &Path) {
     let (head, rest) = typed.split_once("graph FollowPerson {").unwrap();
     let (_, follow) = rest.split_once("}\n").unwrap();
     let text = folder.file("follow.afg", format!("{head}{follow}{TESTS}"));
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let mut command = apex();
     let output = command.args(["test", "--quiet"]).arg(&text).env("CARGO_TARGET_DIR", TARGET).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);

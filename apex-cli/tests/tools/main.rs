@@ -1,6 +1,9 @@
 //! Commands that create and drive things: projects, completions, programs that are rebuilt after changes, imports.
 
-use std::{process::Command, sync::Mutex};
+use std::{
+    process::Command,
+    sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard},
+};
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -27,11 +30,23 @@ mod tour;
 mod tune;
 mod watch;
 
-/// Target folder of all tests here, so that dependencies are built once.
-const TARGET: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/made");
+/// Target folder of all tests here, so that dependencies are built once: the one in which `trybuild` builds in the tests
+/// of the macros.
+const TARGET: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/../tests/trybuild");
 
-/// Lock for tests that make programs for source files: the programs have equal names.
-static MADE: Mutex<()> = Mutex::new(());
+/// Locked for reading by tests that build, and for writing by those that look at messages about builds, which others
+/// would delay.
+static BUILDS: RwLock<()> = RwLock::new(());
+
+/// Returns when a test may build beside others.
+fn builds() -> RwLockReadGuard<'static, ()> {
+    BUILDS.read().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Returns when no other test builds.
+fn builds_alone() -> RwLockWriteGuard<'static, ()> {
+    BUILDS.write().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Cargo with the settings of the command.
 fn cargo() -> Command {

@@ -1,5 +1,5 @@
 use crate::{
-    MADE, TARGET,
+    TARGET, builds,
     common::{Folder, apex, package, stderr},
 };
 use std::{path::Path, process::Output};
@@ -65,7 +65,7 @@ test counts: Inner {
 ";
 
 fn explain(file: &Path, arguments: &[&str]) -> Output {
-    let _one_at_a_time = MADE.lock().unwrap_or_else(|broken| broken.into_inner());
+    let _guard = builds();
     let mut command = apex();
     command.args(["explain", "--memory"]).args(arguments).arg(file);
     command.env("CARGO_TARGET_DIR", TARGET).env("CARGO_NET_OFFLINE", "true").output().unwrap()

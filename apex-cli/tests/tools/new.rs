@@ -1,6 +1,6 @@
 use crate::{
     TARGET, cargo,
-    common::{Folder, apex, stderr},
+    common::{Folder, apex, lock, stderr},
 };
 use std::{
     fs,
@@ -27,6 +27,7 @@ fn make(arguments: &[&str], folder: &Path) -> Output {
 fn tried(project: &Path, arguments: &[&str], text: &str) -> String {
     let made = make(arguments, project);
     assert_eq!((made.status.code(), stderr(&made)), (Some(0), String::new()));
+    lock(project);
     for file in files(project) {
         let text = fs::read_to_string(&file).unwrap();
         for hole in ["{name}", "{crate}", "{checkout}", "{runtime}", "{nodes}", "{sim}"] {

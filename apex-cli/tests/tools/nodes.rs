@@ -27,13 +27,13 @@ impl Tally {
 ";
 
 const LIST: &str = "\
-robot
+nodes
   double  Doubles a Thing.
   Tally   Counts doubles.
 ";
 
 const DOUBLE: &str = "\
-robot::double
+nodes::double
   Doubles a Thing. Slowly.
 
   More about it.
@@ -43,7 +43,7 @@ robot::double
 ";
 
 const TALLY: &str = "\
-robot::Tally
+nodes::Tally
   Counts doubles.
   input  x      [u8; 2] (optional)
   slot   clear                      Starts at zero.
@@ -65,7 +65,7 @@ fn nodes_are_listed_and_described() {
         (&["DOUBLE", "x"], LIST),
         (&["doubles"], LIST),
         (&["double"], DOUBLE),
-        (&["robot::Double"], DOUBLE),
+        (&["nodes::Double"], DOUBLE),
         (&["times"], DOUBLE),
         (&["tally"], TALLY),
         (&["u8", "clear"], TALLY),
@@ -75,7 +75,7 @@ fn nodes_are_listed_and_described() {
     let (code, page, _) = nodes(&folder.0, &["--markdown"]);
     assert_eq!(code, Some(0));
     assert!(
-        page.starts_with("## robot\n\n| node | |\n|---|---|\n| [`double`](#double) | Doubles a `Thing`. |\n"),
+        page.starts_with("## nodes\n\n| node | |\n|---|---|\n| [`double`](#double) | Doubles a `Thing`. |\n"),
         "{page}"
     );
     assert!(page.contains("| param | `first` | `u64 = 3` | The first number. |\n"), "{page}");

@@ -1,10 +1,10 @@
 //! `apex run` with parameters from a file.
 
 use crate::{
-    MADE, TARGET,
+    TARGET, builds,
     common::{Folder, apex, package, stderr},
 };
-use std::{fs, path::Path, process::Output, sync::PoisonError};
+use std::{fs, path::Path, process::Output};
 
 const SPEAKER: &str = "\
 use apex_rt::prelude::*;
@@ -32,7 +32,7 @@ fn run(file: &Path, arguments: &[&Path]) -> Output {
 
 #[test]
 fn parameters_from_a_file() {
-    let _made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let folder = Folder::new("params");
     package(&folder, SPEAKER);
     // A graph that waits for its input has nothing to do: the run ends at once.

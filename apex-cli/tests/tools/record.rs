@@ -1,7 +1,7 @@
 //! `apex run --record` and `apex replay`.
 
 use crate::{
-    MADE, TARGET,
+    TARGET, builds,
     common::{Folder, apex, package, stderr},
 };
 use std::{fs, process::Output};
@@ -124,7 +124,7 @@ fn replay(folder: &Folder, recording: &str, robot: &str) -> (Option<i32>, String
 
 #[test]
 fn a_run_is_recorded_and_repeated() {
-    let _made = MADE.lock();
+    let _guard = builds();
     let folder = Folder::new("record");
     package(&folder, NODES);
     folder.file("robot.afg", text(3));

@@ -1,7 +1,7 @@
 //! `apex studio` from outside: the robots that it shows, seen by a page without a browser.
 
 use crate::{
-    MADE, TARGET,
+    TARGET, builds,
     common::{Folder, apex, package, stderr},
 };
 use serde_json::{Value, json};
@@ -11,7 +11,6 @@ use std::{
     net::{TcpListener, TcpStream},
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
-    sync::PoisonError,
     thread,
     time::{Duration, Instant},
 };
@@ -178,7 +177,7 @@ impl Page {
 
 #[test]
 fn a_shadow_gets_the_inputs_of_the_robot_and_hands_its_parameters_over() {
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let folder = Folder::new("studio-shadow");
     let file = robot(&folder);
     let studio = Studio::open(&["--shadow", file.to_str().unwrap()]);
@@ -210,7 +209,7 @@ fn a_shadow_gets_the_inputs_of_the_robot_and_hands_its_parameters_over() {
 
 #[test]
 fn a_recording_is_repeated_and_goes_back() {
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let folder = Folder::new("studio-replay");
     let file = robot(&folder);
     let recording = folder.0.join("run.mcap");
@@ -253,7 +252,7 @@ fn record(file: &Path, recording: &Path) {
 
 #[test]
 fn a_robot_that_runs_already_is_shown_and_told() {
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let folder = Folder::new("studio-connect");
     let file = robot(&folder);
     let socket = folder.0.join("robot");

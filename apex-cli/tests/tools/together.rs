@@ -1,7 +1,7 @@
 //! Nothing is built twice, and concurrent commands do not disturb each other.
 
 use crate::{
-    MADE, TARGET, cargo,
+    TARGET, builds_alone, cargo,
     common::{Folder, apex, package, stderr},
 };
 use std::{
@@ -9,7 +9,6 @@ use std::{
     io::{BufRead as _, BufReader, Read as _},
     path::{Path, PathBuf},
     process::{Child, Output, Stdio},
-    sync::PoisonError,
 };
 
 const NODES: &str = "\
@@ -80,7 +79,7 @@ const PATHS: [&str; 7] = [
 /// once.
 #[test]
 fn each_command_runs_its_own_program() {
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds_alone();
     let folder = Folder::new("together");
     package(&folder, NODES);
     let file = |(number, path): (usize, &&str)| {
@@ -140,12 +139,9 @@ fn each_package_has_its_own_nodes() {
 /// Results of `cargo build` are used: the program itself, and for tests all but the crate with the tests.
 #[test]
 fn nothing_is_built_twice() {
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
-    let folder = Folder::new("together-once");
+    let _guard = builds_alone();
+    let folder = Folder::new("once");
     package(&folder, &format!("{NODES}apex_macros::graph!(\"robot.afg\");\n"));
-    // Cargo takes packages of one name that lie in different workspaces for the same, if they share a target folder.
-    let manifest = fs::read_to_string(folder.0.join("Cargo.toml")).unwrap().replace("\"robot\"", "\"once\"");
-    folder.file("Cargo.toml", manifest);
     folder.file("src/main.rs", "use apex_rt::prelude::*;\nfn main() { run(once::Robot::new(), WallClock::new()); }\n");
     let file = folder.file("robot.afg", text("Robot", "mine"));
     let other = folder.file("other.afg", text("Other", "another"));
@@ -174,7 +170,7 @@ fn nothing_is_built_twice() {
 /// The second of two commands reports that it waits, unless it is quiet.
 #[test]
 fn a_command_that_waits_says_so() {
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds_alone();
     let folder = Folder::new("together-waits");
     package(&folder, NODES);
     let file = folder.file("robot.afg", text("Waiting", "done"));
@@ -196,7 +192,7 @@ fn a_command_that_waits_says_so() {
 /// Exit codes tell scripts the kind of failure.
 #[test]
 fn exit_codes() {
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds_alone();
     let folder = Folder::new("together-codes");
     package(&folder, NODES);
     let file = folder.file("robot.afg", text("Coded", "x").replace("y == 1", "y == 2"));

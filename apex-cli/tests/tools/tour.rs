@@ -2,8 +2,8 @@
 //! output with the page.
 
 use crate::{
-    MADE, TARGET, cargo,
-    common::{Folder, apex, stderr},
+    TARGET, builds, cargo,
+    common::{Folder, apex, lock, stderr},
 };
 use std::{
     env, fs,
@@ -43,6 +43,7 @@ impl Follower {
             self.commands += 1;
             if let Some(folder) = command.strip_prefix("cd ") {
                 self.folder.push(folder);
+                lock(&self.folder);
                 continue;
             }
             let said = self.said(command.trim_end_matches(" | cat"));
@@ -82,7 +83,7 @@ impl Follower {
 
 #[test]
 fn the_tour_can_be_followed() {
-    let _one_at_a_time = MADE.lock().unwrap_or_else(|broken| broken.into_inner());
+    let _guard = builds();
     let page = fs::read_to_string(docs().join("tour.md")).unwrap();
     let folder = Folder::new("tour");
     let mut follower = Follower { folder: folder.0.clone(), errors: String::new(), commands: 0 };

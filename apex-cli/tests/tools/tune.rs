@@ -1,12 +1,12 @@
 //! `apex tune`, with the cart of `robots/cart`.
 
 use crate::{
-    MADE, TARGET,
+    TARGET, builds,
     common::{Folder, apex, package, stderr},
     studio::{Page, Studio},
 };
 use serde_json::json;
-use std::{fs, path::Path, process::Command, sync::PoisonError};
+use std::{fs, path::Path, process::Command};
 
 /// In place of that of the library, which takes long to build.
 const RANDOM: &str = "
@@ -62,7 +62,7 @@ fn done(mut command: Command) -> String {
 
 #[test]
 fn a_study_is_the_same_on_any_number_of_cores_and_machines() {
-    let _made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let folder = cart("tune");
     let params = folder.0.join("tuned.toml");
     let shown = done(tune(&folder, "Swift", "two", &["--jobs", "2", "--params", params.to_str().unwrap()]));
@@ -114,7 +114,7 @@ fn a_study_is_the_same_on_any_number_of_cores_and_machines() {
 
 #[test]
 fn wrong_use_is_explained() {
-    let _made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let folder = cart("tune-wrong");
     fs::create_dir(folder.0.join("old")).unwrap();
     folder.file("old/journal.csv", "of another study\n");

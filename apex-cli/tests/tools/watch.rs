@@ -1,14 +1,13 @@
 //! A program that is rebuilt after changes. The tests wait for lines, never for a time.
 
 use crate::{
-    MADE, TARGET,
+    TARGET, builds,
     common::{Folder, apex, package},
 };
 use std::{
     io::{BufRead, BufReader, Lines},
     path::Path,
     process::{Child, ChildStderr, ChildStdout, Command, Stdio},
-    sync::PoisonError,
 };
 
 /// `apex run --watch`, seen from outside.
@@ -82,7 +81,7 @@ const SET: &str =
 #[cfg(unix)]
 #[test]
 fn the_program_follows_its_text_and_keeps_what_it_changed() {
-    let _alone = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let _guard = builds();
     let folder = Folder::new("watch");
     package(&folder, NODES);
     let file = folder.file("robot.afg", "graph Robot {\n");
