@@ -6,6 +6,9 @@ use super::{
 };
 use crate::{report::Diagnostics, source::FileId};
 
+/// How often a text is read at most. Comments and strings without an end are read again, each to the end of the text.
+const READINGS: usize = 16;
+
 /// Keywords that begin an item.
 const ITEMS: [&str; 7] = ["use", "pub", "graph", "robot", "fsm", "test", "tune"];
 
@@ -22,7 +25,8 @@ pub fn repaired(text: &str) -> Option<String> {
 
 fn made_parsable(text: &str) -> Option<String> {
     let bytes = text.as_bytes().to_vec();
-    let mut repairer = Repairer { text, bytes, at: 0, open: vec![], angles: 0, solid: 0, ends_in_comment: false };
+    let mut repairer =
+        Repairer { text, bytes, at: 0, open: vec![], angles: 0, solid: 0, again: 0, ends_in_comment: false };
     repairer.run();
     String::from_utf8(repairer.bytes).ok()
 }
@@ -57,6 +61,8 @@ struct Repairer<'a> {
     angles: usize,
     /// End of the last token.
     solid: usize,
+    /// Number of bytes that are read again.
+    again: usize,
     /// `true` if the text ends with a `//` comment without a line end.
     ends_in_comment: bool,
 }
@@ -72,9 +78,9 @@ impl Repairer<'_> {
                     continue;
                 }
                 TokenKind::BlockComment { closed: true, depth } if depth <= MAX_DEPTH => {}
-                TokenKind::BlockComment { .. } => self.blank(token.start, 2),
-                // The string is probably unfinished: its quote becomes a blank.
-                TokenKind::Text { .. } if !token.ends_in_line() => self.blank(token.start, 1),
+                TokenKind::BlockComment { .. } => self.unfinished(token, 2),
+                // Strings are short: the quote is probably a mistake.
+                TokenKind::Text { .. } if !token.ends_in_line() => self.unfinished(token, 1),
                 TokenKind::Text { .. } | TokenKind::Number => {}
                 TokenKind::Word => self.word(token),
                 TokenKind::Open => self.opening(token),
@@ -94,6 +100,14 @@ impl Repairer<'_> {
                 _ => self.bytes[at] = b' ',
             }
         }
+    }
+
+    /// Replaces the `count` bytes with which a comment or a string begins by blanks, and reads it as code: without a
+    /// limit, many of them would take the square of the time of one.
+    fn unfinished(&mut self, token: Token<'_>, count: usize) {
+        self.again += token.text.len();
+        let is_limit = self.again > READINGS * self.text.len();
+        self.blank(token.start, if is_limit { self.text.len() - token.start } else { count });
     }
 
     /// Replaces `count` bytes at `start` by blanks, and goes on behind them.
@@ -199,6 +213,16 @@ mod tests {
         assert_eq!(repaired("graph A { /// b\n").as_deref(), Some("graph A { /// b\n}"));
         assert_eq!(repaired("graph A { /* { // b").as_deref(), Some("graph A {    { // b\n}}"));
         assert_eq!(repaired_before("graph A { /* ü\n{", 10).as_deref(), Some("graph A {      \n }"));
+    }
+
+    /// With a time that grows with the square of the length, this would take an hour.
+    #[test]
+    fn many_beginnings_without_an_end() {
+        for piece in ["/*", "\n\\\"", "\"\n", "/* \" */ \"\n"] {
+            let text = format!("graph A {{ \"{}", piece.repeat(MAX_BYTES / piece.len() / 2));
+            let repaired = repaired(&text).expect("it has no end");
+            assert!(repaired.starts_with("graph A {") && repaired.len() >= text.len());
+        }
     }
 
     /// Every byte keeps its place or becomes blank, except for closing brackets in blanks. The result can be parsed.

@@ -14,7 +14,7 @@ const SOON: Duration = Duration::from_secs(60);
 
 fn run(mission: Mission, faults: Vec<Fault>, duration: Duration) -> Outcome {
     let setup = Setup { seed: SEED, mission, faults, duration, record: None };
-    setup.run(&mut ()).expect("nothing is recorded")
+    setup.run(&mut (), None).expect("nothing is recorded")
 }
 
 fn delivers(mission: Mission) {
@@ -45,7 +45,7 @@ fn the_same_seed_is_the_same_run_and_its_recording_replays() {
     let duration = Duration::from_secs(12);
     let record = Some(Recording { path: folder.join("run.mcap"), images: false });
     let setup = Setup { seed: SEED, duration, record, ..Setup::default() };
-    let recorded = setup.run(&mut ()).expect("room for the file");
+    let recorded = setup.run(&mut (), None).expect("room for the file");
     let again = run(Mission::Graph, vec![], duration);
     let finished = recorded.recorded.expect("a recording");
     let size = fs::metadata(&finished.path).expect("the file").len();

@@ -3,7 +3,7 @@ use crate::{
     measure::percentile,
     run::{Parts, StepView, Watch},
 };
-use apex_rt::{Info, Observer, Time};
+use apex_rt::{Info, Time};
 use std::{
     fmt,
     time::{Duration, Instant},
@@ -86,7 +86,7 @@ impl Times {
     }
 }
 
-impl Observer for Times {
+impl Watch for Times {
     fn fired(&mut self, node: usize) {
         self.begin(node);
     }
@@ -103,9 +103,7 @@ impl Observer for Times {
             outer.inner += took;
         }
     }
-}
 
-impl Watch for Times {
     fn reacted(&mut self, moment: &StepView<'_>) {
         let with_map = std::mem::take(&mut self.map_taken);
         for part in 0..self.spent.len() {

@@ -55,9 +55,9 @@ fn scores(jobs: &[Setup], threads: Option<NonZero<usize>>) -> Result<Vec<Score>,
     scores.into_iter().collect()
 }
 
-fn play(setup: &Setup, watch: &mut impl Watch) -> Result<Score, String> {
+fn play(setup: &Setup, watch: &mut dyn Watch) -> Result<Score, String> {
     let start = Instant::now();
-    let outcome = setup.run(watch)?;
+    let outcome = setup.run(watch, None)?;
     Ok(Score::of(&outcome, start.elapsed()))
 }
 

@@ -1,5 +1,4 @@
 use super::{args::PICTURES, say};
-use apex_rt::Observer;
 use sick_robot_day::{
     Arena,
     contest::{Fault, Hall},
@@ -20,9 +19,8 @@ pub fn compete(setup: &Setup, out: Option<PathBuf>, film: Option<&Path>) -> Resu
     // Checked before the run: the folder of the pictures must be usable.
     let image_writer = ImageWriter::new(&folder)?;
     let studio = setup.mission.studio().map_err(|e| format!("cannot open the socket in `APEX_STUDIO`: {e}"))?;
-    let mut watch = (View::of(setup), studio.as_ref().and_then(|studio| studio.stream(0)));
-    let outcome = setup.run(&mut watch)?;
-    let (view, _) = watch;
+    let mut view = View::of(setup);
+    let outcome = setup.run(&mut view, studio.as_ref())?;
     outcome.run_report.write(&image_writer)?;
     if let Some(path) = film {
         fs::write(path, view.film.svg(&outcome.run_report))
@@ -74,8 +72,6 @@ impl View {
         Self { live: LiveView::new(false), film: Film::default(), arena: Arena::new(setup.seed) }
     }
 }
-
-impl Observer for View {}
 
 impl Watch for View {
     fn reacted(&mut self, moment: &StepView<'_>) {

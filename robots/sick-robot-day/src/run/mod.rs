@@ -17,7 +17,7 @@ use activity_log::ActivityLog;
 use apex_rt::{
     Clock as _, Info, Next, Observer, Program, SimClock, Time,
     record::{Channel, Finished, Recorder, Role, Tap, WhenFull},
-    studio::Studio,
+    studio::{Stream, Studio},
 };
 use std::{io, path::PathBuf, time::Duration};
 
@@ -81,8 +81,24 @@ pub struct StepView<'a> {
     activity_log: &'a ActivityLog,
 }
 
-/// Observer of a run.
-pub trait Watch: Observer {
+/// Observer of a run. Unlike an [`Observer`], it is not compiled together with the robot: there is one program for all
+/// kinds of observers.
+pub trait Watch {
+    /// Called before node `node` fires.
+    fn fired(&mut self, node: usize) {
+        let _ = node;
+    }
+
+    /// Called before the slot at the end of connection `connection` takes its token.
+    fn handled(&mut self, connection: usize) {
+        let _ = connection;
+    }
+
+    /// Called after a firing of node `node`, or after a call of its slot.
+    fn finished(&mut self, node: usize) {
+        let _ = node;
+    }
+
     /// Called after each reaction of the robot.
     fn reacted(&mut self, moment: &StepView<'_>) {
         let _ = moment;
@@ -91,10 +107,20 @@ pub trait Watch: Observer {
 
 impl Watch for () {}
 
-/// A watch with another observer beside it.
-impl<W: Watch, O: Observer> Watch for (W, O) {
-    fn reacted(&mut self, moment: &StepView<'_>) {
-        self.0.reacted(moment);
+/// A watch as an observer of the robot.
+struct Watched<'a>(&'a mut dyn Watch);
+
+impl Observer for Watched<'_> {
+    fn fired(&mut self, node: usize) {
+        self.0.fired(node);
+    }
+
+    fn handled(&mut self, connection: usize) {
+        self.0.handled(connection);
+    }
+
+    fn finished(&mut self, node: usize) {
+        self.0.finished(node);
     }
 }
 
@@ -125,18 +151,19 @@ impl Setup {
         START + self.duration
     }
 
-    /// Runs the robot.
+    /// Runs the robot. Viewers of `studio` see it, and may set its parameters.
     ///
     /// # Errors
     /// If the run cannot be recorded.
-    pub fn run(&self, watch: &mut impl Watch) -> Result<Outcome, String> {
+    pub fn run(&self, watch: &mut dyn Watch, studio: Option<&Studio>) -> Result<Outcome, String> {
+        let stream = studio.and_then(|studio| studio.stream(0));
         match self.mission {
-            Mission::Graph => self.drive::<Competition>(watch),
-            Mission::Machine => self.drive::<SdfCompetition>(watch),
+            Mission::Graph => self.drive::<Competition>(watch, stream),
+            Mission::Machine => self.drive::<SdfCompetition>(watch, stream),
         }
     }
 
-    fn drive<R: Robot>(&self, watch: &mut impl Watch) -> Result<Outcome, String> {
+    fn drive<R: Robot>(&self, watch: &mut dyn Watch, mut stream: Option<Stream>) -> Result<Outcome, String> {
         let hall = Hall::new(self.seed, self.faults.clone()).map_err(|e| e.to_string())?;
         let start = hall.robots()[0].pose;
         let mut robot = Box::new(R::in_hall(&hall));
@@ -146,8 +173,9 @@ impl Setup {
         loop {
             let now = clock.now();
             activity_log.now = now;
-            watch.before_reaction(now, &mut *robot);
-            let next = robot.react_with(now, &mut (&mut activity_log, (&mut *watch, &mut tap)));
+            stream.before_reaction(now, &mut *robot);
+            let watched = Watched(&mut *watch);
+            let next = robot.react_with(now, &mut (&mut activity_log, (watched, (&mut stream, &mut tap))));
             watch.reacted(&StepView { now, hall: &hall, activity_log: &activity_log });
             let time = if let Next::At(time) = next { time } else { now };
             if !clock.wait_until(time) {
