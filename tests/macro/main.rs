@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-/// Settings like those of the tests of the command, which build in the same folder: the compiler is built once for both.
+/// Settings of the tests of the command, which build in the same folder: the compiler is built once for both.
 const SETTINGS: &str = "[profile.dev]\ndebug = 0\n[profile.dev.build-override]\nopt-level = 0\n";
 
 #[test]

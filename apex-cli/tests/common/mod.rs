@@ -59,8 +59,8 @@ pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-/// Makes a package with nodes and no program of its own. It has the name of the folder: cargo takes packages of one name
-/// that are workspaces of their own for the same if they share a target folder.
+/// Makes a package with nodes and no program of its own. It has the name of the folder: cargo takes packages of one
+/// name that are workspaces of their own for the same if they share a target folder.
 pub fn package(folder: &Folder, nodes: &str) {
     let name = folder.name();
     let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -30,8 +30,8 @@ mod tour;
 mod tune;
 mod watch;
 
-/// Target folder of all tests here, so that dependencies are built once: the one in which `trybuild` builds in the tests
-/// of the macros.
+/// Target folder of all tests here, so that dependencies are built once: the one in which `trybuild` builds in the
+/// tests of the macros.
 const TARGET: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/../tests/trybuild");
 
 /// Locked for reading by tests that build, and for writing by those that look at messages about builds, which others
