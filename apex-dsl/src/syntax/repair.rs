@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{report::Diagnostics, source::FileId};
 
-/// Number of readings of a text, at most. Comments and strings without an end are read again, each to the end of the text.
+/// Number of readings of a text, at most. Comments and strings without an end are read again, to the end of the text.
 const READINGS: usize = 16;
 
 /// Keywords that begin an item.
