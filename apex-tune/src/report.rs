@@ -86,13 +86,9 @@ impl Report {
             let gain = |after: &[f64], before: &[f64]| before[i] - after[i];
             let training = gain(&self.tuned.training, &self.defaults.training);
             let held_out = gain(&self.tuned.held_out, &self.defaults.held_out);
-            let parts = training > 0.0 && (held_out.is_nan() || held_out < 0.5 * training);
-            parts.then(|| {
-                let (name, training, held_out) = (&goal.name, number(training), number(held_out));
-                format!(
-                    "`{name}` improves by {training} on the seeds of the study, but by {held_out} on those held out"
-                )
-            })
+            let least = if training.is_finite() { 0.5 * training } else { 0.0 };
+            let parts = training > 0.0 && (held_out.is_nan() || held_out < least);
+            parts.then(|| part(&goal.name, training, held_out))
         });
         let parts: Vec<String> = parts.collect();
         (!parts.is_empty()).then(|| parts.join("; "))
@@ -199,9 +195,51 @@ fn number(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
+/// Describes a goal that gains less on the seeds held out than on those of the study. A gain is infinite if the
+/// defaults fail, negatively infinite if the result does, and NaN if both do.
+fn part(name: &str, training: f64, held_out: f64) -> String {
+    let study = match training.is_infinite() {
+        true => format!("`{name}`: the defaults fail on the seeds of the study"),
+        false => format!("`{name}` improves by {} on the seeds of the study", number(training)),
+    };
+    if held_out.is_nan() || held_out.is_infinite() {
+        format!("{study}, but the result fails on those held out")
+    } else if held_out < 0.0 {
+        format!("{study}, but on those held out the result is worse by {}", number(-held_out))
+    } else {
+        format!("{study}, but by {} on those held out", number(held_out))
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::number;
+    use super::{number, part};
+
+    #[test]
+    fn warnings_say_which_side_fails() {
+        let infinity = f64::INFINITY;
+        for (training, held_out, expected) in [
+            (2.0, 0.5, "`a` improves by 2 on the seeds of the study, but by 0.5 on those held out"),
+            (
+                2.0,
+                -0.5,
+                "`a` improves by 2 on the seeds of the study, but on those held out the result is worse by 0.5",
+            ),
+            (2.0, -infinity, "`a` improves by 2 on the seeds of the study, but the result fails on those held out"),
+            (
+                infinity,
+                -0.5,
+                "`a`: the defaults fail on the seeds of the study, but on those held out the result is worse by 0.5",
+            ),
+            (
+                infinity,
+                f64::NAN,
+                "`a`: the defaults fail on the seeds of the study, but the result fails on those held out",
+            ),
+        ] {
+            assert_eq!(part("a", training, held_out), expected);
+        }
+    }
 
     #[test]
     fn numbers_have_six_digits() {
