@@ -202,7 +202,7 @@ fn part(name: &str, training: f64, held_out: f64) -> String {
         true => format!("`{name}`: the defaults fail on the seeds of the study"),
         false => format!("`{name}` improves by {} on the seeds of the study", number(training)),
     };
-    if held_out.is_nan() || held_out.is_infinite() {
+    if !held_out.is_finite() {
         format!("{study}, but the result fails on those held out")
     } else if held_out < 0.0 {
         format!("{study}, but on those held out the result is worse by {}", number(-held_out))

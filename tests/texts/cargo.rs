@@ -8,11 +8,10 @@ use apex_tests::{
 use rayon::prelude::*;
 use serde_json::Value;
 use std::{
-    collections::BTreeMap,
     fs,
     path::{Path, PathBuf},
     process::Command,
-    sync::LazyLock,
+    sync::{LazyLock, OnceLock},
 };
 
 /// An error of rustc.
@@ -30,9 +29,9 @@ pub struct Message {
     pub in_text: bool,
 }
 
-/// The packages, which are written again for each batch, and their metadata from cargo.
+/// The packages, which are written again for each batch. Cargo is asked once for the metadata of those that are used.
 pub struct Packages {
-    workspaces: BTreeMap<(usize, bool), Workspace>,
+    workspaces: Vec<[OnceLock<Workspace>; 2]>,
 }
 
 fn folder() -> PathBuf {
@@ -107,13 +106,7 @@ impl Packages {
         // Adds the packages to the lock file. Unlike `metadata`, this downloads nothing for other platforms.
         let made = cargo().args(["update", "--workspace", "--offline"]).output().expect("cargo runs");
         assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-        let all: Vec<(usize, Shape)> =
-            (0..count).flat_map(|slot| [Shape::Library, Shape::Both].map(|shape| (slot, shape))).collect();
-        let load = |(slot, shape): &(usize, Shape)| {
-            let workspace = Workspace::load(&folder.join(package(*slot, *shape)));
-            ((*slot, *shape == Shape::Both), workspace.expect("cargo knows the packages of the texts"))
-        };
-        Self { workspaces: all.par_iter().map(load).collect() }
+        Self { workspaces: vec![<[OnceLock<Workspace>; 2]>::default(); count] }
     }
 
     /// Writes the files of a case. Returns the folder of its package.
@@ -126,9 +119,11 @@ impl Packages {
         package
     }
 
-    /// Metadata of a package.
+    /// Metadata of a package from cargo.
     pub fn workspace(&self, slot: usize, shape: Shape) -> &Workspace {
-        &self.workspaces[&(slot, shape == Shape::Both)]
+        self.workspaces[slot][usize::from(shape == Shape::Both)].get_or_init(|| {
+            Workspace::load(&folder().join(package(slot, shape))).expect("cargo knows the packages of the texts")
+        })
     }
 }
 

@@ -1,5 +1,5 @@
 use crate::{
-    TARGET, cargo,
+    TARGET, builds, cargo,
     common::{Folder, apex, lock, stderr},
 };
 use std::{
@@ -51,6 +51,7 @@ fn files(folder: &Path) -> Vec<std::path::PathBuf> {
 
 #[test]
 fn a_library_of_nodes_is_right_and_is_tested() {
+    let _guard = builds();
     let folder = Folder::new("new-node");
     let project = folder.0.join("my-nodes");
     let tested = tried(&project, &["--template", "node"], "tests.afg");
@@ -63,6 +64,7 @@ fn a_library_of_nodes_is_right_and_is_tested() {
 
 #[test]
 fn firmware_is_right_is_tested_and_runs_here() {
+    let _guard = builds();
     let folder = Folder::new("new-firmware");
     let project = folder.0.join("my-cart");
     let tested = tried(&project, &["--template", "firmware"], "firmware.afg");
