@@ -206,9 +206,24 @@ impl<P> Outside<P> for () {
 /// program. With the feature `record`, the run is recorded in the file in the environment variable `APEX_RECORD`, or
 /// else in that of the program's `record` statement. If `APEX_REPLAY` names a recording, that is replayed instead.
 pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
-    #[cfg(feature = "std")]
-    return drive_from(program, clock, Ports::new());
-    #[cfg(not(feature = "std"))]
+    #[cfg(any(feature = "profile", feature = "record"))]
+    return crate::instruments::drive(program, clock, Ports::new());
+    #[cfg(not(any(feature = "profile", feature = "record")))]
+    drive_alone(program, clock)
+}
+
+/// Drives a program that nothing but its clock concerns, without instruments.
+#[cfg(all(feature = "std", not(any(feature = "profile", feature = "record"))))]
+fn drive_alone<P: Program, C: Clock>(mut program: P, clock: C) -> u8 {
+    let messages = || crate::StdErr(const { &P::INFO });
+    match pace_of_threads::<P, C>(&clock) {
+        Some(pace) => crate::threads::drive_on_threads(&mut program, pace, |_| messages()),
+        None => drive_with(program, clock, messages()),
+    }
+}
+
+#[cfg(not(feature = "std"))]
+fn drive_alone<P: Program, C: Clock>(program: P, clock: C) -> u8 {
     drive_with(program, clock, ())
 }
 

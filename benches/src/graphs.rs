@@ -63,6 +63,14 @@ runs! { sink =>
 
 runs! { a => pingpong1: PingPong1 }
 
+/// Ticks of `Chain10`, driven by a simulated clock.
+#[inline(never)]
+pub fn drive10(ticks: u64) -> u64 {
+    let mut graph = Chain10::new();
+    apex_rt::drive(&mut graph, SimClock::until(Time::from_millis(ticks as i64)));
+    graph.nodes().sink.checksum()
+}
+
 /// Round trips of `PingPong`. The ball would go back and forth forever in one reaction, so the budget of the reaction
 /// ends it. A round trip is two steps, and the start is one more.
 #[inline(never)]

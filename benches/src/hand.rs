@@ -11,7 +11,7 @@ use crate::{
     image::{Camera, Gray, Labels, blur, components, gray, threshold},
     nodes::{Count, Entered, OneOf, Pairs, Ping, Rows, Silent, Sink, Symbols, add, mix, numbered, op, sum},
 };
-use apex_rt::{Out, Timer};
+use apex_rt::{Clock, Out, SimClock, Time, Timer};
 use seq_macro::seq;
 use std::hint::black_box;
 
@@ -38,6 +38,22 @@ chain! {
     chain10: Count, 10;
     chain100: Count, 100;
     chain1000: Count, 1000;
+}
+
+/// 10 operations in a row, with the loop around a simulated clock.
+#[inline(never)]
+pub fn drive10(ticks: u64) -> u64 {
+    let (mut source, mut sink) = (Count::default(), Sink::default());
+    let mut clock = SimClock::until(Time::from_millis(ticks as i64));
+    loop {
+        let now = clock.now();
+        let x = source.process();
+        seq!(K in 1..=10 { let x = op(&x, K); });
+        sink.process(&x);
+        if !clock.wait_until(now) {
+            return sink.checksum();
+        }
+    }
 }
 
 macro_rules! silent {
