@@ -2,6 +2,7 @@
 //! of line segments (feature `std`).
 
 mod clear;
+mod containers;
 mod distance;
 mod grid;
 mod mark;
@@ -15,6 +16,7 @@ mod surroundings;
 mod vector;
 
 pub use clear::ClearBox;
+pub use containers::MarkContainers;
 pub use distance::DistanceTransform;
 pub use grid::{Cell, Grid, MAX_CELLS, Occupancy, Raster, TooManyCells};
 pub use mark::MarkScan;

@@ -53,13 +53,15 @@ pub use guard::OdometryGuard;
 #[cfg(feature = "std")]
 pub use hazard::{HazardStop, MarkHazards};
 #[cfg(feature = "std")]
-pub use lattice::{CurveDrive, CurvePlanner, CurveSearch};
+pub use lattice::{CurveDrive, CurvePlanner, CurveSearch, Floor, Goal, Ground, Section, Start, Way};
 #[cfg(feature = "std")]
 pub use law::FollowingLaw;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
 #[cfg(feature = "std")]
 pub use path::{Path, Projection};
 pub use payload::{Articulated, BackUp, PlannedApproach, ReactiveApproach, trailer_rotation};
+#[cfg(feature = "std")]
+pub use payload::{BackFollower, BackPath, BackPiece};
 pub use pid::Pid;
 #[cfg(feature = "std")]
 pub use plan::{PathPlanner, Planner, Smoothing};

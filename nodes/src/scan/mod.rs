@@ -12,6 +12,7 @@ mod laser;
 #[cfg(feature = "record")]
 pub(crate) mod message;
 mod mount;
+mod remember;
 mod segment;
 mod wheel;
 
@@ -22,4 +23,5 @@ pub use geometry::{Point2, Pose2};
 pub use hide::HideBox;
 pub use laser::{MAX_BEAMS, Scan};
 pub use mount::{MergeScans, MountScan, OtherBeams};
+pub use remember::{Containers, RememberContainers};
 pub use segment::{JumpDistance, MAX_SEGMENTS, Segment, SegmentFilter, Segments, TooManySegments};

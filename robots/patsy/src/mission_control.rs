@@ -5,7 +5,7 @@ use apex_rt::{Ctx, Event, node};
 /// Decides what the vehicle does next (thesis 8.2, *Mission Control*): asks for orders, has the container collected and
 /// brought to its destination. It is active while it waits for an order.
 ///
-/// A container that cannot be collected is tried again; after `attempts` the order is given back. Once a container is
+/// The pose of a container has the heading, of its two, towards the destination. A container that cannot be collected is tried again; after `attempts` the order is given back. Once a container is
 /// on the lift, the vehicle tries to bring it until it is there. `ask` asks for the next order: with `false` if the
 /// last one is given back.
 #[node]
@@ -32,7 +32,7 @@ impl MissionControl {
     fn order(&mut self, order: &Order, ctx: &Ctx, get_container: Event<Pose2>) {
         if ctx.active() {
             (self.order, self.failures, self.is_loaded) = (Some(*order), 0, false);
-            get_container.emit(order.container);
+            get_container.emit(order.towards_destination());
         }
     }
 
@@ -58,7 +58,7 @@ impl MissionControl {
         self.failures += 1;
         match self.order {
             Some(order) if self.is_loaded => bring.emit(order.destination),
-            Some(order) if self.failures < self.attempts => get_container.emit(order.container),
+            Some(order) if self.failures < self.attempts => get_container.emit(order.towards_destination()),
             _ => {
                 self.order = None;
                 ask.emit(false);
@@ -99,6 +99,13 @@ mod tests {
         let (mut get, mut bring, mut ask) = (None, None, None);
         node.failed(event(&mut get), event(&mut bring), event(&mut ask));
         [get.is_some(), bring.is_some(), ask == Some(false)]
+    }
+
+    #[test]
+    fn a_container_is_driven_beneath_towards_the_destination() {
+        let behind = Order { destination: Pose2::new(-3.0, 8.0, 0.0), ..ORDER };
+        assert_eq!([ORDER, behind].map(|order| order.towards_destination().theta), [0.0, core::f32::consts::PI]);
+        assert_eq!(behind.towards_destination().position(), ORDER.container.position());
     }
 
     #[test]

@@ -1,11 +1,10 @@
-use super::vehicle::approach_speed;
+use super::vehicle::{approach_speed, backing_rotation};
 use crate::{
     math::normalize_angle,
     nav::{Twist, twist::Halt},
     scan::Pose2,
 };
 use apex_rt::{Ctx, Event, node};
-use libm::{cosf, sinf};
 
 /// Deceleration before the end, in m/s².
 const DECELERATION: f32 = 0.3;
@@ -15,9 +14,9 @@ const SLOWEST: f32 = 0.03;
 /// Backs a tractor with a passively steered trailer up by a distance, for example away from an obstacle.
 ///
 /// A trailer that is pushed turns away to the side, so the tractor steers against it: the angle between the two decays
-/// at the rate `gain` (feedback linearization of the off-axle hitch; Lamiraux et al. 1998). `base` and `trailer` are
-/// the poses of the two axes in one fixed frame such as that of odometry. Works while it is active; `done` comes with a
-/// twist of zero. Nothing behind the vehicle is looked at.
+/// at the rate `gain` (Lamiraux et al. 1998). `base` and `trailer` are the poses of the two axes in one fixed frame such
+/// as that of odometry. Works while it is active; `done` comes with a twist of zero. Nothing behind the vehicle is looked
+/// at.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BackUp {
@@ -60,8 +59,8 @@ impl BackUp {
         }
         let speed = approach_speed(left, DECELERATION, [SLOWEST, self.speed]);
         let bend = normalize_angle(&(base.theta - trailer.theta));
-        let turn = -(self.gain * bend + speed * sinf(bend) / self.drawbar);
-        self.halt.drive(Twist::new(-speed, 0.0, turn / (1.0 + self.hitch * cosf(bend) / self.drawbar)))
+        let turn = backing_rotation(speed, bend, -self.gain * bend, self.hitch, self.drawbar);
+        self.halt.drive(Twist::new(-speed, 0.0, turn))
     }
 
     /// Begins again at the next activation.

@@ -1,12 +1,20 @@
 //! Payload acquisition: steering a tractor with a passively steered trailer beneath a container (thesis 6.7).
 
 mod back;
+#[cfg(feature = "std")]
+mod back_path;
 pub(super) mod dubins;
 mod planned;
 mod reactive;
 mod vehicle;
 
 pub use back::BackUp;
+#[cfg(all(test, feature = "std"))]
+pub(super) use back_path::tests::Backing;
+#[cfg(feature = "std")]
+pub use back_path::{BackFollower, BackPath, BackPiece};
 pub use planned::PlannedApproach;
 pub use reactive::ReactiveApproach;
+#[cfg(feature = "std")]
+pub(super) use vehicle::backing_rotation;
 pub use vehicle::{Articulated, trailer_rotation};

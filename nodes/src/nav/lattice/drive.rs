@@ -1,0 +1,194 @@
+use super::super::{
+    Terrain,
+    payload::{
+        backing_rotation,
+        dubins::{Curve, advanced},
+        trailer_rotation,
+    },
+};
+use crate::{
+    map::{Grid, Occupancy},
+    scan::{Point2, Pose2},
+};
+use core::f32::consts::TAU;
+use libm::remainderf;
+
+/// Distance between places that are checked on a step, in m.
+pub(super) const CHECK: f32 = 0.1;
+/// Maximum angle between the vehicle and its trailer, in rad.
+const MAX_BEND: f32 = 1.2;
+/// Distance from the places of the trailer at the start within which the map does not count, in m: it stands there.
+const STANDS: f32 = 0.2;
+
+/// Vehicle that drives in curves: its shape on the map in which obstacles are grown by half of its width.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveDrive {
+    /// Smallest radius of a curve, in m.
+    pub radius: f32,
+    /// Distance from the axis to the front, in m.
+    pub front: f32,
+    /// Distance from the axis back to the hitch of a trailer, in m.
+    pub hitch: f32,
+    /// Distance from the hitch back to the axis of the trailer, in m.
+    pub drawbar: f32,
+    /// Places on the trailer, with its load, that must not touch anything: distances from its axis forward, in m.
+    /// Without places there is no trailer.
+    pub body: &'static [f32],
+    /// Distance from the axis of the trailer back to its rear, in m.
+    pub rear: f32,
+    /// Width of the vehicle and its trailer on the floor, in m.
+    pub width: f32,
+    /// Rate at which the angle to the trailer approaches the wanted one when the vehicle backs up, in 1/m; 0 for a
+    /// vehicle that only drives forward.
+    pub backing_gain: f32,
+}
+
+impl CurveDrive {
+    /// Returns `true` if the vehicle has a trailer and backs up with it.
+    pub(super) fn backs_up(&self) -> bool {
+        self.backing_gain > 0.0 && !self.body.is_empty()
+    }
+
+    /// Places on the trailer that must not touch anything, at a pose and with this heading of the trailer.
+    pub(super) fn places(&self, pose: &Pose2, trailer: f32) -> impl Iterator<Item = Point2> {
+        let (hitch, drawbar) = (pose.to_outer(Point2::new(-self.hitch, 0.0)), self.drawbar);
+        self.body.iter().map(move |place| hitch + Point2::polar(place - drawbar, trailer))
+    }
+}
+
+/// Floor that was seen or driven on. Backward the vehicle drives only there, as no camera looks behind.
+#[derive(Debug, Clone, Copy)]
+pub struct Floor<'a> {
+    /// Free and other places.
+    pub map: &'a Grid<Occupancy>,
+    /// Pose of the vehicle at the start, in the frame of the terrain and in that of the floor.
+    pub start: [Pose2; 2],
+}
+
+impl Floor<'_> {
+    fn is_known(&self, point: Point2) -> bool {
+        let [here, there] = &self.start;
+        self.map.at(there.to_outer(here.to_inner(point))) == Some(&Occupancy::Free)
+    }
+}
+
+/// Where a vehicle may drive.
+#[derive(Debug, Clone, Copy)]
+pub struct Ground<'a> {
+    /// Map with costs.
+    pub terrain: Terrain<'a>,
+    /// Floor for driving backward; `None` if it need not be known.
+    pub floor: Option<Floor<'a>>,
+}
+
+/// Vehicle on a map.
+pub(super) struct Drive<'a> {
+    pub ground: &'a Ground<'a>,
+    pub vehicle: &'a CurveDrive,
+    /// Places of the trailer at the start.
+    pub stands: &'a [Point2],
+}
+
+impl Drive<'_> {
+    /// Length of an arc with costs, and the heading of the trailer at its end, or `None` if something is touched on it.
+    pub fn arc(&self, from: &Pose2, mut trailer: f32, curvature: f32, length: f32) -> Option<(f32, f32)> {
+        let count = libm::ceilf(length / CHECK);
+        let step = length / count;
+        let (mut cost, mut pose) = (0.0, *from);
+        for _ in 0..count as u32 {
+            let bend = bend(&pose, trailer);
+            trailer = self.towed(&pose, trailer, curvature, step);
+            pose = advanced(&pose, curvature, step);
+            // A trailer that is bent too far at the start may come into line.
+            if self::bend(&pose, trailer) > MAX_BEND.max(bend) {
+                return None;
+            }
+            cost += step * (1.0 + self.fits(&pose, trailer)?);
+        }
+        Some((cost, trailer))
+    }
+
+    /// Length of a step backward with costs, and the pose and the heading of the trailer at its end, or `None` if
+    /// something is touched on it. The angle to the trailer approaches `wanted`, in rad.
+    pub fn back(&self, from: &Pose2, mut trailer: f32, wanted: f32, length: f32) -> Option<(f32, Pose2, f32)> {
+        let CurveDrive { hitch, drawbar, backing_gain, .. } = *self.vehicle;
+        let count = libm::ceilf(length / CHECK);
+        let step = length / count;
+        let (mut cost, mut pose) = (0.0, *from);
+        for _ in 0..count as u32 {
+            let angle = remainderf(pose.theta - trailer, TAU);
+            let turn = backing_rotation(1.0, angle, -backing_gain * (angle - wanted), hitch, drawbar);
+            trailer += step * trailer_rotation(-1.0, turn, angle, hitch, drawbar);
+            pose = advanced(&pose, -turn, -step);
+            if bend(&pose, trailer) > MAX_BEND.max(angle.abs()) {
+                return None;
+            }
+            if !self.is_on_floor(&pose, trailer) {
+                return None;
+            }
+            cost += step * (1.0 + self.fits(&pose, trailer)?);
+        }
+        Some((cost, pose, trailer))
+    }
+
+    /// Returns `true` if the corners that come to new floor on a way backward are on floor that is known.
+    fn is_on_floor(&self, pose: &Pose2, trailer: f32) -> bool {
+        let CurveDrive { front, hitch, drawbar, rear, width, .. } = *self.vehicle;
+        let joint = pose.to_outer(Point2::new(-hitch, 0.0));
+        let axle = Pose2 { theta: trailer, ..Pose2::default() }.to_outer(Point2::new(-drawbar - rear, 0.0)) + joint;
+        let across = Point2::polar(0.5 * width, trailer).perpendicular();
+        let corners = [
+            axle + across,
+            axle - across,
+            pose.to_outer(Point2::new(front, 0.5 * width)),
+            pose.to_outer(Point2::new(front, -0.5 * width)),
+        ];
+        self.ground.floor.is_none_or(|floor| corners.iter().all(|corner| floor.is_known(*corner)))
+    }
+
+    /// Returns `true` if nothing is touched on a curve.
+    pub fn is_free(&self, curve: &Curve, mut trailer: f32) -> bool {
+        let mut pose = curve.start;
+        for (curvature, length) in curve.parts {
+            if length > 0.0 {
+                let Some((_, heading)) = self.arc(&pose, trailer, curvature, length) else { return false };
+                trailer = heading;
+                pose = advanced(&pose, curvature, length);
+            }
+        }
+        true
+    }
+
+    /// Heading of the trailer after a step; that of the vehicle if there is none.
+    fn towed(&self, pose: &Pose2, trailer: f32, curvature: f32, step: f32) -> f32 {
+        let CurveDrive { hitch, drawbar, body, .. } = *self.vehicle;
+        if body.is_empty() {
+            return pose.theta + step * curvature;
+        }
+        trailer + step * trailer_rotation(1.0, curvature, pose.theta - trailer, hitch, drawbar)
+    }
+
+    /// Highest cost of the places of the vehicle at a pose, or `None` if something is touched there.
+    fn fits(&self, pose: &Pose2, trailer: f32) -> Option<f32> {
+        let Self { ground: Ground { terrain, .. }, vehicle, stands } = self;
+        let raster = terrain.map.raster();
+        let cost_at =
+            |point: Point2| raster.cell(point).filter(|cell| terrain.is_open(*cell)).map(|cell| terrain.cost(cell));
+        cost_at(pose.to_outer(Point2::new(vehicle.front, 0.0)))?;
+        let is_start = |place: Point2| stands.iter().any(|at| (*at - place).norm_squared() <= STANDS * STANDS);
+        let mut highest = cost_at(pose.position())?;
+        for place in vehicle.places(pose, trailer) {
+            match cost_at(place) {
+                Some(cost) => highest = highest.max(cost),
+                None if is_start(place) => {}
+                None => return None,
+            }
+        }
+        Some(highest)
+    }
+}
+
+/// Angle between a vehicle and its trailer, in rad.
+fn bend(pose: &Pose2, trailer: f32) -> f32 {
+    remainderf(pose.theta - trailer, TAU).abs()
+}

@@ -1,0 +1,100 @@
+use super::{Goal, SIDE};
+use crate::{
+    map::{Cell, Grid, Raster},
+    nav::Terrain,
+    scan::Point2,
+};
+use core::{cmp::Ordering, f32::consts::SQRT_2};
+use std::collections::BinaryHeap;
+
+/// Estimated distances from the nearest goal, without regard to headings.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Estimates {
+    /// Distance of each coarse cell, in m, with costs.
+    cells: Grid<f32>,
+    open: BinaryHeap<Open>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Open {
+    estimate: f32,
+    cell: Cell,
+}
+
+impl Eq for Open {}
+
+/// The greatest entry is expanded next: the one with the least estimate.
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let index = |cell: Cell| (cell.y, cell.x);
+        other.estimate.total_cmp(&self.estimate).then_with(|| index(self.cell).cmp(&index(other.cell)))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Estimates {
+    /// Raster of the coarse cells.
+    pub fn raster(&self) -> &Raster {
+        self.cells.raster()
+    }
+
+    /// Estimated distance of a point, in m: infinite if there is no way.
+    pub fn at(&self, point: Point2) -> f32 {
+        self.cells.at(point).copied().unwrap_or(f32::INFINITY)
+    }
+
+    /// Computes all distances (Dijkstra 1959). A coarse cell is open if a part of it is.
+    pub fn run(&mut self, terrain: &Terrain<'_>, goals: &[Goal]) {
+        let fine = terrain.map.raster();
+        let part = libm::roundf(SIDE / fine.resolution).max(1.0) as usize;
+        let raster = Raster {
+            corner: fine.corner,
+            resolution: fine.resolution * part as f32,
+            width: fine.width.div_ceil(part),
+            height: fine.height.div_ceil(part),
+        };
+        // Coarser than a grid that exists.
+        if self.cells.reset(raster, f32::INFINITY).is_err() {
+            return;
+        }
+        for goal in goals {
+            if let Some(cell) = raster.cell(goal.pose.position()) {
+                self.reach(cell, goal.cost);
+            }
+        }
+        while let Some(Open { estimate, cell: at }) = self.open.pop() {
+            if self.cells.get(at).is_none_or(|known| *known < estimate) {
+                continue;
+            }
+            for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)] {
+                // A neighbour left of or below 0 wraps to the greatest number, which no raster contains.
+                let next = Cell::new(at.x.wrapping_add_signed(dx), at.y.wrapping_add_signed(dy));
+                if let Some(cost) = openness(terrain, &raster, next, part) {
+                    let length = raster.resolution * if dx != 0 && dy != 0 { SQRT_2 } else { 1.0 };
+                    self.reach(next, estimate + length * (1.0 + cost));
+                }
+            }
+        }
+    }
+
+    fn reach(&mut self, cell: Cell, estimate: f32) {
+        if let Some(known) = self.cells.get_mut(cell).filter(|known| estimate < **known) {
+            *known = estimate;
+            self.open.push(Open { estimate, cell });
+        }
+    }
+}
+
+/// Least cost of the open fine cells of a coarse cell, or `None` if none is open.
+fn openness(terrain: &Terrain<'_>, raster: &Raster, cell: Cell, part: usize) -> Option<f32> {
+    if !raster.contains(cell) {
+        return None;
+    }
+    let fine = (0..part * part).map(|i| Cell::new(cell.x * part + i % part, cell.y * part + i / part));
+    fine.filter(|cell| terrain.is_open(*cell)).map(|cell| terrain.cost(cell)).reduce(f32::min)
+}

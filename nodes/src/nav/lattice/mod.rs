@@ -1,0 +1,456 @@
+//! Planning for vehicles that drive in curves.
+
+mod drive;
+mod estimate;
+mod planner;
+mod way;
+
+pub use drive::{CurveDrive, Floor, Ground};
+pub use planner::CurvePlanner;
+pub use way::{Goal, Section, Start, Way};
+
+use super::{
+    NoPath, Terrain,
+    payload::dubins::{Curve, advanced, curves},
+};
+use crate::{
+    map::Raster,
+    scan::{Point2, Pose2},
+};
+use core::{cmp::Ordering, f32::consts::TAU};
+use drive::{CHECK, Drive};
+use estimate::Estimates;
+use std::collections::BinaryHeap;
+
+/// Number of headings of the states.
+const HEADINGS: usize = 32;
+/// Side of a state, in m.
+const SIDE: f32 = 0.2;
+/// Length of a step, in m.
+const STEP: f32 = 0.3;
+/// Curvatures of the steps, in parts of the sharpest one.
+const STEERING: [f32; 5] = [0.0, 0.5, -0.5, 1.0, -1.0];
+/// Additional cost per metre of the sharpest curve, and of a change from straight to that curve, in m.
+const BENDING: [f32; 2] = [0.15, 0.1];
+/// Angles between the vehicle and its trailer that it backs up with, in rad.
+const BENDS: [f32; 5] = [0.0, 0.35, -0.35, 0.7, -0.7];
+/// Cost per metre backward, and of each change of the direction, in m.
+const BACKWARD: [f32; 2] = [2.0, 1.0];
+/// Additional cost per radian of the angle to the trailer in a step backward, and of its change, in m.
+const ANGLED: [f32; 2] = [0.1, 0.3];
+/// Estimated distance from the goal at which it is tried to get there by one curve, in m, and number of expansions
+/// between such tries.
+const NEAR: f32 = 4.0;
+const TRIES: usize = 8;
+/// Maximum number of expanded states.
+const MOST: usize = 60_000;
+/// Length of a way to nowhere.
+const NONE: u32 = u32::MAX;
+
+/// Planner for vehicles that drive in curves of a smallest radius: A* on states of position and heading, with arcs as
+/// steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A passively steered trailer is predicted on the
+/// way. Vehicles that may back up do so with a constant angle to the trailer in each step, as `BackFollower` does. The
+/// heuristic is the length of the shortest way on the map without regard to the heading. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub struct CurveSearch {
+    estimates: Estimates,
+    nodes: Vec<Node>,
+    endings: Vec<Ending>,
+    open: BinaryHeap<Open>,
+    /// Places of the trailer at the start.
+    stands: Vec<Point2>,
+    /// Least cost with which a state was expanded.
+    best: Vec<f32>,
+}
+
+/// State on a way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Node {
+    pose: Pose2,
+    /// Heading of the trailer, in rad.
+    trailer: f32,
+    cost: f32,
+    /// Curvature of the way to it, in 1/m; 0 if that was backward.
+    curvature: f32,
+    /// Angle to the trailer on the way to it if that was backward, in rad.
+    back: Option<f32>,
+    before: u32,
+    /// Number of the ending that leads from here to a goal.
+    ending: Option<u32>,
+}
+
+/// Dubins curve to a goal.
+#[derive(Debug, Clone, Copy)]
+struct Ending {
+    curve: Curve,
+    goal: Pose2,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Open {
+    estimate: f32,
+    node: u32,
+}
+
+impl Eq for Open {}
+
+/// The greatest entry is expanded next: the one with the least estimate, then the latest.
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.estimate.total_cmp(&self.estimate).then_with(|| self.node.cmp(&other.node))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl CurveSearch {
+    /// Plans a way from `start` to the goal that is reached at the least cost, which ends with the heading of that goal.
+    ///
+    /// # Errors
+    /// There is no such way.
+    pub fn plan(
+        &mut self,
+        ground: &Ground<'_>,
+        vehicle: &CurveDrive,
+        start: &Start,
+        goals: &[Goal],
+    ) -> Result<Way, NoPath> {
+        check(&ground.terrain, &start.pose, goals)?;
+        self.estimates.run(&ground.terrain, goals);
+        self.begin(vehicle, start);
+        let mut expanded = 0;
+        while let Some(Open { node: at, .. }) = self.open.pop() {
+            let node = self.nodes[at as usize];
+            if let Some(ending) = node.ending {
+                return Ok(self.trace(at, self.endings[ending as usize]));
+            }
+            let Some(state) = self.state(&node.pose) else { continue };
+            if self.best[state] <= node.cost {
+                continue;
+            }
+            self.best[state] = node.cost;
+            expanded += 1;
+            if expanded > MOST {
+                break;
+            }
+            if vehicle.backs_up() {
+                BENDS.iter().for_each(|bend| self.step_back(ground, vehicle, at, *bend));
+            }
+            if start.is_back && node.before == NONE {
+                continue;
+            }
+            if self.estimates.at(node.pose.position()) < NEAR || expanded % TRIES == 1 {
+                goals.iter().for_each(|goal| self.try_to_end(ground, vehicle, at, goal));
+            }
+            STEERING.iter().for_each(|steering| self.step(ground, vehicle, at, steering / vehicle.radius));
+        }
+        Err(NoPath::Unreachable)
+    }
+
+    fn begin(&mut self, vehicle: &CurveDrive, start: &Start) {
+        let Start { pose, trailer, .. } = *start;
+        self.stands.clear();
+        self.stands.extend(vehicle.places(&pose, trailer));
+        self.nodes.clear();
+        self.endings.clear();
+        self.open.clear();
+        self.best.clear();
+        let Raster { width, height, .. } = *self.estimates.raster();
+        self.best.resize(width * height * HEADINGS, f32::INFINITY);
+        self.nodes.push(Node { pose, trailer, cost: 0.0, curvature: 0.0, back: None, before: NONE, ending: None });
+        self.open.push(Open { estimate: 0.0, node: 0 });
+    }
+
+    /// Index of the state of a pose.
+    fn state(&self, pose: &Pose2) -> Option<usize> {
+        let cell = self.estimates.raster().cell(pose.position())?;
+        let turn = libm::floorf(pose.theta / TAU * HEADINGS as f32 + 0.5);
+        let heading = (turn as i32).rem_euclid(HEADINGS as i32) as usize;
+        Some((cell.y * self.estimates.raster().width + cell.x) * HEADINGS + heading)
+    }
+
+    fn step(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, curvature: f32) {
+        let node = self.nodes[before as usize];
+        let drive = Drive { ground, vehicle, stands: &self.stands };
+        let Some((length, trailer)) = drive.arc(&node.pose, node.trailer, curvature, STEP) else { return };
+        let bend = [curvature.abs(), (curvature - node.curvature).abs()].map(|c| c * vehicle.radius);
+        let cost = node.cost + length + BENDING[0] * STEP * bend[0] + BENDING[1] * bend[1] + node.turn(false);
+        let pose = advanced(&node.pose, curvature, STEP);
+        self.add(Node { pose, trailer, cost, curvature, back: None, before, ending: None });
+    }
+
+    fn step_back(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, bend: f32) {
+        let node = self.nodes[before as usize];
+        let drive = Drive { ground, vehicle, stands: &self.stands };
+        let Some((length, pose, trailer)) = drive.back(&node.pose, node.trailer, bend, STEP) else { return };
+        let angles = [bend.abs(), (bend - node.back.unwrap_or(0.0)).abs()];
+        let angled = ANGLED[0] * angles[0] + ANGLED[1] * angles[1];
+        let cost = node.cost + BACKWARD[0] * length + angled + node.turn(true);
+        self.add(Node { pose, trailer, cost, curvature: 0.0, back: Some(bend), before, ending: None });
+    }
+
+    /// Adds a node, unless its state was reached at a lower cost.
+    fn add(&mut self, node: Node) {
+        let (Some(state), rest) = (self.state(&node.pose), self.estimates.at(node.pose.position())) else { return };
+        if rest.is_finite() && node.cost < self.best[state] {
+            self.open.push(Open { estimate: node.cost + rest, node: self.nodes.len() as u32 });
+            self.nodes.push(node);
+        }
+    }
+
+    /// Adds the shortest free Dubins curve from a node to a goal. Only its length counts: with costs, most ways to a goal
+    /// would be searched before one is found.
+    fn try_to_end(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, goal: &Goal) {
+        let node = self.nodes[before as usize];
+        let drive = Drive { ground, vehicle, stands: &self.stands };
+        let mut best: Option<Curve> = None;
+        for curve in curves(&node.pose, &goal.pose, vehicle.radius, 0.0) {
+            let is_shorter = best.is_none_or(|best| curve.length() < best.length());
+            if is_shorter && drive.is_free(&curve, node.trailer) {
+                best = Some(curve);
+            }
+        }
+        if let Some(curve) = best {
+            let cost = node.cost + curve.length() + node.turn(false) + goal.cost;
+            self.open.push(Open { estimate: cost, node: self.nodes.len() as u32 });
+            self.nodes.push(Node { cost, before, ending: Some(self.endings.len() as u32), ..node });
+            self.endings.push(Ending { curve, goal: goal.pose });
+        }
+    }
+
+    /// The way to the node before an ending.
+    fn trace(&self, end: u32, ending: Ending) -> Way {
+        let (mut at, mut nodes) = (self.nodes[end as usize].before, vec![]);
+        while at != NONE {
+            nodes.push(self.nodes[at as usize]);
+            at = self.nodes[at as usize].before;
+        }
+        nodes.reverse();
+        Way { nodes, end: ending.curve, goal: ending.goal }
+    }
+}
+
+impl Node {
+    /// Cost of going on in a direction.
+    fn turn(&self, backward: bool) -> f32 {
+        let changes = self.before != NONE && self.back.is_some() != backward;
+        if changes { BACKWARD[1] } else { 0.0 }
+    }
+}
+
+fn check(terrain: &Terrain<'_>, start: &Pose2, goals: &[Goal]) -> Result<(), NoPath> {
+    let raster = terrain.map.raster();
+    if terrain.costs.is_some_and(|costs| costs.raster() != raster) {
+        return Err(NoPath::OtherRaster);
+    }
+    let from = raster.cell(start.position()).ok_or(NoPath::StartOutside)?;
+    if !(terrain.is_open(from) && start.theta.is_finite()) {
+        return Err(NoPath::StartBlocked);
+    }
+    let mut inside =
+        goals.iter().filter_map(|Goal { pose, .. }| Some((pose, raster.cell(pose.position())?))).peekable();
+    inside.peek().ok_or(NoPath::GoalOutside)?;
+    let is_open = inside.any(|(pose, cell)| terrain.is_open(cell) && pose.theta.is_finite());
+    if is_open { Ok(()) } else { Err(NoPath::GoalBlocked) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        map::{Cell, Grid, Occupancy},
+        nav::{Articulated, BackPath, Path, payload::Backing},
+    };
+    use core::f32::consts::{FRAC_PI_2, PI};
+
+    const VEHICLE: CurveDrive = CurveDrive {
+        radius: 0.8,
+        front: 0.25,
+        hitch: 0.1,
+        drawbar: 0.55,
+        body: &[],
+        rear: 0.15,
+        width: 0.4,
+        backing_gain: 0.0,
+    };
+
+    /// Room of 12 m × 8 m with a wall that ends at y = 5 m.
+    fn room() -> Grid<Occupancy> {
+        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 120, height: 80 };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+        for y in 0..50 {
+            *map.get_mut(Cell::new(60, y)).expect("inside") = Occupancy::Occupied;
+        }
+        map
+    }
+
+    fn plan(map: &Grid<Occupancy>, start: Pose2, goal: Pose2) -> Result<Path, NoPath> {
+        plan_to_any(map, start, &[goal])
+    }
+
+    fn plan_to_any(map: &Grid<Occupancy>, start: Pose2, goals: &[Pose2]) -> Result<Path, NoPath> {
+        plan_at_costs(map, start, &goals.iter().copied().map(free).collect::<Vec<_>>())
+    }
+
+    fn free(pose: Pose2) -> Goal {
+        Goal { pose, cost: 0.0 }
+    }
+
+    fn plan_at_costs(map: &Grid<Occupancy>, start: Pose2, goals: &[Goal]) -> Result<Path, NoPath> {
+        let terrain = Terrain { map, costs: None, unknown_is_open: false };
+        search(&terrain, &VEHICLE, &at(start, start.theta), goals).map(|(_, path, _)| path)
+    }
+
+    const fn at(pose: Pose2, trailer: f32) -> Start {
+        Start { pose, trailer, is_back: false }
+    }
+
+    fn search(
+        terrain: &Terrain<'_>,
+        vehicle: &CurveDrive,
+        start: &Start,
+        goals: &[Goal],
+    ) -> Result<(Section, Path, BackPath), NoPath> {
+        let (mut path, mut back) = (Path::default(), BackPath::default());
+        let ground = Ground { terrain: *terrain, floor: None };
+        let way = CurveSearch::default().plan(&ground, vehicle, start, goals)?;
+        let section = way.first_section(&mut path, &mut back);
+        Ok((section, path, back))
+    }
+
+    #[test]
+    fn paths_are_smooth_and_free_and_end_with_the_heading() {
+        let map = room();
+        let start = Pose2::new(2.0, 2.0, PI);
+        for goal in [Pose2::new(10.0, 2.0, 0.0), Pose2::new(9.0, 6.0, PI), Pose2::new(3.0, 6.0, -FRAC_PI_2)] {
+            let path = plan(&map, start, goal).expect("a way");
+            assert_eq!((path.points[0], path.goal()), (start.position(), Some(goal.position())));
+            assert!(path.points.iter().all(|p| map.at(*p) == Some(&Occupancy::Free)));
+            let headings: Vec<f32> = path.points.windows(2).map(|w| (w[1] - w[0]).angle()).collect();
+            let turns = headings.windows(2).map(|w| libm::remainderf(w[1] - w[0], TAU).abs());
+            let sharpest = turns.fold(0.0, f32::max);
+            assert!(sharpest < 0.25, "{sharpest} rad from one point to the next to {goal:?}");
+            let off = |a: f32, b: f32| libm::remainderf(a - b, TAU).abs();
+            assert!(off(headings[0], PI) < 0.1 && off(headings[headings.len() - 1], goal.theta) < 0.1);
+        }
+    }
+
+    #[test]
+    fn a_load_needs_more_room_in_a_curve() {
+        // A passage of 2 m around a corner: the tractor gets through, a long load behind it does not.
+        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 80, height: 80 };
+        let mut map = Grid::new(raster, Occupancy::Occupied).expect("small");
+        for i in 0..80 {
+            (40..60).for_each(|j| *map.get_mut(Cell::new(i, j)).expect("inside") = Occupancy::Free);
+            (40..60).for_each(|j| *map.get_mut(Cell::new(j, i)).expect("inside") = Occupancy::Free);
+        }
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let (start, goals) = (Pose2::new(2.5, 5.0, 0.0), [free(Pose2::new(5.0, 2.0, -FRAC_PI_2))]);
+        let is_way =
+            |body: &'static [f32]| search(&terrain, &CurveDrive { body, ..VEHICLE }, &at(start, 0.0), &goals).is_ok();
+        assert_eq!([is_way(&[]), is_way(&[0.0]), is_way(&[-4.0, -3.0, -2.0, 0.0])], [true, true, false]);
+    }
+
+    #[test]
+    fn a_vehicle_in_a_dead_end_backs_out() {
+        // A corridor to the right with a dead end, and a crossing that leads up.
+        let raster = Raster { corner: Point2::new(0.0, -2.0), resolution: 0.1, width: 100, height: 100 };
+        let mut map = Grid::new(raster, Occupancy::Occupied).expect("small");
+        for (x, y) in (0..100).flat_map(|x| (0..100).map(move |y| (x, y))) {
+            if (16..25).contains(&y) || (30..50).contains(&x) && y > 16 {
+                *map.get_mut(Cell::new(x, y)).expect("inside") = Occupancy::Free;
+            }
+        }
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let goals = [free(Pose2::new(4.0, 6.0, FRAC_PI_2))];
+        let (mut base, mut heading) = (Pose2::new(8.0, 0.1, 0.1), 0.0);
+        let loaded = CurveDrive { body: &[0.0, 0.4, 0.8], ..VEHICLE };
+        assert_eq!(search(&terrain, &loaded, &at(base, heading), &goals), Err(NoPath::Unreachable));
+        let loaded = CurveDrive { backing_gain: 2.5, ..loaded };
+        let (section, path, back) = search(&terrain, &loaded, &at(base, heading), &goals).expect("a way");
+        assert_eq!((section, path.points.len()), (Section::Back, 0));
+        let length = back.length();
+        assert!((3.0..6.0).contains(&length), "{back:?}");
+        // It is where the planner expects it when it has followed the path, and there the rest is a way forward.
+        let mut driver = Backing::new(&back);
+        while !driver.step(&mut base, &mut heading) {
+            let trailer = Articulated::PATSY.trailer(&base, heading);
+            assert!([base, trailer].iter().all(|at| map.at(at.position()) == Some(&Occupancy::Free)), "{base:?}");
+        }
+        let (section, path, back) = search(&terrain, &loaded, &at(base, heading), &goals).expect("a way");
+        assert_eq!((section, back), (Section::ToGoal, BackPath::default()), "from {base:?}");
+        assert_eq!(path.goal(), Some(goals[0].pose.position()));
+    }
+
+    #[test]
+    fn a_way_may_have_to_begin_backward() {
+        let (map, vehicle) = (room(), CurveDrive { body: &[0.0], backing_gain: 2.5, ..VEHICLE });
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let goals = [free(Pose2::new(5.0, 3.0, 0.0))];
+        let start = at(Pose2::new(2.0, 3.0, 0.0), 0.0);
+        let section = |vehicle: &CurveDrive, is_back| {
+            search(&terrain, vehicle, &Start { is_back, ..start }, &goals).map(|(section, ..)| section)
+        };
+        assert_eq!([false, true].map(|back| section(&vehicle, back)), [Ok(Section::ToGoal), Ok(Section::Back)]);
+        // Backward only over floor that is known, which is all of it in the frame of the floor, or none.
+        let known = Grid::new(*map.raster(), Occupancy::Free).expect("small");
+        let unknown = Grid::new(*map.raster(), Occupancy::Unknown).expect("small");
+        let over = |floor: &Grid<Occupancy>| {
+            let floor = Some(Floor { map: floor, start: [start.pose, Pose2::new(6.0, 4.0, 2.0)] });
+            let ground = Ground { terrain, floor };
+            CurveSearch::default().plan(&ground, &vehicle, &Start { is_back: true, ..start }, &goals).is_ok()
+        };
+        assert_eq!([&known, &unknown].map(over), [true, false]);
+        let forward = CurveDrive { backing_gain: 0.0, ..vehicle };
+        assert_eq!(section(&forward, true), Err(NoPath::Unreachable));
+    }
+
+    #[test]
+    fn a_load_that_stands_beside_an_obstacle_gets_away() {
+        let mut map = room();
+        // Something in the grown map where the trailer is.
+        for y in 18..22 {
+            *map.get_mut(Cell::new(13, y)).expect("inside") = Occupancy::Occupied;
+        }
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let vehicle = CurveDrive { body: &[0.0], ..VEHICLE };
+        let is_way = |start: Pose2| {
+            let goals = [free(Pose2::new(5.0, 2.0, 0.0))];
+            search(&terrain, &vehicle, &at(start, 0.0), &goals).is_ok()
+        };
+        // No way leads through the obstacle.
+        assert_eq!([2.0, 0.8].map(|x| is_way(Pose2::new(x, 2.0, 0.0))), [true, false]);
+    }
+
+    #[test]
+    fn of_two_goals_the_nearer_one_that_is_free_is_reached() {
+        let (map, start) = (room(), Pose2::new(2.0, 2.0, 0.0));
+        let (near, far, blocked) = (Pose2::new(4.0, 2.0, 0.0), Pose2::new(3.0, 2.0, PI), Pose2::new(6.05, 2.0, 0.0));
+        let end = |goals: &[Pose2]| plan_to_any(&map, start, goals).map(|path| (path.goal(), path.heading));
+        let at = |goal: Pose2| Ok((Some(goal.position()), goal.theta));
+        assert_eq!([end(&[near, far]), end(&[far, near])], [at(near), at(near)]);
+        assert_eq!(end(&[blocked, far]), at(far));
+        let dear = |cost| plan_at_costs(&map, start, &[Goal { pose: near, cost }, free(far)]).map(|path| path.heading);
+        assert_eq!([dear(1.0), dear(9.0)], [Ok(near.theta), Ok(far.theta)]);
+        assert_eq!(end(&[blocked]), Err(NoPath::GoalBlocked));
+    }
+
+    #[test]
+    fn what_cannot_be_reached_has_a_reason() {
+        let mut map = room();
+        let start = Pose2::new(2.0, 2.0, 0.0);
+        assert_eq!(plan(&map, start, Pose2::new(20.0, 2.0, 0.0)), Err(NoPath::GoalOutside));
+        assert_eq!(plan(&map, start, Pose2::new(6.05, 2.0, 0.0)), Err(NoPath::GoalBlocked));
+        assert_eq!(plan(&map, Pose2::new(f32::NAN, 2.0, 0.0), start), Err(NoPath::StartOutside));
+        assert_eq!(plan(&map, Pose2::new(2.0, 2.0, f32::NAN), start), Err(NoPath::StartBlocked));
+        for y in 50..80 {
+            *map.get_mut(Cell::new(60, y)).expect("inside") = Occupancy::Occupied;
+        }
+        assert_eq!(plan(&map, start, Pose2::new(9.0, 2.0, 0.0)), Err(NoPath::Unreachable));
+        assert_eq!(plan(&Grid::default(), start, start), Err(NoPath::StartOutside));
+    }
+}

@@ -1,0 +1,126 @@
+use super::{CurveDrive, CurveSearch, Floor, Goal, Ground, Section, Start};
+use crate::{
+    map::{Grid, Occupancy},
+    nav::{BackPath, NoPath, Path, Terrain},
+    scan::Pose2,
+};
+use apex_rt::{Event, Out, node};
+
+/// Plans a path for a vehicle that drives in curves, such as a tractor with a trailer (see [`CurveSearch`]). The path
+/// ends with the heading of the goal.
+///
+/// `start`, `goal` and the path are in the frame of the map. `other` is another goal, such as the other end of something
+/// that the vehicle drives beneath: the path leads to the one that is reached at the least cost, where that of `other`
+/// is increased by `other_cost`. The obstacles of the map must be grown by half of the width of the vehicle. `costs` are
+/// those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of the vehicle. If it is ⊥, the trailer
+/// is assumed to be straight behind.
+///
+/// With a `backing_gain` a vehicle with a trailer also backs up where that is shorter. The output is then the first
+/// section of the way: `turn` leads forward to a place where the direction changes, and `back` is for `BackFollower`. At
+/// the end of such a section the rest of the way has to be planned. The vehicle backs up only over places that are free
+/// on `floor`, such as the map of `HazardMap` in the frame of `odometry`; without it, floor is everywhere.
+///
+/// After `stay_forward` the next way leads only forward, and after `begin_back` it begins backward, for example because
+/// something that is not on the map holds the vehicle in the other direction. Without a way, the outputs are ⊥ and
+/// `no_path` gives the reason.
+#[node]
+#[derive(Debug, Clone)]
+pub struct CurvePlanner {
+    /// Smallest radius of a curve.
+    #[param(unit = "m", default = 0.8, range = 0.1..=100.0)]
+    radius: f32,
+    /// Distance from the axis of the vehicle to its front.
+    #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
+    front: f32,
+    /// Distance from the axis back to the hitch of a trailer.
+    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
+    hitch: f32,
+    /// Distance from the hitch back to the axis of the trailer.
+    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
+    drawbar: f32,
+    /// Places on the trailer, with its load, that must not touch anything, from its axis forward; empty without a
+    /// trailer.
+    #[param(unit = "m", default = &[])]
+    body: &'static [f32],
+    /// Rate at which the angle between the vehicle and its trailer approaches the wanted one when it backs up; 0 if it
+    /// only drives forward.
+    #[param(unit = "1/m", default = 0.0, range = 0.0..=100.0)]
+    backing_gain: f32,
+    /// Distance from the axis of the trailer back to its rear.
+    #[param(unit = "m", default = 0.15, range = 0.0..=10.0)]
+    rear: f32,
+    /// Width of vehicle and trailer on the floor.
+    #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
+    width: f32,
+    /// Additional cost of `other`.
+    #[param(unit = "m", default = 0.0, range = 0.0..=1000.0)]
+    other_cost: f32,
+    /// Limit of the next way.
+    next: Limit,
+    search: CurveSearch,
+}
+
+/// Limit of a way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Limit {
+    #[default]
+    None,
+    StaysForward,
+    BeginsBack,
+}
+
+#[node]
+impl CurvePlanner {
+    #[allow(clippy::too_many_arguments, reason = "they are the ports")]
+    fn process(
+        &mut self,
+        start: &Pose2,
+        goal: &Pose2,
+        other: Option<&Pose2>,
+        map: &Grid<Occupancy>,
+        costs: Option<&Grid<f32>>,
+        trailer: Option<&Pose2>,
+        floor: Option<&Grid<Occupancy>>,
+        odometry: Option<&Pose2>,
+        path: &mut Out<Path>,
+        turn: &mut Out<Path>,
+        back: &mut Out<BackPath>,
+        #[failure] no_path: Event<NoPath>,
+    ) {
+        let terrain = Terrain { map, costs, unknown_is_open: false };
+        let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry] });
+        let Self { radius, front, hitch, drawbar, body, rear, width, .. } = *self;
+        let limit = core::mem::take(&mut self.next);
+        let backing_gain = if limit == Limit::StaysForward { 0.0 } else { self.backing_gain };
+        let vehicle = CurveDrive { radius, front, hitch, drawbar, body, rear, width, backing_gain };
+        let trailer = start.theta + trailer.filter(|pose| pose.is_finite()).map_or(0.0, |pose| pose.theta);
+        let start = Start { pose: *start, trailer, is_back: limit == Limit::BeginsBack };
+        let other_goal = Goal { pose: *other.unwrap_or(goal), cost: self.other_cost };
+        let both = [Goal { pose: *goal, cost: 0.0 }, other_goal];
+        let goals = &both[..1 + usize::from(other.is_some())];
+        match self.search.plan(&Ground { terrain, floor }, &vehicle, &start, goals) {
+            Ok(way) => match way.first_section(path.get_mut(), back.get_mut()) {
+                Section::ToGoal => back.clear(),
+                Section::ToTurn => {
+                    core::mem::swap(path.get_mut(), turn.get_mut());
+                    path.clear();
+                    back.clear();
+                }
+                Section::Back => path.clear(),
+            },
+            Err(why) => no_path.emit(why),
+        }
+    }
+
+    /// Plans the next way without a section backward.
+    #[slot]
+    fn stay_forward(&mut self) {
+        self.next = Limit::StaysForward;
+    }
+
+    /// Plans the next way with a section backward at its beginning.
+    #[slot]
+    fn begin_back(&mut self) {
+        self.next = Limit::BeginsBack;
+    }
+}
