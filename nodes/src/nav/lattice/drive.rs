@@ -20,6 +20,9 @@ const MAX_BEND: f32 = 1.2;
 /// Distance from the places of the trailer at the start within which the map does not count, in m: it stands there.
 const STANDS: f32 = 0.2;
 
+/// Distance from floor that is not known, on ways backward, in m: the tractor swings out when it straightens the trailer.
+const EDGE: f32 = 0.15;
+
 /// Vehicle that drives in curves: its shape on the map in which obstacles are grown by half of its width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveDrive {
@@ -131,17 +134,20 @@ impl Drive<'_> {
         Some((cost, pose, trailer))
     }
 
-    /// Returns `true` if the corners that come to new floor on a way backward are on floor that is known.
+    /// Returns `true` if floor is known at and around the corners that come to new floor on a way backward.
     fn is_on_floor(&self, pose: &Pose2, trailer: f32) -> bool {
         let CurveDrive { front, hitch, drawbar, rear, width, .. } = *self.vehicle;
         let joint = pose.to_outer(Point2::new(-hitch, 0.0));
-        let axle = Pose2 { theta: trailer, ..Pose2::default() }.to_outer(Point2::new(-drawbar - rear, 0.0)) + joint;
-        let across = Point2::polar(0.5 * width, trailer).perpendicular();
+        let axle =
+            Pose2 { theta: trailer, ..Pose2::default() }.to_outer(Point2::new(-drawbar - rear - EDGE, 0.0)) + joint;
+        let across = Point2::polar(0.5 * width + EDGE, trailer).perpendicular();
         let corners = [
             axle + across,
             axle - across,
-            pose.to_outer(Point2::new(front, 0.5 * width)),
-            pose.to_outer(Point2::new(front, -0.5 * width)),
+            pose.to_outer(Point2::new(front, 0.5 * width + EDGE)),
+            pose.to_outer(Point2::new(front, -0.5 * width - EDGE)),
+            pose.to_outer(Point2::new(-hitch, 0.5 * width + EDGE)),
+            pose.to_outer(Point2::new(-hitch, -0.5 * width - EDGE)),
         ];
         self.ground.floor.is_none_or(|floor| corners.iter().all(|corner| floor.is_known(*corner)))
     }
