@@ -15,8 +15,8 @@ pub struct Containers {
 
 /// Remembers where containers were seen: one beside or behind a robot is still there, although no wheels show it.
 ///
-/// `container` is a confirmed detection in the frame of the robot, and ⊥ between detections. `pose` is that of the robot
-/// in a fixed frame such as that of odometry, which is that of the output. A detection replaces those of the same
+/// `container` is a confirmed detection in the frame of the robot, and ⊥ between detections. `pose` is that of the
+/// robot in a fixed frame such as that of odometry, which is that of the output. A detection replaces those of the same
 /// container. Of more than 16 containers, the ones that were seen last are remembered.
 #[node]
 #[derive(Debug, Clone)]

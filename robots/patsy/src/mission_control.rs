@@ -5,9 +5,9 @@ use apex_rt::{Ctx, Event, node};
 /// Decides what the vehicle does next (thesis 8.2, *Mission Control*): asks for orders, has the container collected and
 /// brought to its destination. It is active while it waits for an order.
 ///
-/// The pose of a container has the heading, of its two, towards the destination. A container that cannot be collected is tried again; after `attempts` the order is given back. Once a container is
-/// on the lift, the vehicle tries to bring it until it is there. `ask` asks for the next order: with `false` if the
-/// last one is given back.
+/// The pose of a container has the heading, of its two, towards the destination. A container that cannot be collected
+/// is tried again; after `attempts` the order is given back. Once a container is on the lift, the vehicle tries to
+/// bring it until it is there. `ask` asks for the next order: with `false` if the last one is given back.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MissionControl {

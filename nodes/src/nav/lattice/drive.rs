@@ -20,7 +20,8 @@ const MAX_BEND: f32 = 1.2;
 /// Distance from the places of the trailer at the start within which the map does not count, in m: it stands there.
 const STANDS: f32 = 0.2;
 
-/// Distance from floor that is not known, on ways backward, in m: the tractor swings out when it straightens the trailer.
+/// Distance from floor that is not known, on ways backward, in m: the tractor swings out when it straightens the
+/// trailer.
 const EDGE: f32 = 0.15;
 
 /// Vehicle that drives in curves: its shape on the map in which obstacles are grown by half of its width.
@@ -75,7 +76,7 @@ impl Floor<'_> {
     }
 }
 
-/// Where a vehicle may drive.
+/// Ground on which a vehicle may drive.
 #[derive(Debug, Clone, Copy)]
 pub struct Ground<'a> {
     /// Map with costs.

@@ -108,7 +108,8 @@ impl PartialOrd for Open {
 }
 
 impl CurveSearch {
-    /// Plans a way from `start` to the goal that is reached at the least cost, which ends with the heading of that goal.
+    /// Plans a way from `start` to the goal that is reached at the least cost, which ends with the heading of that
+    /// goal.
     ///
     /// # Errors
     /// There is no such way.
@@ -202,8 +203,8 @@ impl CurveSearch {
         }
     }
 
-    /// Adds the shortest free Dubins curve from a node to a goal. Only its length counts: with costs, most ways to a goal
-    /// would be searched before one is found.
+    /// Adds the shortest free Dubins curve from a node to a goal. Only its length counts: with costs, most ways to a
+    /// goal would be searched before one is found.
     fn try_to_end(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, goal: &Goal) {
         let node = self.nodes[before as usize];
         let drive = Drive { ground, vehicle, stands: &self.stands };

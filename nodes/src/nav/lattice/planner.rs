@@ -9,16 +9,16 @@ use apex_rt::{Event, Out, node};
 /// Plans a path for a vehicle that drives in curves, such as a tractor with a trailer (see [`CurveSearch`]). The path
 /// ends with the heading of the goal.
 ///
-/// `start`, `goal` and the path are in the frame of the map. `other` is another goal, such as the other end of something
-/// that the vehicle drives beneath: the path leads to the one that is reached at the least cost, where that of `other`
-/// is increased by `other_cost`. The obstacles of the map must be grown by half of the width of the vehicle. `costs` are
-/// those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of the vehicle. If it is ⊥, the trailer
-/// is assumed to be straight behind.
+/// `start`, `goal` and the path are in the frame of the map. `other` is another goal, such as the other end of
+/// something that the vehicle drives beneath: the path leads to the one that is reached at the least cost, where that
+/// of `other` is increased by `other_cost`. The obstacles of the map must be grown by half of the width of the vehicle.
+/// `costs` are those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of the vehicle. If it is ⊥,
+/// the trailer is assumed to be straight behind.
 ///
 /// With a `backing_gain` a vehicle with a trailer also backs up where that is shorter. The output is then the first
-/// section of the way: `turn` leads forward to a place where the direction changes, and `back` is for `BackFollower`. At
-/// the end of such a section the rest of the way has to be planned. The vehicle backs up only over places that are free
-/// on `floor`, such as the map of `HazardMap` in the frame of `odometry`; without it, floor is everywhere.
+/// section of the way: `turn` leads forward to a place where the direction changes, and `back` is for `BackFollower`.
+/// At the end of such a section the rest of the way has to be planned. The vehicle backs up only over places that are
+/// free on `floor`, such as the map of `HazardMap` in the frame of `odometry`; without it, floor is everywhere.
 ///
 /// After `stay_forward` the next way leads only forward, and after `begin_back` it begins backward, for example because
 /// something that is not on the map holds the vehicle in the other direction. Without a way, the outputs are ⊥ and

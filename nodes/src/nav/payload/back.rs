@@ -14,9 +14,9 @@ const SLOWEST: f32 = 0.03;
 /// Backs a tractor with a passively steered trailer up by a distance, for example away from an obstacle.
 ///
 /// A trailer that is pushed turns away to the side, so the tractor steers against it: the angle between the two decays
-/// at the rate `gain` (Lamiraux et al. 1998). `base` and `trailer` are the poses of the two axes in one fixed frame such
-/// as that of odometry. Works while it is active; `done` comes with a twist of zero. Nothing behind the vehicle is looked
-/// at.
+/// at the rate `gain` (Lamiraux et al. 1998). `base` and `trailer` are the poses of the two axes in one fixed frame
+/// such as that of odometry. Works while it is active; `done` comes with a twist of zero. Nothing behind the vehicle is
+/// looked at.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BackUp {

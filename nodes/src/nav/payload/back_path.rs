@@ -61,8 +61,8 @@ impl BackPath {
 /// The tractor steers so that its angle to the trailer approaches that of the path at the rate `gain` per metre
 /// (feedback linearization of the off-axle hitch; Lamiraux et al. 1998). `base` and `trailer` are the poses of the two
 /// axes in one fixed frame such as that of odometry: distances are measured with them, and where the path leads is not
-/// corrected, so a path should be a few metres long. A new path replaces the current one. The node sends twists while it
-/// has a path. It drops the path when the vehicle has `reached` its end, when it is `blocked`, so that it makes no
+/// corrected, so a path should be a few metres long. A new path replaces the current one. The node sends twists while
+/// it has a path. It drops the path when the vehicle has `reached` its end, when it is `blocked`, so that it makes no
 /// progress for longer than `blocked_timeout`, and when it is deactivated.
 #[node]
 #[derive(Debug, Clone)]

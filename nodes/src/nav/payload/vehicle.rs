@@ -72,8 +72,9 @@ pub fn trailer_rotation(speed: f32, rotation: f32, angle: f32, hitch: f32, drawb
     (speed * sin - hitch * rotation * cos) / drawbar
 }
 
-/// Angular velocity, in rad/s, of a tractor that drives backward at `speed` m/s, so that its `bend`, its heading relative
-/// to the trailer in rad, changes by `rate` rad/s (feedback linearization of the off-axle hitch; Lamiraux et al. 1998).
+/// Angular velocity, in rad/s, of a tractor that drives backward at `speed` m/s, so that its `bend`, its heading
+/// relative to the trailer in rad, changes by `rate` rad/s (feedback linearization of the off-axle hitch; Lamiraux et
+/// al. 1998).
 pub(in crate::nav) fn backing_rotation(speed: f32, bend: f32, rate: f32, hitch: f32, drawbar: f32) -> f32 {
     let (sin, cos) = sincosf(bend);
     (rate - speed * sin / drawbar) / (1.0 + hitch * cos / drawbar)

@@ -4,8 +4,8 @@ use core::f32::consts::PI;
 /// Order to bring a container from one place to another, on the plan of the building.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Order {
-    /// Place where the container was last seen, with one of the directions in which the vehicle can drive beneath it. It
-    /// may be some decimetres off.
+    /// Place where the container was last seen, with one of the directions in which the vehicle can drive beneath it.
+    /// It may be some decimetres off.
     pub container: Pose2,
     /// Place of the container at the end.
     pub destination: Pose2,
