@@ -32,50 +32,47 @@ pub struct RememberContainers {
     forgotten: f32,
     /// Last pose of the robot.
     here: Pose2,
-    known: Containers,
-    /// Times at which they were seen.
-    seen: Vec<Time, MAX_CONTAINERS>,
+    known: Vec<Known, MAX_CONTAINERS>,
+}
+
+/// Container in the fixed frame, and the time when it was seen.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    pose: Pose2,
+    seen: Time,
 }
 
 #[node]
 impl RememberContainers {
     fn process(&mut self, ctx: &Ctx, container: Option<&Container>, pose: &Pose2, containers: &mut Out<Containers>) {
-        let (now, memory) = (ctx.now(), self.memory);
-        self.drop_if(|_, seen| now.since(seen).as_secs_f32() > memory);
+        let memory = self.memory;
+        self.known.retain(|known| ctx.now().since(known.seen).as_secs_f32() <= memory);
         if pose.is_finite() {
             self.here = *pose;
             if let Some(container) = container.filter(|container| container.pose.is_finite()) {
-                self.remember(pose.compose(&container.pose), now);
+                self.remember(Known { pose: pose.compose(&container.pose), seen: ctx.now() });
             }
         }
-        containers.get_mut().clone_from(&self.known);
+        containers.get_mut().poses = self.known.iter().map(|known| known.pose).collect();
     }
 
     /// Forgets the containers around the robot, for example when one of them was lifted.
     #[slot]
     fn forget(&mut self) {
-        let (here, forgotten) = (self.here, self.forgotten);
-        self.drop_if(|pose, _| (pose.position() - here.position()).norm() <= forgotten);
+        self.drop_around(self.here, self.forgotten);
     }
 
-    fn remember(&mut self, new: Pose2, now: Time) {
-        let apart = self.apart;
-        self.drop_if(|pose, _| (pose.position() - new.position()).norm() <= apart);
-        if self.known.poses.is_full() {
-            self.known.poses.remove(0);
-            self.seen.remove(0);
+    fn remember(&mut self, new: Known) {
+        self.drop_around(new.pose, self.apart);
+        if self.known.is_full() {
+            self.known.remove(0);
         }
-        // Cannot fail: there is room in both.
-        let _ = (self.known.poses.push(new), self.seen.push(now));
+        // Cannot fail: there is room.
+        let _ = self.known.push(new);
     }
 
-    fn drop_if(&mut self, is_gone: impl Fn(&Pose2, Time) -> bool) {
-        for at in (0..self.seen.len()).rev() {
-            if is_gone(&self.known.poses[at], self.seen[at]) {
-                self.known.poses.remove(at);
-                self.seen.remove(at);
-            }
-        }
+    fn drop_around(&mut self, place: Pose2, distance: f32) {
+        self.known.retain(|known| (known.pose.position() - place.position()).norm() > distance);
     }
 }
 

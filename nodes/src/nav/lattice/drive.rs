@@ -1,7 +1,7 @@
 use super::super::{
     Terrain,
     payload::{
-        backing_rotation,
+        Articulated, backing_rotation,
         dubins::{Curve, advanced},
         trailer_rotation,
     },
@@ -19,7 +19,6 @@ pub(super) const CHECK: f32 = 0.1;
 const MAX_BEND: f32 = 1.2;
 /// Distance from the places of the trailer at the start within which the map does not count, in m: it stands there.
 const STANDS: f32 = 0.2;
-
 /// Distance from floor that is not known, on ways backward, in m: the tractor swings out when it straightens the
 /// trailer.
 const EDGE: f32 = 0.15;
@@ -29,19 +28,11 @@ const EDGE: f32 = 0.15;
 pub struct CurveDrive {
     /// Smallest radius of a curve, in m.
     pub radius: f32,
-    /// Distance from the axis to the front, in m.
-    pub front: f32,
-    /// Distance from the axis back to the hitch of a trailer, in m.
-    pub hitch: f32,
-    /// Distance from the hitch back to the axis of the trailer, in m.
-    pub drawbar: f32,
-    /// Places on the trailer, with its load, that must not touch anything: distances from its axis forward, in m.
-    /// Without places there is no trailer.
+    /// Vehicle and trailer on the floor.
+    pub shape: Articulated,
+    /// Places on the trailer, with its load, that must not touch anything: distances from its axis forward, in m. A
+    /// vehicle without places has no trailer.
     pub body: &'static [f32],
-    /// Distance from the axis of the trailer back to its rear, in m.
-    pub rear: f32,
-    /// Width of the vehicle and its trailer on the floor, in m.
-    pub width: f32,
     /// Rate at which the angle to the trailer approaches the wanted one when the vehicle backs up, in 1/m; 0 for a
     /// vehicle that only drives forward.
     pub backing_gain: f32,
@@ -55,7 +46,7 @@ impl CurveDrive {
 
     /// Places on the trailer that must not touch anything, at a pose and with this heading of the trailer.
     pub(super) fn places(&self, pose: &Pose2, trailer: f32) -> impl Iterator<Item = Point2> {
-        let (hitch, drawbar) = (pose.to_outer(Point2::new(-self.hitch, 0.0)), self.drawbar);
+        let (hitch, drawbar) = (pose.to_outer(Point2::new(-self.shape.hitch, 0.0)), self.shape.drawbar);
         self.body.iter().map(move |place| hitch + Point2::polar(place - drawbar, trailer))
     }
 }
@@ -95,62 +86,57 @@ pub(super) struct Drive<'a> {
 
 impl Drive<'_> {
     /// Length of an arc with costs, and the heading of the trailer at its end, or `None` if something is touched on it.
-    pub fn arc(&self, from: &Pose2, mut trailer: f32, curvature: f32, length: f32) -> Option<(f32, f32)> {
-        let count = libm::ceilf(length / CHECK);
-        let step = length / count;
-        let (mut cost, mut pose) = (0.0, *from);
-        for _ in 0..count as u32 {
-            let bend = bend(&pose, trailer);
-            trailer = self.towed(&pose, trailer, curvature, step);
-            pose = advanced(&pose, curvature, step);
-            // A trailer that is bent too far at the start may come into line.
-            if self::bend(&pose, trailer) > MAX_BEND.max(bend) {
-                return None;
-            }
-            cost += step * (1.0 + self.fits(&pose, trailer)?);
-        }
-        Some((cost, trailer))
+    pub fn arc(&self, from: &Pose2, trailer: f32, curvature: f32, length: f32) -> Option<(f32, f32)> {
+        let step = |pose: &Pose2, trailer: f32, step: f32| {
+            Some((advanced(pose, curvature, step), self.towed(pose, trailer, curvature, step)))
+        };
+        self.along(from, trailer, length, step).map(|(cost, _, trailer)| (cost, trailer))
     }
 
     /// Length of a step backward with costs, and the pose and the heading of the trailer at its end, or `None` if
     /// something is touched on it. The angle to the trailer approaches `wanted`, in rad.
-    pub fn back(&self, from: &Pose2, mut trailer: f32, wanted: f32, length: f32) -> Option<(f32, Pose2, f32)> {
-        let CurveDrive { hitch, drawbar, backing_gain, .. } = *self.vehicle;
-        let count = libm::ceilf(length / CHECK);
-        let step = length / count;
-        let (mut cost, mut pose) = (0.0, *from);
-        for _ in 0..count as u32 {
+    pub fn back(&self, from: &Pose2, trailer: f32, wanted: f32, length: f32) -> Option<(f32, Pose2, f32)> {
+        let CurveDrive { shape: Articulated { hitch, drawbar, .. }, backing_gain, .. } = *self.vehicle;
+        self.along(from, trailer, length, |pose, trailer, step| {
             let angle = remainderf(pose.theta - trailer, TAU);
             let turn = backing_rotation(1.0, angle, -backing_gain * (angle - wanted), hitch, drawbar);
-            trailer += step * trailer_rotation(-1.0, turn, angle, hitch, drawbar);
-            pose = advanced(&pose, -turn, -step);
-            if bend(&pose, trailer) > MAX_BEND.max(angle.abs()) {
+            let trailer = trailer + step * trailer_rotation(-1.0, turn, angle, hitch, drawbar);
+            let pose = advanced(pose, -turn, -step);
+            self.is_on_floor(&pose, trailer).then_some((pose, trailer))
+        })
+    }
+
+    /// Length of a way with costs, and the pose and the heading of the trailer at its end, or `None` if something is
+    /// touched on it. `step` returns both after a distance in m; `None` if the vehicle must not go there.
+    fn along(
+        &self,
+        from: &Pose2,
+        mut trailer: f32,
+        length: f32,
+        step: impl Fn(&Pose2, f32, f32) -> Option<(Pose2, f32)>,
+    ) -> Option<(f32, Pose2, f32)> {
+        let count = libm::ceilf(length / CHECK);
+        let distance = length / count;
+        let (mut cost, mut pose) = (0.0, *from);
+        for _ in 0..count as u32 {
+            let before = bend(&pose, trailer);
+            (pose, trailer) = step(&pose, trailer, distance)?;
+            // A trailer that is bent too far at the start may come into line.
+            if bend(&pose, trailer) > MAX_BEND.max(before) {
                 return None;
             }
-            if !self.is_on_floor(&pose, trailer) {
-                return None;
-            }
-            cost += step * (1.0 + self.fits(&pose, trailer)?);
+            cost += distance * (1.0 + self.fits(&pose, trailer)?);
         }
         Some((cost, pose, trailer))
     }
 
     /// Returns `true` if floor is known at and around the corners that come to new floor on a way backward.
     fn is_on_floor(&self, pose: &Pose2, trailer: f32) -> bool {
-        let CurveDrive { front, hitch, drawbar, rear, width, .. } = *self.vehicle;
-        let joint = pose.to_outer(Point2::new(-hitch, 0.0));
-        let axle =
-            Pose2 { theta: trailer, ..Pose2::default() }.to_outer(Point2::new(-drawbar - rear - EDGE, 0.0)) + joint;
-        let across = Point2::polar(0.5 * width + EDGE, trailer).perpendicular();
-        let corners = [
-            axle + across,
-            axle - across,
-            pose.to_outer(Point2::new(front, 0.5 * width + EDGE)),
-            pose.to_outer(Point2::new(front, -0.5 * width - EDGE)),
-            pose.to_outer(Point2::new(-hitch, 0.5 * width + EDGE)),
-            pose.to_outer(Point2::new(-hitch, -0.5 * width - EDGE)),
-        ];
-        self.ground.floor.is_none_or(|floor| corners.iter().all(|corner| floor.is_known(*corner)))
+        let shape = self.vehicle.shape;
+        let (trailer, half) = (shape.trailer(pose, trailer), 0.5 * shape.width + EDGE);
+        let corners = [(&trailer, -shape.rear - EDGE), (pose, shape.front), (pose, -shape.hitch)];
+        let mut points = corners.iter().flat_map(|(axis, x)| [half, -half].map(|y| axis.to_outer(Point2::new(*x, y))));
+        self.ground.floor.is_none_or(|floor| points.all(|point| floor.is_known(point)))
     }
 
     /// Returns `true` if nothing is touched on a curve.
@@ -168,7 +154,7 @@ impl Drive<'_> {
 
     /// Heading of the trailer after a step; that of the vehicle if there is none.
     fn towed(&self, pose: &Pose2, trailer: f32, curvature: f32, step: f32) -> f32 {
-        let CurveDrive { hitch, drawbar, body, .. } = *self.vehicle;
+        let CurveDrive { shape: Articulated { hitch, drawbar, .. }, body, .. } = *self.vehicle;
         if body.is_empty() {
             return pose.theta + step * curvature;
         }
@@ -181,7 +167,7 @@ impl Drive<'_> {
         let raster = terrain.map.raster();
         let cost_at =
             |point: Point2| raster.cell(point).filter(|cell| terrain.is_open(*cell)).map(|cell| terrain.cost(cell));
-        cost_at(pose.to_outer(Point2::new(vehicle.front, 0.0)))?;
+        cost_at(pose.to_outer(Point2::new(vehicle.shape.front, 0.0)))?;
         let is_start = |place: Point2| stands.iter().any(|at| (*at - place).norm_squared() <= STANDS * STANDS);
         let mut highest = cost_at(pose.position())?;
         for place in vehicle.places(pose, trailer) {

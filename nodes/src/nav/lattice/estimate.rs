@@ -1,10 +1,10 @@
-use super::{Goal, SIDE};
+use super::{Goal, Open, SIDE};
 use crate::{
     map::{Cell, Grid, Raster},
     nav::Terrain,
     scan::Point2,
 };
-use core::{cmp::Ordering, f32::consts::SQRT_2};
+use core::f32::consts::SQRT_2;
 use std::collections::BinaryHeap;
 
 /// Estimated distances from the nearest goal, without regard to headings.
@@ -15,35 +15,13 @@ pub(super) struct Estimates {
     open: BinaryHeap<Open>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Open {
-    estimate: f32,
-    cell: Cell,
-}
-
-impl Eq for Open {}
-
-/// The greatest entry is expanded next: the one with the least estimate.
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let index = |cell: Cell| (cell.y, cell.x);
-        other.estimate.total_cmp(&self.estimate).then_with(|| index(self.cell).cmp(&index(other.cell)))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
 impl Estimates {
     /// Raster of the coarse cells.
     pub fn raster(&self) -> &Raster {
         self.cells.raster()
     }
 
-    /// Estimated distance of a point, in m: infinite if there is no way.
+    /// Estimated distance of a point from the goal, in m: infinite where no way leads to it.
     pub fn at(&self, point: Point2) -> f32 {
         self.cells.at(point).copied().unwrap_or(f32::INFINITY)
     }
@@ -67,7 +45,8 @@ impl Estimates {
                 self.reach(cell, goal.cost);
             }
         }
-        while let Some(Open { estimate, cell: at }) = self.open.pop() {
+        while let Some(Open { estimate, node }) = self.open.pop() {
+            let at = Cell::new(node as usize % raster.width, node as usize / raster.width);
             if self.cells.get(at).is_none_or(|known| *known < estimate) {
                 continue;
             }
@@ -83,9 +62,10 @@ impl Estimates {
     }
 
     fn reach(&mut self, cell: Cell, estimate: f32) {
+        let width = self.raster().width;
         if let Some(known) = self.cells.get_mut(cell).filter(|known| estimate < **known) {
             *known = estimate;
-            self.open.push(Open { estimate, cell });
+            self.open.push(Open { estimate, node: (cell.y * width + cell.x) as u32 });
         }
     }
 }

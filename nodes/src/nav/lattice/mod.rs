@@ -112,7 +112,7 @@ impl CurveSearch {
     /// goal.
     ///
     /// # Errors
-    /// There is no such way.
+    /// No such way exists.
     pub fn plan(
         &mut self,
         ground: &Ground<'_>,
@@ -268,16 +268,7 @@ mod tests {
     };
     use core::f32::consts::{FRAC_PI_2, PI};
 
-    const VEHICLE: CurveDrive = CurveDrive {
-        radius: 0.8,
-        front: 0.25,
-        hitch: 0.1,
-        drawbar: 0.55,
-        body: &[],
-        rear: 0.15,
-        width: 0.4,
-        backing_gain: 0.0,
-    };
+    const VEHICLE: CurveDrive = CurveDrive { radius: 0.8, shape: Articulated::PATSY, body: &[], backing_gain: 0.0 };
 
     /// Room of 12 m × 8 m with a wall that ends at y = 5 m.
     fn room() -> Grid<Occupancy> {

@@ -1,7 +1,7 @@
 use super::{CurveDrive, CurveSearch, Floor, Goal, Ground, Section, Start};
 use crate::{
     map::{Grid, Occupancy},
-    nav::{BackPath, NoPath, Path, Terrain},
+    nav::{Articulated, BackPath, NoPath, Path, Terrain},
     scan::Pose2,
 };
 use apex_rt::{Event, Out, node};
@@ -90,9 +90,10 @@ impl CurvePlanner {
         let terrain = Terrain { map, costs, unknown_is_open: false };
         let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry] });
         let Self { radius, front, hitch, drawbar, body, rear, width, .. } = *self;
+        let shape = Articulated { hitch, drawbar, front, rear, width };
         let limit = core::mem::take(&mut self.next);
         let backing_gain = if limit == Limit::StaysForward { 0.0 } else { self.backing_gain };
-        let vehicle = CurveDrive { radius, front, hitch, drawbar, body, rear, width, backing_gain };
+        let vehicle = CurveDrive { radius, shape, body, backing_gain };
         let trailer = start.theta + trailer.filter(|pose| pose.is_finite()).map_or(0.0, |pose| pose.theta);
         let start = Start { pose: *start, trailer, is_back: limit == Limit::BeginsBack };
         let other_goal = Goal { pose: *other.unwrap_or(goal), cost: self.other_cost };

@@ -1,15 +1,10 @@
-use super::vehicle::{approach_speed, backing_rotation};
+use super::vehicle::backing_twist;
 use crate::{
     math::normalize_angle,
     nav::{Twist, twist::Halt},
     scan::Pose2,
 };
 use apex_rt::{Ctx, Event, node};
-
-/// Deceleration before the end, in m/s².
-const DECELERATION: f32 = 0.3;
-/// Least speed, in m/s.
-const SLOWEST: f32 = 0.03;
 
 /// Backs a tractor with a passively steered trailer up by a distance, for example away from an obstacle.
 ///
@@ -57,10 +52,9 @@ impl BackUp {
             done.emit(());
             return self.halt.drive(Twist::ZERO);
         }
-        let speed = approach_speed(left, DECELERATION, [SLOWEST, self.speed]);
         let bend = normalize_angle(&(base.theta - trailer.theta));
-        let turn = backing_rotation(speed, bend, -self.gain * bend, self.hitch, self.drawbar);
-        self.halt.drive(Twist::new(-speed, 0.0, turn))
+        let rate = |_| -self.gain * bend;
+        self.halt.drive(backing_twist(left, self.speed, bend, rate, [self.hitch, self.drawbar]))
     }
 
     /// Begins again at the next activation.

@@ -1,4 +1,4 @@
-use super::vehicle::{approach_speed, backing_rotation};
+use super::vehicle::backing_twist;
 use crate::{
     math::normalize_angle,
     nav::{Twist, twist::Halt},
@@ -7,10 +7,6 @@ use crate::{
 use apex_rt::{Ctx, Event, Time, node};
 use std::vec::Vec;
 
-/// Deceleration before the end, in m/s².
-const DECELERATION: f32 = 0.3;
-/// Least speed, in m/s.
-const SLOWEST: f32 = 0.03;
 /// Minimum progress, in m. A smaller change does not count.
 const PROGRESS: f32 = 0.02;
 
@@ -126,11 +122,9 @@ impl BackFollower {
             return self.halt.drive(Twist::ZERO);
         }
         let left = self.path.length() - self.driven;
-        let speed = approach_speed(left, DECELERATION, [SLOWEST, self.speed]);
         let bend = normalize_angle(&(base.theta - trailer.theta));
-        let rate = -self.gain * speed * (bend - wanted);
-        let turn = backing_rotation(speed, bend, rate, self.hitch, self.drawbar);
-        self.halt.drive(Twist::new(-speed, 0.0, turn))
+        let rate = |speed| -self.gain * speed * (bend - wanted);
+        self.halt.drive(backing_twist(left, self.speed, bend, rate, [self.hitch, self.drawbar]))
     }
 
     /// Drops the path.

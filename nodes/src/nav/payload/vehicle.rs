@@ -1,4 +1,7 @@
-use crate::scan::{Point2, Pose2};
+use crate::{
+    nav::Twist,
+    scan::{Point2, Pose2},
+};
 use libm::{sincosf, sqrtf};
 
 /// Tractor with two driven wheels and a trailer with one axis, which follows passively. All lengths in m.
@@ -83,6 +86,21 @@ pub(in crate::nav) fn backing_rotation(speed: f32, bend: f32, rate: f32, hitch: 
 /// Speed at `distance` m before a stop under constant deceleration, between a minimum and a maximum, in m/s.
 pub(super) fn approach_speed(distance: f32, deceleration: f32, [least, most]: [f32; 2]) -> f32 {
     sqrtf(2.0 * deceleration * distance.max(0.0)).clamp(least.min(most), most)
+}
+
+/// Twist of a tractor that backs up and stops after `left` m. Its angle `bend` to the trailer, in rad, changes at the
+/// rate that `rate` returns for a speed. `most` is the maximum speed, and `hitch` and `drawbar` are those of the vehicle.
+pub(super) fn backing_twist(
+    left: f32,
+    most: f32,
+    bend: f32,
+    rate: impl FnOnce(f32) -> f32,
+    [hitch, drawbar]: [f32; 2],
+) -> Twist {
+    const DECELERATION: f32 = 0.3;
+    const SLOWEST: f32 = 0.03;
+    let speed = approach_speed(left, DECELERATION, [SLOWEST, most]);
+    Twist::new(-speed, 0.0, backing_rotation(speed, bend, rate(speed), hitch, drawbar))
 }
 
 /// Outcome of the comparison of a vehicle with its goal.

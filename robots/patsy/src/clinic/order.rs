@@ -1,4 +1,4 @@
-use apex_nodes::scan::Pose2;
+use apex_nodes::{nav::turned, scan::Pose2};
 use core::f32::consts::PI;
 
 /// Order to bring a container from one place to another, on the plan of the building.
@@ -15,6 +15,6 @@ impl Order {
     /// Pose of the container with the heading, of its two, that is nearer to the direction of the destination.
     pub fn towards_destination(&self) -> Pose2 {
         let is_behind = self.container.to_inner(self.destination.position()).x < 0.0;
-        self.container.compose(&Pose2::new(0.0, 0.0, if is_behind { PI } else { 0.0 }))
+        turned(&self.container, if is_behind { PI } else { 0.0 })
     }
 }
