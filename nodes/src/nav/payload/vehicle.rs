@@ -89,7 +89,8 @@ pub(super) fn approach_speed(distance: f32, deceleration: f32, [least, most]: [f
 }
 
 /// Twist of a tractor that backs up and stops after `left` m. Its angle `bend` to the trailer, in rad, changes at the
-/// rate that `rate` returns for a speed. `most` is the maximum speed, and `hitch` and `drawbar` are those of the vehicle.
+/// rate that `rate` returns for a speed. `most` is the maximum speed, and `hitch` and `drawbar` are those of the
+/// vehicle.
 pub(super) fn backing_twist(
     left: f32,
     most: f32,
