@@ -3,7 +3,7 @@ use apex_rt::{Out, node};
 
 /// Maximum number of voxels along a side of the grid, which bounds its memory.
 const MAX_VOXELS: f32 = 250.0;
-/// Number of a point without a cluster.
+/// Index of a cluster that is not there, or not yet.
 const NONE: u32 = u32::MAX;
 
 /// Group of points that are close to each other.
@@ -24,27 +24,32 @@ pub struct Cluster {
 pub struct Clusters {
     /// All clusters.
     pub clusters: Vec<Cluster>,
-    /// Index of the cluster of each point, in the order of the columns, or [`u32::MAX`].
-    pub members: Vec<u32>,
+    /// Points that belong to a cluster, in the order of the columns.
+    pub members: Vec<Member>,
+    /// Number of points of the columns, with and without a cluster.
+    pub points: usize,
+}
+
+/// Point of a cluster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Member {
+    /// Index of the point in the columns.
+    pub point: u32,
+    /// Index of its cluster.
+    pub cluster: u32,
 }
 
 /// `clone_from` reuses the allocated storage.
 impl Clone for Clusters {
     fn clone(&self) -> Self {
-        Self { clusters: self.clusters.clone(), members: self.members.clone() }
+        Self { clusters: self.clusters.clone(), members: self.members.clone(), points: self.points }
     }
 
     fn clone_from(&mut self, source: &Self) {
         self.clusters.clone_from(&source.clusters);
         self.members.clone_from(&source.members);
-    }
-}
-
-impl Clusters {
-    /// Index of the cluster of a point, if it has one.
-    #[inline]
-    pub fn of(&self, point: usize) -> Option<usize> {
-        self.members.get(point).filter(|index| **index != NONE).map(|index| *index as usize)
+        self.points = source.points;
     }
 }
 
@@ -101,43 +106,50 @@ impl ClusterCloud {
         let scale = 1.0 / voxel.max(reach.max(HEIGHTS[1]) / MAX_VOXELS);
         self.grid.reset([reach, reach, HEIGHTS[1]].map(|side| (side * scale) as usize + 1));
         let out = clusters.get_mut();
+        out.points = columns.len();
         out.members.clear();
-        let place = |i: usize| [columns.x[i], columns.y[i] + 0.5 * reach, columns.z[i] - HEIGHTS[0]];
-        out.members.extend((0..columns.len()).map(|i| {
-            let is_hazard = labels.labels[i].is_hazard();
-            is_hazard.then(|| self.grid.add(place(i).map(|v| v * scale))).flatten().unwrap_or(NONE)
-        }));
+        for (i, _) in labels.labels.iter().enumerate().filter(|(_, label)| label.is_hazard()) {
+            let place = [columns.x[i], columns.y[i] + 0.5 * reach, columns.z[i] - HEIGHTS[0]];
+            if let Some(cluster) = self.grid.add(place.map(|v| v * scale)) {
+                out.members.push(Member { point: i as u32, cluster });
+            }
+        }
         self.grid.join();
         self.collect(columns, out);
     }
 
-    /// Replaces the numbers of voxels by those of clusters, and drops clusters of the wrong size.
+    /// Replaces the numbers of voxels by those of clusters, and drops clusters of the wrong size with their points.
     fn collect(&mut self, columns: &Columns, out: &mut Clusters) {
-        let grid = &mut self.grid;
-        out.clusters.clear();
-        grid.indices.clear();
-        grid.indices.resize(grid.parents.len(), NONE);
-        for (i, member) in out.members.iter_mut().enumerate().filter(|(_, member)| **member != NONE) {
-            let root = grid.parents[*member as usize] as usize;
+        let Clusters { clusters, members, .. } = out;
+        let Grid { parents, indices, .. } = &mut self.grid;
+        clusters.clear();
+        indices.clear();
+        indices.resize(parents.len(), NONE);
+        for Member { point, cluster } in members.iter_mut() {
+            let i = *point as usize;
             let point = [columns.x[i], columns.y[i], columns.z[i]];
-            if grid.indices[root] == NONE {
-                grid.indices[root] = out.clusters.len() as u32;
-                out.clusters.push(Cluster { points: 0, min: point, max: point });
+            let index = &mut indices[parents[*cluster as usize] as usize];
+            if *index == NONE {
+                *index = clusters.len() as u32;
+                clusters.push(Cluster { points: 0, min: point, max: point });
             }
-            *member = grid.indices[root];
-            out.clusters[*member as usize].add(point);
+            *cluster = *index;
+            clusters[*index as usize].add(point);
         }
         // New indices of the clusters that are kept.
-        grid.indices.clear();
+        indices.clear();
         let mut kept = 0;
-        for cluster in &out.clusters {
+        for cluster in clusters.iter() {
             let is_kept = cluster.points >= self.min_points && cluster.size() <= self.max_size;
-            grid.indices.push(if is_kept { kept } else { NONE });
+            indices.push(if is_kept { kept } else { NONE });
             kept += u32::from(is_kept);
         }
-        let (indices, mut number) = (&grid.indices, 0);
-        out.members.iter_mut().filter(|m| **m != NONE).for_each(|m| *m = indices[*m as usize]);
-        out.clusters.retain(|_| {
+        members.retain_mut(|member| {
+            member.cluster = indices[member.cluster as usize];
+            member.cluster != NONE
+        });
+        let mut number = 0;
+        clusters.retain(|_| {
             number += 1;
             indices[number - 1] != NONE
         });
@@ -248,8 +260,8 @@ mod tests {
         let points: Vec<[f32; 3]> = row(0.0).chain(row(1.0)).chain([[3.0, 0.0, 0.3]]).collect();
         let found = clusters(&points, 2, 3.0);
         assert_eq!(found.clusters.iter().map(|c| c.points).collect::<Vec<_>>(), [20, 20]);
-        assert!((0..20).all(|i| found.of(i) == found.of(0)) && found.of(0) != found.of(20));
-        assert_eq!(found.of(40), None);
+        let of: Vec<u32> = found.members.iter().map(|member| member.cluster).collect();
+        assert_eq!((of, found.points), ([[0; 20], [1; 20]].concat(), 41));
         assert_eq!((found.clusters[0].min, found.clusters[0].max[0]), ([1.0, 0.0, 0.3], 1.0 + 0.04 * 19.0));
         assert_eq!(clusters(&points, 2, 0.5).clusters, []);
     }
@@ -275,7 +287,7 @@ mod tests {
         let mut node = ClusterCloud::construct((0.05, 5.0, 1, 3.0));
         node.process(&columns, &labels, &mut out);
         let found = out.get().expect("clusters").clone();
-        assert_eq!((found.of(0), found.of(1), found.of(7)), (Some(0), None, None));
+        assert_eq!(found.members, [Member { point: 0, cluster: 0 }]);
         // Another cloud leaves nothing of the last one.
         node.process(&columns, &labels, &mut out);
         assert_eq!(out.get(), Some(&found));

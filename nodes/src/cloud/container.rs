@@ -12,7 +12,7 @@ const NEAR_FACE: [f32; 2] = [0.1, 0.04];
 const STEPS: usize = 4;
 /// Weights of the prior position along and across and of the prior heading (in m²), for each fitted point: what the
 /// points have in common, such as the static errors of a camera, is not averaged out by their number.
-const PRIOR: [f32; 3] = [0.05, 0.08, 0.01];
+const PRIOR: [f32; 3] = [0.05, 0.08, 0.02];
 /// Weight of the middle between the edges of the near face, for each fitted point.
 const MIDDLE: f32 = 0.04;
 /// Maximum number of points that are fitted.
@@ -68,7 +68,7 @@ pub struct VerifyContainer {
 #[node]
 impl VerifyContainer {
     fn process(&mut self, columns: &Columns, clusters: &Clusters, container: &Container) -> Option<Container> {
-        if !columns.is_whole() || clusters.members.len() != columns.len() || !container.pose.is_finite() {
+        if !columns.is_whole() || clusters.points != columns.len() || !container.pose.is_finite() {
             return None;
         }
         let counts = self.collect(columns, clusters, &container.pose)?;
@@ -90,10 +90,8 @@ impl VerifyContainer {
         let mut counts = Counts::default();
         let (sin, cos) = libm::sincosf(pose.theta);
         let (x, y) = (0.5 * self.length + REACH, 0.5 * self.width + REACH);
-        for (i, member) in clusters.members.iter().enumerate() {
-            if *member == u32::MAX {
-                continue;
-            }
+        for member in &clusters.members {
+            let i = member.point as usize;
             let d = Point2::new(columns.x[i] - pose.x, columns.y[i] - pose.y);
             let p = Point2::new(cos * d.x + sin * d.y, cos * d.y - sin * d.x);
             if fabsf(p.x) > x || fabsf(p.y) > y {
@@ -232,7 +230,7 @@ fn in_box(p: Point2, &[x, y, length, width]: &[f32; 4], tolerance: f32) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloud::Cluster;
+    use crate::cloud::{Cluster, Member};
     use apex_rt::Construct;
 
     const BOXES: &[[f32; 4]] = &[[-0.54, 0.32, 0.25, 0.25], [-0.54, -0.32, 0.25, 0.25]];
@@ -255,7 +253,8 @@ mod tests {
         let intensity = vec![0.0; points.len()];
         let columns = Columns { height: 1, x: list(0), y: list(1), z: list(2), intensity, ..Columns::default() };
         let cluster = Cluster { points: points.len(), min: [0.0; 3], max: [4.0; 3] };
-        (columns, Clusters { clusters: vec![cluster], members: vec![0; points.len()] })
+        let members = (0..points.len() as u32).map(|point| Member { point, cluster: 0 }).collect();
+        (columns, Clusters { clusters: vec![cluster], members, points: points.len() })
     }
 
     fn prior(pose: Pose2) -> Container {
@@ -269,8 +268,8 @@ mod tests {
         for off in [Pose2::new(0.08, 0.03, 0.05), Pose2::new(-0.07, -0.02, -0.06), Pose2::default()] {
             let found = node().process(&columns, &clusters, &prior(truth.compose(&off))).expect("a container");
             let error = found.pose.relative_to(&truth);
-            // A tenth of the prior error is left.
-            assert!(error.position().norm() < 0.009 && error.theta.abs() < 0.008, "{error:?} after {off:?}");
+            // A tenth of the prior position is left, and a fifth of the heading.
+            assert!(error.position().norm() < 0.009 && error.theta.abs() < 0.014, "{error:?} after {off:?}");
         }
     }
 

@@ -29,7 +29,7 @@ mod smooth;
 
 pub use bright::BrightFilter;
 pub use classify::{ColumnClassifier, Probabilities};
-pub use cluster::{Cluster, ClusterCloud, Clusters};
+pub use cluster::{Cluster, ClusterCloud, Clusters, Member};
 pub use columns::{Columns, MountCloud};
 pub use container::VerifyContainer;
 pub use edge::EdgeFilter;
