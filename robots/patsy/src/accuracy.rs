@@ -2,7 +2,9 @@
 //! 6.10.2, figure 6.24).
 
 use crate::{
-    Cart, Finder, LENGTH, Search, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH, evaluate::pose_error,
+    Cart, Finder, LENGTH, Search, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH,
+    chart::{Curve, Panel},
+    evaluate::pose_error,
     obstacles::Detector,
 };
 use apex_nodes::{
@@ -156,6 +158,28 @@ pub fn table(rows: &[Row]) -> String {
     text
 }
 
+/// Mean absolute errors along and across by distance, in the scan alone and with the cloud (figure 6.24).
+pub fn figure(rows: &[Row]) -> Vec<Panel> {
+    let values: [(&str, fn(&Pose2) -> f32); 2] = [("x", |e| 100.0 * e.x), ("y", |e| 100.0 * e.y)];
+    let panel = |(name, value): (&str, fn(&Pose2) -> f32)| {
+        let curve = |(method, name): (usize, &str)| {
+            let points = rows.iter().map(|row| [row.distance, row.mean_error(method, value) as f32]);
+            Curve { name: name.to_owned(), points: points.collect() }
+        };
+        let axes = ["distance (m)".to_owned(), format!("mean error along {name} (cm)")];
+        let curves = [(0, "2D"), (1, "2D and 3D")].map(curve).to_vec();
+        Panel { axes, is_logarithmic: false, mark: None, curves }
+    };
+    values.map(panel).to_vec()
+}
+
+impl Row {
+    /// Mean absolute value of an error, in the scan alone (`method` 0) or with the cloud (1).
+    fn mean_error(&self, method: usize, value: fn(&Pose2) -> f32) -> f64 {
+        mean(self.errors.iter().map(|errors| f64::from(value(&errors[method]).abs())))
+    }
+}
+
 /// One line of the table.
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -165,7 +189,7 @@ impl fmt::Display for Row {
         let values: [fn(&Pose2) -> f32; 3] = [|e| 100.0 * e.x, |e| 100.0 * e.y, |e| e.theta.to_degrees()];
         for value in values {
             for method in 0..2 {
-                write!(f, "{:>14.2}", mean(self.errors.iter().map(|errors| f64::from(value(&errors[method]).abs()))))?;
+                write!(f, "{:>14.2}", self.mean_error(method, value))?;
             }
         }
         let [clustering, verification] = [0, 1].map(|step| 1e3 * mean(self.times.iter().map(|times| times[step])));
@@ -195,8 +219,10 @@ mod tests {
     fn the_table_has_a_line_for_each_distance() {
         let error = Pose2::new(-0.02, 0.0, 0.0);
         let row = Row { distance: 1.0, carts: 2, found: 1, errors: vec![[error; 2]], ..Row::default() };
-        let text = table(&[row, Row::default()]);
+        let text = table(&[row.clone(), Row::default()]);
         assert_eq!(text.lines().count(), 3);
         assert!(text.contains("50.0 %") && text.contains("2.00"), "{text}");
+        let figure = figure(&[row]);
+        assert_eq!(figure[0].curves[1].points, [[1.0, 2.0]]);
     }
 }

@@ -6,6 +6,7 @@
 pub mod accuracy;
 pub mod approach;
 mod cart;
+pub mod chart;
 pub mod clinic;
 mod drive;
 mod evaluate;

@@ -1,17 +1,26 @@
-use super::args::{Seeds, next, seeds_option};
-use lexopt::Parser;
-use patsy::accuracy::{accuracy as errors, table};
-use std::process::ExitCode;
+use super::args::{Seeds, next, path, seeds_option};
+use lexopt::{Parser, prelude::Long};
+use patsy::{
+    accuracy::{accuracy as errors, figure, table},
+    chart,
+};
+use std::{path::PathBuf, process::ExitCode};
 
-/// Measures the errors of the pose by the distance, in the scan alone and with the camera.
+/// Measures the errors of the pose by the distance, in the scan alone and with the camera, and draws them.
 pub fn accuracy(parser: &mut Parser) -> Result<ExitCode, String> {
-    let mut seeds = Seeds::new(200);
+    let (mut seeds, mut out) = (Seeds::new(200), PathBuf::from("out/patsy/accuracy.svg"));
     while let Some(arg) = next(parser)? {
-        let (option, message) = seeds_option(arg);
-        seeds.read(parser, option, message)?;
+        if arg == Long("out") {
+            out = path(parser)?;
+        } else {
+            let (option, message) = seeds_option(arg);
+            seeds.read(parser, option, message)?;
+        }
     }
     let all = seeds.all();
-    print!("{}", table(&errors(&all, seeds.jobs).map_err(|e| e.to_string())?));
-    println!("seeds {} to {}", all[0], all[all.len() - 1]);
+    let rows = errors(&all, seeds.jobs).map_err(|e| e.to_string())?;
+    print!("{}", table(&rows));
+    chart::write(&figure(&rows), &out)?;
+    println!("seeds {} to {}; picture: {}", all[0], all[all.len() - 1], out.display());
     Ok(ExitCode::SUCCESS)
 }

@@ -2,6 +2,7 @@ use super::{
     Detector, RANGES, RangeClass, RangeTable, RecordedTable, SceneFigure, StepTimes, Summary, labelled_scene,
     labelled_scores,
 };
+use crate::chart;
 use apex_sim::in_order;
 use lexopt::{Parser, prelude::*};
 use std::{
@@ -29,7 +30,7 @@ beside those of a RANSAC plane with a height threshold, ranges of detection, com
                   objects) or without
   --help          this text
 
-A picture of a scene is written to out/patsy. Exit codes: 0 fine, 2 it could not be done.
+Pictures of a scene and of the points by distance are written to out/patsy. Exit codes: 0 fine, 2 it could not be done.
 ";
 
 /// Default folder of the pictures.
@@ -108,10 +109,17 @@ fn simulated(options: &Options) -> Result<(), String> {
     say(&format!("{table}\n({trials} trials at each distance; detected: at least 10 points)\n\n"))?;
 
     say(&format!("{}\n\n", StepTimes::measure(options.first, TIMED.0.min(options.seeds), TIMED.1)))?;
-    let picture = Path::new(PICTURES).join("obstacles.svg");
+    let [picture, ranges] = ["obstacles.svg", "ranges.svg"].map(|name| Path::new(PICTURES).join(name));
     draw(options.first, &picture)?;
+    chart::write(&[table.figure()], &ranges)?;
     let last = options.first + options.seeds - 1;
-    say(&format!("seeds {} to {last}; picture of seed {}: {}\n", options.first, options.first, picture.display()))
+    say(&format!(
+        "seeds {} to {last}; pictures: {} of seed {}, {}\n",
+        options.first,
+        picture.display(),
+        options.first,
+        ranges.display()
+    ))
 }
 
 fn draw(seed: u64, path: &Path) -> Result<(), String> {

@@ -1,4 +1,5 @@
 use super::{Detector, Scene, Thing};
+use crate::chart::{Curve, Panel};
 use apex_sim::tof::{TofFrame, Truth};
 use core::fmt;
 
@@ -103,6 +104,22 @@ impl RangeTable {
     }
 }
 
+impl RangeTable {
+    /// Median number of detected points by distance (figure 6.20), with the number from which on a thing is detected.
+    pub fn figure(&self) -> Panel {
+        let curve = |(class, RangeClass { name, .. }): (usize, &RangeClass)| {
+            let points = RangeClass::distances().map(|distance| [distance, self.median(class, distance) as f32]);
+            Curve { name: (*name).to_owned(), points: points.collect() }
+        };
+        Panel {
+            axes: ["distance (m)".to_owned(), "detected points".to_owned()],
+            is_logarithmic: true,
+            mark: Some(LEAST_POINTS as f32),
+            curves: RANGES.iter().enumerate().map(curve).collect(),
+        }
+    }
+}
+
 impl fmt::Display for RangeTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let shown = [0, 3, 8, 13, 21].map(|i| NEAREST + SPACING * i as f32);
@@ -134,6 +151,8 @@ mod tests {
         let table = RangeTable { trials: RangeClass::distances().flat_map(|d| [trial(d); 4]).collect() };
         let range = table.range(0, RELIABLE);
         assert!(range.is_some_and(|range| (range - 1.9).abs() < 1e-4), "{range:?}");
+        let figure = table.figure();
+        assert_eq!((figure.curves.len(), figure.curves[0].points[4]), (4, [NEAREST + 4.0 * SPACING, 12.0]));
         assert_eq!((table.range(1, RELIABLE), table.median(0, NEAREST + 4.0 * SPACING)), (None, 12));
     }
 }
