@@ -13,11 +13,14 @@ pub struct Containers {
     pub poses: Vec<Pose2, MAX_CONTAINERS>,
 }
 
-/// Remembers where containers were seen: one beside or behind a robot is still there, although no wheels show it.
+/// Remembers where containers were seen or set down: one beside or behind a robot is still there, although no wheels
+/// show it.
 ///
-/// `container` is a confirmed detection in the frame of the robot, and ⊥ between detections. `pose` is that of the
-/// robot in a fixed frame such as that of odometry, which is that of the output. A detection replaces those of the same
-/// container. Of more than 16 containers, the ones that were seen last are remembered.
+/// `container` is a confirmed detection in the frame of the robot, and ⊥ between detections. `load` is the pose of a
+/// container on the robot, in its frame too, and ⊥ without one: it is no longer where it was seen, and when it is ⊥
+/// again, a container stands where the load was last. `pose` is that of the robot in a fixed frame such as that of
+/// odometry, which is that of the output. A detection replaces those of the same container. Of more than 16 containers,
+/// the ones that were seen last are remembered.
 #[node]
 #[derive(Debug, Clone)]
 pub struct RememberContainers {
@@ -27,11 +30,8 @@ pub struct RememberContainers {
     /// Time for which a container is remembered.
     #[param(unit = "s", default = 60.0, range = 0.0..=86400.0)]
     memory: f32,
-    /// Distance from the robot up to which `forget` forgets containers.
-    #[param(unit = "m", default = 1.8, range = 0.0..=100.0)]
-    forgotten: f32,
-    /// Last pose of the robot.
-    here: Pose2,
+    /// Load in the fixed frame.
+    load: Option<Pose2>,
     known: Vec<Known, MAX_CONTAINERS>,
 }
 
@@ -44,36 +44,42 @@ struct Known {
 
 #[node]
 impl RememberContainers {
-    fn process(&mut self, ctx: &Ctx, container: Option<&Container>, pose: &Pose2, containers: &mut Out<Containers>) {
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        container: Option<&Container>,
+        load: Option<&Pose2>,
+        pose: &Pose2,
+        containers: &mut Out<Containers>,
+    ) {
         let memory = self.memory;
         self.known.retain(|known| ctx.now().since(known.seen).as_secs_f32() <= memory);
         if pose.is_finite() {
-            self.here = *pose;
-            if let Some(container) = container.filter(|container| container.pose.is_finite()) {
-                self.remember(Known { pose: pose.compose(&container.pose), seen: ctx.now() });
-            }
+            let outer = |inner: &Pose2| inner.is_finite().then(|| pose.compose(inner));
+            let load = load.and_then(outer);
+            let set_down = self.load.take().filter(|_| load.is_none());
+            self.load = load;
+            let seen = container.and_then(|container| outer(&container.pose));
+            let new = [set_down, seen].into_iter().flatten();
+            new.for_each(|pose| self.remember(Known { pose, seen: ctx.now() }));
+            self.load.iter().for_each(|load| drop_around(&mut self.known, load, self.apart));
         }
         containers.get_mut().poses = self.known.iter().map(|known| known.pose).collect();
     }
 
-    /// Forgets the containers around the robot, for example when one of them was lifted.
-    #[slot]
-    fn forget(&mut self) {
-        self.drop_around(self.here, self.forgotten);
-    }
-
     fn remember(&mut self, new: Known) {
-        self.drop_around(new.pose, self.apart);
+        drop_around(&mut self.known, &new.pose, self.apart);
         if self.known.is_full() {
             self.known.remove(0);
         }
         // Cannot fail: there is room.
         let _ = self.known.push(new);
     }
+}
 
-    fn drop_around(&mut self, place: Pose2, distance: f32) {
-        self.known.retain(|known| (known.pose.position() - place.position()).norm() > distance);
-    }
+/// Forgets what is at a place.
+fn drop_around(known: &mut Vec<Known, MAX_CONTAINERS>, place: &Pose2, distance: f32) {
+    known.retain(|known| (known.pose.position() - place.position()).norm() > distance);
 }
 
 #[cfg(test)]
@@ -87,13 +93,13 @@ mod tests {
     fn remembered(node: &mut RememberContainers, second: i64, pose: Pose2, seen: Option<Pose2>) -> Vec<f32, 16> {
         let container = seen.map(|pose| Container { pose, ..CONTAINER });
         let mut out = Out::new();
-        node.process(&Ctx::new(Time::from_secs(second)), container.as_ref(), &pose, &mut out);
+        node.process(&Ctx::new(Time::from_secs(second)), container.as_ref(), None, &pose, &mut out);
         out.get().expect("containers").poses.iter().map(|pose| pose.x).collect()
     }
 
     #[test]
     fn containers_are_remembered_where_they_were_seen() {
-        let (mut node, here) = (RememberContainers::construct((0.7, 10.0, 1.8)), Pose2::default());
+        let (mut node, here) = (RememberContainers::construct((0.7, 10.0)), Pose2::default());
         assert!(remembered(&mut node, 0, here, None).is_empty());
         assert_eq!(remembered(&mut node, 1, here, Some(CONTAINER.pose)), [2.0]);
         let further = Pose2::new(4.0, 0.0, 0.0);
@@ -104,17 +110,24 @@ mod tests {
     }
 
     #[test]
-    fn those_around_the_robot_are_forgotten() {
-        let (mut node, here) = (RememberContainers::construct((0.7, 10.0, 1.8)), Pose2::default());
-        remembered(&mut node, 0, here, Some(Pose2::new(5.0, 0.0, 0.0)));
-        remembered(&mut node, 0, here, Some(Pose2::new(1.0, 0.0, 0.0)));
-        node.forget();
-        assert_eq!(remembered(&mut node, 0, here, None), [5.0]);
+    fn a_load_is_remembered_where_it_was_set_down() {
+        let mut node = RememberContainers::construct((0.7, 10.0));
+        let mut at = |second, x, load: Option<f32>, seen: Option<Container>| -> Vec<f32, 16> {
+            let (load, mut out) = (load.map(|x| Pose2::new(x, 0.0, 0.0)), Out::new());
+            let ctx = Ctx::new(Time::from_secs(second));
+            node.process(&ctx, seen.as_ref(), load.as_ref(), &Pose2::new(x, 0.0, 0.0), &mut out);
+            out.get().expect("containers").poses.iter().map(|pose| pose.x).collect()
+        };
+        assert_eq!(at(0, 0.0, None, Some(CONTAINER)), [2.0]);
+        assert!(at(5, 2.3, Some(-0.3), Some(Container { pose: Pose2::new(-0.2, 0.0, 0.0), ..CONTAINER })).is_empty());
+        assert!(at(6, 7.3, Some(-0.3), None).is_empty());
+        assert_eq!(at(7, 7.3, None, None), [7.0]);
+        assert_eq!(at(8, 9.0, None, None), [7.0]);
     }
 
     #[test]
     fn too_many_and_what_is_no_number() {
-        let mut node = RememberContainers::construct((0.7, 60.0, 1.8));
+        let mut node = RememberContainers::construct((0.7, 60.0));
         for x in 0..40 {
             remembered(&mut node, 0, Pose2::new(x as f32, 0.0, 0.0), Some(CONTAINER.pose));
         }
