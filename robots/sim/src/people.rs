@@ -24,7 +24,10 @@ const BEHIND: f32 = 0.3;
 /// Distance of the point on the path that a person walks to, in m.
 const AHEAD: f32 = 0.6;
 /// Time without progress after which a person walks elsewhere, in s.
-const STUCK: f32 = 6.0;
+const STUCK: f32 = 3.0;
+/// Distance up to which a person sees vehicles in its way, and distance that its path keeps from them, in m.
+const SIGHT: f32 = 6.0;
+const APART: f32 = 0.3;
 /// Probability that a person goes to another one who stands.
 const JOINS: f32 = 0.35;
 /// Probability that a person stops on the way, per s.
@@ -59,6 +62,8 @@ pub struct Pedestrian {
 pub struct Crowd {
     people: Vec<Pedestrian>,
     free: Grid<Occupancy>,
+    /// Map for a path, with the vehicles that a person sees.
+    seen: Grid<Occupancy>,
     places: Vec<Cell>,
     planner: Planner,
     random: Random,
@@ -70,7 +75,8 @@ impl Crowd {
     pub fn new(free: Grid<Occupancy>, count: usize, seed: u64) -> Self {
         let places: Vec<Cell> =
             free.iter().filter(|(_, cell)| **cell == Occupancy::Free).map(|(cell, _)| cell).collect();
-        let mut crowd = Self { people: vec![], free, places, planner: Planner::default(), random: Random::new(seed) };
+        let (seen, planner, random) = (Grid::default(), Planner::default(), Random::new(seed));
+        let mut crowd = Self { people: vec![], free, seen, places, planner, random };
         if !crowd.places.is_empty() {
             crowd.people = (0..count).map(|_| crowd.appear()).collect();
         }
@@ -85,7 +91,7 @@ impl Crowd {
     /// Moves all people for `dt` s. They keep away from `vehicles`.
     pub fn step(&mut self, dt: f32, vehicles: &[Footprint]) {
         for i in 0..self.people.len() {
-            let wanted = self.wanted(i, dt);
+            let wanted = self.wanted(i, dt, vehicles);
             let person = &self.people[i];
             let push = self.push(i, vehicles);
             let change = (wanted - person.velocity).scaled(1.0 / RELAXATION) + push;
@@ -129,7 +135,7 @@ impl Crowd {
     }
 
     /// Velocity that a person would like to have. Decides where the person goes, and when it stands.
-    fn wanted(&mut self, i: usize, dt: f32) -> Point2 {
+    fn wanted(&mut self, i: usize, dt: f32, vehicles: &[Footprint]) -> Point2 {
         let hesitates = self.random.chance(HESITATES * dt);
         let person = &mut self.people[i];
         if person.rest > 0.0 {
@@ -147,7 +153,7 @@ impl Crowd {
             if arrived {
                 self.stop(i);
             } else {
-                self.plan(i);
+                self.plan(i, vehicles);
             }
             return Point2::default();
         };
@@ -177,8 +183,9 @@ impl Crowd {
         }
     }
 
-    /// Plans a path to a person who stands, or to a random place.
-    fn plan(&mut self, i: usize) {
+    /// Plans a path to a person who stands, or to a random place, around the vehicles.
+    fn plan(&mut self, i: usize, vehicles: &[Footprint]) {
+        self.look(i, vehicles);
         let start = self.people[i].pose;
         let others: Vec<Point2> = self
             .people
@@ -194,12 +201,30 @@ impl Crowd {
         } else {
             self.place()
         };
-        let terrain = Terrain { map: &self.free, costs: None, unknown_is_open: false };
+        let terrain = Terrain { map: &self.seen, costs: None, unknown_is_open: false };
         let person = &mut self.people[i];
         person.next = 0;
         let goal = Pose2::new(goal.x, goal.y, 0.0);
         if self.planner.plan(&terrain, &start, &goal, SMOOTHING, &mut person.path).is_err() {
             person.rest = 1.0;
+        }
+    }
+
+    /// Marks the vehicles that a person sees, but not the place where it is.
+    fn look(&mut self, i: usize, vehicles: &[Footprint]) {
+        let here = self.people[i].pose.position();
+        self.seen.clone_from(&self.free);
+        for vehicle in vehicles.iter().filter(|vehicle| vehicle.distance(here) <= SIGHT) {
+            let (middle, raster) = (vehicle.pose.position(), *self.seen.raster());
+            let reach = 0.5 * libm::hypotf(vehicle.length, vehicle.width) + APART;
+            let count = (reach / raster.resolution) as i32 + 1;
+            for (x, y) in (-count..=count).flat_map(|x| (-count..=count).map(move |y| (x, y))) {
+                let place = middle + Point2::new(x as f32, y as f32).scaled(raster.resolution);
+                if vehicle.distance(place) < APART && (place - here).norm() > APART {
+                    let cell = raster.cell(place).and_then(|cell| self.seen.get_mut(cell));
+                    cell.into_iter().for_each(|cell| *cell = Occupancy::Occupied);
+                }
+            }
         }
     }
 
@@ -314,6 +339,23 @@ mod tests {
             }
         }
         assert!(moved > 0.7 && contacts < 100, "{moved} m/s, {contacts}");
+    }
+
+    /// A vehicle stands in the gap between both halves of the room, which is as wide as it and 0.9 m more.
+    #[test]
+    fn people_walk_around_a_vehicle_that_stands_in_their_way() {
+        let vehicle = Footprint { pose: Pose2::new(6.0, 4.55, 0.0), length: 1.2, width: 0.9 };
+        let mut crowd = Crowd::new(room(), 6, 3);
+        let (mut passages, mut sides) = (0, [false; 6]);
+        for _ in 0..9000 {
+            crowd.step(0.02, &[vehicle]);
+            for (side, person) in sides.iter_mut().zip(crowd.people()) {
+                let is_right = person.pose.x > 6.0;
+                passages += usize::from(*side != is_right);
+                *side = is_right;
+            }
+        }
+        assert!(passages > 20, "{passages}");
     }
 
     #[test]
