@@ -8,9 +8,10 @@ use libm::fmaxf;
 
 /// Slows a robot down near persons (thesis 6.8), the more the nearer they are, also behind and beside it.
 ///
-/// Distances are those from the origin of the robot, or with a `trailer` from the line between both axes. `persons`,
-/// `pose` and `trailer` are in one frame. Without persons or a pose, for example before the first scan, the robot keeps
-/// to `min_speed`. It still moves with persons beside it: that it stops before them is the task of a safety field.
+/// Distances are those from the middle line of the robot: from `front` before its origin to `rear` behind it, or with a
+/// `trailer` over both axes to `rear` behind that of the trailer. `persons`, `pose` and `trailer` are in one frame.
+/// Without persons or a pose, for example before the first scan, the robot keeps to `min_speed`. It still moves with
+/// persons beside it: that it stops before them is the task of a safety field.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PersonCaution {
@@ -24,12 +25,21 @@ pub struct PersonCaution {
     /// stands.
     #[param(unit = "m/s", default = 0.15, range = 0.0..=10.0)]
     standing_speed: f32,
+    /// Distance up to which the speed is `min_speed` whether the person stands or walks: who stands may take a step.
+    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
+    beside: f32,
     /// Velocity from which on a person walks.
     #[param(unit = "m/s", default = 0.3, range = 0.0..=10.0)]
     walking: f32,
     /// Additional speed per metre of distance beyond `near`.
     #[param(unit = "1/s", default = 0.3, range = 0.0..=100.0)]
     gain: f32,
+    /// Distance from the origin to the front of the robot.
+    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
+    front: f32,
+    /// Distance from the origin, or from the axis of the trailer, back to the rear.
+    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
+    rear: f32,
 }
 
 #[node]
@@ -42,19 +52,27 @@ impl PersonCaution {
         persons: Option<&Persons>,
     ) -> Twist {
         let Some((pose, persons)) = pose.zip(persons) else { return twist.slowed_to(self.min_speed) };
-        let ends = [pose, trailer.unwrap_or(pose)].map(|pose| pose.position());
+        let line = self.middle_line(pose, trailer.unwrap_or(pose));
         let speeds = persons.iter().map(|person| {
-            let walks = person.velocity.norm() >= self.walking;
-            let least = if walks { self.min_speed } else { fmaxf(self.min_speed, self.standing_speed) };
-            least + self.gain * fmaxf(distance(person.position, ends) - self.near, 0.0)
+            let distance = distance(person.position, &line);
+            let stands = person.velocity.norm() < self.walking && distance >= self.beside;
+            let least = if stands { fmaxf(self.min_speed, self.standing_speed) } else { self.min_speed };
+            least + self.gain * fmaxf(distance - self.near, 0.0)
         });
         twist.slowed_to(speeds.fold(f32::INFINITY, f32::min))
     }
+
+    /// Line from the front of the robot over both axes to the rear.
+    fn middle_line(&self, pose: &Pose2, trailer: &Pose2) -> [Point2; 4] {
+        let on_axis = |axis: &Pose2, x| axis.to_outer(Point2::new(x, 0.0));
+        [on_axis(pose, self.front), pose.position(), trailer.position(), on_axis(trailer, -self.rear)]
+    }
 }
 
-/// Distance of a point from the line between two others.
-fn distance(point: Point2, [a, b]: [Point2; 2]) -> f32 {
-    (point - nearest_on(a, b, point)).norm()
+/// Distance of a point from a line through others.
+fn distance(point: Point2, line: &[Point2]) -> f32 {
+    let parts = line.windows(2).map(|ends| (point - nearest_on(ends[0], ends[1], point)).norm());
+    parts.fold(f32::INFINITY, f32::min)
 }
 
 #[cfg(test)]
@@ -65,7 +83,7 @@ mod tests {
 
     #[test]
     fn it_is_slow_near_persons() {
-        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.3, 0.4));
+        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.0, 0.3, 0.4, 0.0, 0.0));
         let (twist, pose) = (Twist::new(1.0, 0.0, 0.5), Pose2::new(1.0, 1.0, 2.0));
         let mut at = |persons: &[(f32, f32)]| {
             let persons: Persons =
@@ -83,7 +101,7 @@ mod tests {
 
     #[test]
     fn persons_beside_the_trailer_are_near() {
-        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.3, 0.4));
+        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.0, 0.3, 0.4, 0.0, 0.0));
         let (twist, pose, trailer) = (Twist::new(1.0, 0.0, 0.0), Pose2::default(), Pose2::new(-0.7, 0.0, 0.0));
         let persons: Persons =
             core::iter::once(Person { position: Point2::new(-0.6, 0.7), ..Person::default() }).collect();
@@ -93,13 +111,14 @@ mod tests {
     }
 
     #[test]
-    fn persons_who_stand_are_passed_faster() {
-        let mut node = PersonCaution::construct((0.5, 0.1, 0.3, 0.2, 0.4));
-        let mut speed = |velocity: f32| {
-            let velocity = Point2::new(0.0, velocity);
-            let persons: Persons = core::iter::once(Person { velocity, ..Person::default() }).collect();
+    fn persons_who_stand_are_passed_faster_unless_they_are_close() {
+        let mut node = PersonCaution::construct((0.5, 0.1, 0.3, 0.2, 0.2, 0.4, 0.3, 0.2));
+        let mut speed = |x: f32, velocity: f32| {
+            let (position, velocity) = (Point2::new(x, 0.0), Point2::new(0.0, velocity));
+            let persons: Persons = core::iter::once(Person { position, velocity, ..Person::default() }).collect();
             node.process(&Twist::new(1.0, 0.0, 0.0), Some(&Pose2::default()), None, Some(&persons)).x
         };
-        assert_eq!([speed(0.1), speed(-0.5)], [0.3, 0.1]);
+        assert_eq!([speed(0.6, 0.1), speed(0.6, -0.5), speed(0.45, 0.1)], [0.3, 0.1, 0.1]);
+        assert_eq!([speed(-0.5, 0.1), speed(-0.35, 0.1)], [0.3, 0.1]);
     }
 }

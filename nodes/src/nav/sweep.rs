@@ -40,9 +40,12 @@ pub struct SweepStop {
     /// Width of the vehicle.
     #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
     width: f32,
-    /// Distance kept from hazards at the sides and, at a stop, ahead.
+    /// Distance kept from hazards at the sides and, at a stop, from the floor that is not known and behind.
     #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
     margin: f32,
+    /// Distance kept from obstacles ahead at a stop. Of a long thing only the thicker end may be on the map.
+    #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
+    ahead: f32,
     /// Deceleration of the vehicle.
     #[param(unit = "m/s^2", default = 0.6, range = 0.01..=100.0)]
     deceleration: f32,
@@ -87,17 +90,18 @@ impl SweepStop {
         if !(twist.is_finite() && base.is_usable() && trailer.is_usable()) {
             return Twist::ZERO;
         }
-        let gap = self.gap(map, twist, [*base, *trailer]) - self.margin;
+        let gap = self.gap(map, twist, [*base, *trailer]);
         twist.stoppable(gap, self.deceleration)
     }
 
-    /// Distance that the vehicle can drive before it sweeps something that is not free, in m.
+    /// Distance that the vehicle can drive before it is too near to something that is not free, in m.
     fn gap(&self, map: &Grid<Occupancy>, twist: &Twist, now: Axes) -> f32 {
         if twist.x == 0.0 {
             return f32::INFINITY;
         }
         let (curvature, step) = (twist.omega / twist.x, STEP.copysign(twist.x));
         let count = (self.look_ahead / STEP) as u16;
+        let kept = if twist.x > 0.0 { self.ahead } else { self.margin };
         let (mut base, mut heading) = (now[0], now[1].theta);
         let mut unseen = f32::INFINITY;
         for k in 1..=count {
@@ -107,10 +111,10 @@ impl SweepStop {
             let axes = [base, self.shape().trailer(&base, heading)];
             let free = f32::from(k - 1) * STEP;
             if self.meets(map, &axes, &now, twist.x < 0.0) {
-                return fminf(free, unseen);
+                return fminf(free - kept, unseen);
             }
             if unseen.is_infinite() && twist.x > 0.0 && self.is_unseen(map, &axes, &now) {
-                unseen = fmaxf(free - (self.near - self.front), 0.0);
+                unseen = fmaxf(free - (self.near - self.front), 0.0) - self.margin;
             }
         }
         unseen
@@ -208,7 +212,7 @@ mod tests {
     use core::f32::consts::FRAC_PI_2;
 
     fn node() -> SweepStop {
-        SweepStop::construct((0.25, 0.1, 0.55, 0.15, 0.4, 0.05, 0.5, 1.0, 0.4, 1.0, 0.6))
+        SweepStop::construct((0.25, 0.1, 0.55, 0.15, 0.4, 0.05, 0.05, 0.5, 1.0, 0.4, 1.0, 0.6))
     }
 
     /// Floor of 6 m × 6 m about the origin with one cell that is not free.
@@ -249,6 +253,22 @@ mod tests {
                 assert_eq!(speed((x, y), Occupancy::Occupied, twist), speed_of, "at {x}, {y}");
             }
         }
+    }
+
+    #[test]
+    fn it_keeps_more_distance_from_what_is_ahead() {
+        let map = floor(Point2::new(1.0, 0.0), Occupancy::Occupied);
+        let stop = |ahead| {
+            let (mut node, mut x) = (SweepStop { ahead, ..node() }, 0.0);
+            for step in 0..300 {
+                let (base, ctx) = (Pose2::new(x, 0.0, 0.0), Ctx::new(Time::from_millis(80 * step)));
+                let trailer = Articulated::PATSY.trailer(&base, 0.0);
+                x += 0.08 * node.process(&ctx, &Twist::new(0.8, 0.0, 0.0), Some(&map), &base, &trailer).x;
+            }
+            x
+        };
+        let [near, far] = [stop(0.05), stop(0.25)];
+        assert!((0.6..=0.75).contains(&near) && (near - far - 0.2).abs() < 0.06, "{near} m, {far} m");
     }
 
     /// The camera sees neither floor nor a bottom there, and no longer the nearest part of it.
