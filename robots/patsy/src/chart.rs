@@ -5,8 +5,8 @@ use std::{fs, io, path::Path};
 
 /// Width and height of a panel, in pixels.
 const SIZE: (u32, u32) = (480, 340);
-/// Part of the height that is left free above the highest point.
-const HEADROOM: f32 = 0.1;
+/// Part of the height that is left free above the highest point, for the legend.
+const HEADROOM: f32 = 0.35;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;

@@ -94,13 +94,22 @@ impl RangeTable {
     /// Distance up to which a class is detected in this share of the trials at each distance, in m, from the nearest
     /// one at which it is in view.
     pub fn range(&self, class: usize, share: f64) -> Option<f32> {
+        self.range_of(class, share, |trial| trial.detected)
+    }
+
+    /// Distance up to which enough points show a class for it to be detected, in this share of the trials, in m.
+    pub fn limit(&self, class: usize, share: f64) -> Option<f32> {
+        self.range_of(class, share, |trial| trial.shown)
+    }
+
+    fn range_of(&self, class: usize, share: f64, points: impl Fn(&Trial) -> usize) -> Option<f32> {
         let is_out_of_view = |distance: &f32| self.at(class, *distance).all(|trial| trial.shown < LEAST_POINTS);
-        let is_detected = |distance: &f32| {
+        let is_enough = |distance: &f32| {
             let trials = self.at(class, *distance);
-            let detected = trials.clone().filter(|trial| trial.detected >= LEAST_POINTS).count();
-            detected as f64 >= share * trials.count() as f64
+            let enough = trials.clone().filter(|trial| points(trial) >= LEAST_POINTS).count();
+            enough as f64 >= share * trials.count() as f64
         };
-        RangeClass::distances().skip_while(is_out_of_view).take_while(is_detected).last()
+        RangeClass::distances().skip_while(is_out_of_view).take_while(is_enough).last()
     }
 }
 
@@ -123,15 +132,19 @@ impl RangeTable {
 impl fmt::Display for RangeTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let shown = [0, 3, 8, 13, 21].map(|i| NEAREST + SPACING * i as f32);
-        write!(f, "{:<16}{:>12}{:>10}{:>10}   median points at", "detected up to", "9 of 10", "half", "thesis")?;
+        let head = ["9 of 10", "half", "thesis", "10 points shown"];
+        write!(
+            f,
+            "{:<16}{:>12}{:>10}{:>10}{:>18}   median points at",
+            "detected up to", head[0], head[1], head[2], head[3]
+        )?;
         shown.iter().try_for_each(|distance| write!(f, "{distance:>7.1} m"))?;
         for (class, RangeClass { name, thesis, .. }) in RANGES.iter().enumerate() {
             write!(f, "\n{name:<16}")?;
-            for (share, width) in [(RELIABLE, 12), (0.5, 10)] {
-                let range = self.range(class, share).map_or_else(|| "–".to_owned(), |range| format!("{range:.1} m"));
-                write!(f, "{range:>width$}")?;
-            }
-            write!(f, "{thesis:>8.1} m{:>19}", "")?;
+            let text = |range: Option<f32>| range.map_or_else(|| "–".to_owned(), |range| format!("{range:.1} m"));
+            let [reliable, half] = [RELIABLE, 0.5].map(|share| text(self.range(class, share)));
+            let limit = text(self.limit(class, RELIABLE));
+            write!(f, "{reliable:>12}{half:>10}{thesis:>8.1} m{limit:>18}{:>19}", "")?;
             shown.iter().try_for_each(|distance| write!(f, "{:>9}", self.median(class, *distance)))?;
         }
         Ok(())
@@ -151,6 +164,7 @@ mod tests {
         let table = RangeTable { trials: RangeClass::distances().flat_map(|d| [trial(d); 4]).collect() };
         let range = table.range(0, RELIABLE);
         assert!(range.is_some_and(|range| (range - 1.9).abs() < 1e-4), "{range:?}");
+        assert_eq!(table.limit(0, RELIABLE), range);
         let figure = table.figure();
         assert_eq!((figure.curves.len(), figure.curves[0].points[4]), (4, [NEAREST + 4.0 * SPACING, 12.0]));
         assert_eq!((table.range(1, RELIABLE), table.median(0, NEAREST + 4.0 * SPACING)), (None, 12));
