@@ -3,6 +3,7 @@
 mod drive;
 mod estimate;
 mod planner;
+mod states;
 mod way;
 
 pub use drive::{CurveDrive, Floor, Ground};
@@ -13,21 +14,18 @@ use super::{
     NoPath, Terrain,
     payload::dubins::{Curve, advanced, curves},
 };
-use crate::{
-    map::Raster,
-    scan::{Point2, Pose2},
-};
-use core::{cmp::Ordering, f32::consts::TAU};
+use crate::scan::{Point2, Pose2};
+use core::cmp::Ordering;
 use drive::{CHECK, Drive};
 use estimate::Estimates;
+use states::States;
 use std::collections::BinaryHeap;
 
-/// Number of headings of the states.
-const HEADINGS: usize = 32;
 /// Side of a state, in m.
 const SIDE: f32 = 0.2;
-/// Length of a step, in m.
+/// Length of a step, in m, and of one near the start of a fine search.
 const STEP: f32 = 0.3;
+const FINE_STEP: f32 = 0.1;
 /// Curvatures of the steps, in parts of the sharpest one.
 const STEERING: [f32; 5] = [0.0, 0.5, -0.5, 1.0, -1.0];
 /// Additional cost per metre of the sharpest curve, and of a change from straight to that curve, in m.
@@ -36,8 +34,8 @@ const BENDING: [f32; 2] = [0.15, 0.1];
 const BENDS: [f32; 5] = [0.0, 0.35, -0.35, 0.7, -0.7];
 /// Cost per metre backward, and of each change of the direction, in m.
 const BACKWARD: [f32; 2] = [2.0, 1.0];
-/// Additional cost per radian of the angle to the trailer in a step backward, and of its change, in m.
-const ANGLED: [f32; 2] = [0.1, 0.3];
+/// Additional cost per metre backward and radian of the angle to the trailer, and per radian of its change, in m.
+const ANGLED: [f32; 2] = [0.33, 0.3];
 /// Estimated distance from the goal at which it is tried to get there by one curve, in m, and number of expansions
 /// between such tries.
 const NEAR: f32 = 4.0;
@@ -50,7 +48,9 @@ const NONE: u32 = u32::MAX;
 /// Planner for vehicles that drive in curves of a smallest radius: A* on states of position and heading, with arcs as
 /// steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A passively steered trailer is predicted on the
 /// way. Vehicles that may back up do so with a constant angle to the trailer in each step, as `BackFollower` does. The
-/// heuristic is the length of the shortest way on the map without regard to the heading. Keeps its buffers.
+/// heuristic is the length of the shortest way on the map without regard to the heading. A vehicle that backs up but
+/// does not get away from a narrow place is given a second search, with shorter steps and smaller states near the start.
+/// Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct CurveSearch {
     estimates: Estimates,
@@ -59,8 +59,7 @@ pub struct CurveSearch {
     open: BinaryHeap<Open>,
     /// Places of the trailer at the start.
     stands: Vec<Point2>,
-    /// Least cost with which a state was expanded.
-    best: Vec<f32>,
+    states: States,
 }
 
 /// State on a way.
@@ -70,6 +69,8 @@ struct Node {
     /// Heading of the trailer, in rad.
     trailer: f32,
     cost: f32,
+    /// Length of the way to it from the node before, in m.
+    length: f32,
     /// Curvature of the way to it, in 1/m; 0 if that was backward.
     curvature: f32,
     /// Angle to the trailer on the way to it if that was backward, in rad.
@@ -122,24 +123,41 @@ impl CurveSearch {
     ) -> Result<Way, NoPath> {
         check(&ground.terrain, &start.pose, goals)?;
         self.estimates.run(&ground.terrain, goals);
-        self.begin(vehicle, start);
+        let way = self.search(ground, vehicle, start, goals, false);
+        match way {
+            Err(expanded) if expanded < MOST && vehicle.backs_up() => self.search(ground, vehicle, start, goals, true),
+            way => way,
+        }
+        .map_err(|_| NoPath::Unreachable)
+    }
+
+    /// Searches for a way. Otherwise, returns the number of expanded states.
+    fn search(
+        &mut self,
+        ground: &Ground<'_>,
+        vehicle: &CurveDrive,
+        start: &Start,
+        goals: &[Goal],
+        is_fine: bool,
+    ) -> Result<Way, usize> {
+        self.begin(vehicle, start, is_fine);
         let mut expanded = 0;
         while let Some(Open { node: at, .. }) = self.open.pop() {
             let node = self.nodes[at as usize];
             if let Some(ending) = node.ending {
                 return Ok(self.trace(at, self.endings[ending as usize]));
             }
-            let Some(state) = self.state(&node.pose) else { continue };
-            if self.best[state] <= node.cost {
+            let Some(best) = self.states.best(&node.pose, node.trailer).filter(|best| node.cost < **best) else {
                 continue;
-            }
-            self.best[state] = node.cost;
+            };
+            *best = node.cost;
             expanded += 1;
             if expanded > MOST {
                 break;
             }
+            let step = self.states.step(&node.pose);
             if vehicle.backs_up() {
-                BENDS.iter().for_each(|bend| self.step_back(ground, vehicle, at, *bend));
+                BENDS.iter().for_each(|bend| self.step_back(ground, vehicle, at, (*bend, step)));
             }
             if start.is_back && node.before == NONE {
                 continue;
@@ -147,57 +165,50 @@ impl CurveSearch {
             if self.estimates.at(node.pose.position()) < NEAR || expanded % TRIES == 1 {
                 goals.iter().for_each(|goal| self.try_to_end(ground, vehicle, at, goal));
             }
-            STEERING.iter().for_each(|steering| self.step(ground, vehicle, at, steering / vehicle.radius));
+            STEERING.iter().for_each(|steering| self.step(ground, vehicle, at, (steering / vehicle.radius, step)));
         }
-        Err(NoPath::Unreachable)
+        Err(expanded)
     }
 
-    fn begin(&mut self, vehicle: &CurveDrive, start: &Start) {
+    fn begin(&mut self, vehicle: &CurveDrive, start: &Start, is_fine: bool) {
         let Start { pose, trailer, .. } = *start;
         self.stands.clear();
         self.stands.extend(vehicle.places(&pose, trailer));
         self.nodes.clear();
         self.endings.clear();
         self.open.clear();
-        self.best.clear();
-        let Raster { width, height, .. } = *self.estimates.raster();
-        self.best.resize(width * height * HEADINGS, f32::INFINITY);
-        self.nodes.push(Node { pose, trailer, cost: 0.0, curvature: 0.0, back: None, before: NONE, ending: None });
+        self.states.reset(self.estimates.raster(), is_fine.then_some(pose.position()));
+        let first =
+            Node { pose, trailer, cost: 0.0, length: 0.0, curvature: 0.0, back: None, before: NONE, ending: None };
+        self.nodes.push(first);
         self.open.push(Open { estimate: 0.0, node: 0 });
     }
 
-    /// Index of the state of a pose.
-    fn state(&self, pose: &Pose2) -> Option<usize> {
-        let cell = self.estimates.raster().cell(pose.position())?;
-        let turn = libm::floorf(pose.theta / TAU * HEADINGS as f32 + 0.5);
-        let heading = (turn as i32).rem_euclid(HEADINGS as i32) as usize;
-        Some((cell.y * self.estimates.raster().width + cell.x) * HEADINGS + heading)
-    }
-
-    fn step(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, curvature: f32) {
+    fn step(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, (curvature, length): (f32, f32)) {
         let node = self.nodes[before as usize];
         let drive = Drive { ground, vehicle, stands: &self.stands };
-        let Some((length, trailer)) = drive.arc(&node.pose, node.trailer, curvature, STEP) else { return };
+        let Some((way, trailer)) = drive.arc(&node.pose, node.trailer, curvature, length) else { return };
         let bend = [curvature.abs(), (curvature - node.curvature).abs()].map(|c| c * vehicle.radius);
-        let cost = node.cost + length + BENDING[0] * STEP * bend[0] + BENDING[1] * bend[1] + node.turn(false);
-        let pose = advanced(&node.pose, curvature, STEP);
-        self.add(Node { pose, trailer, cost, curvature, back: None, before, ending: None });
+        let cost = node.cost + way + BENDING[0] * length * bend[0] + BENDING[1] * bend[1] + node.turn(false);
+        let pose = advanced(&node.pose, curvature, length);
+        self.add(Node { pose, trailer, cost, length, curvature, back: None, before, ending: None });
     }
 
-    fn step_back(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, bend: f32) {
+    fn step_back(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, (bend, length): (f32, f32)) {
         let node = self.nodes[before as usize];
         let drive = Drive { ground, vehicle, stands: &self.stands };
-        let Some((length, pose, trailer)) = drive.back(&node.pose, node.trailer, bend, STEP) else { return };
+        let Some((way, pose, trailer)) = drive.back(&node.pose, node.trailer, bend, length) else { return };
         let angles = [bend.abs(), (bend - node.back.unwrap_or(0.0)).abs()];
-        let angled = ANGLED[0] * angles[0] + ANGLED[1] * angles[1];
-        let cost = node.cost + BACKWARD[0] * length + angled + node.turn(true);
-        self.add(Node { pose, trailer, cost, curvature: 0.0, back: Some(bend), before, ending: None });
+        let angled = ANGLED[0] * length * angles[0] + ANGLED[1] * angles[1];
+        let cost = node.cost + BACKWARD[0] * way + angled + node.turn(true);
+        self.add(Node { pose, trailer, cost, length, curvature: 0.0, back: Some(bend), before, ending: None });
     }
 
     /// Adds a node, unless its state was reached at a lower cost.
     fn add(&mut self, node: Node) {
-        let (Some(state), rest) = (self.state(&node.pose), self.estimates.at(node.pose.position())) else { return };
-        if rest.is_finite() && node.cost < self.best[state] {
+        let rest = self.estimates.at(node.pose.position());
+        let is_best = self.states.best(&node.pose, node.trailer).is_some_and(|best| node.cost < *best);
+        if rest.is_finite() && is_best {
             self.open.push(Open { estimate: node.cost + rest, node: self.nodes.len() as u32 });
             self.nodes.push(node);
         }
@@ -263,10 +274,10 @@ fn check(terrain: &Terrain<'_>, start: &Pose2, goals: &[Goal]) -> Result<(), NoP
 mod tests {
     use super::*;
     use crate::{
-        map::{Cell, Grid, Occupancy},
+        map::{Cell, Grid, Occupancy, Raster},
         nav::{Articulated, BackPath, Path, payload::Backing},
     };
-    use core::f32::consts::{FRAC_PI_2, PI};
+    use core::f32::consts::{FRAC_PI_2, PI, TAU};
 
     const VEHICLE: CurveDrive = CurveDrive { radius: 0.8, shape: Articulated::PATSY, body: &[], backing_gain: 0.0 };
 
@@ -376,6 +387,25 @@ mod tests {
         let (section, path, back) = search(&terrain, &loaded, &at(base, heading), &goals).expect("a way");
         assert_eq!((section, back), (Section::ToGoal, BackPath::default()), "from {base:?}");
         assert_eq!(path.goal(), Some(goals[0].pose.position()));
+    }
+
+    /// Across in a corridor in which the middle of the vehicle and its load may be 1.2 m apart.
+    #[test]
+    fn a_vehicle_turns_in_a_narrow_place_in_short_steps() {
+        let raster = Raster { corner: Point2::new(0.0, -1.0), resolution: 0.1, width: 160, height: 20 };
+        let mut map = Grid::new(raster, Occupancy::Occupied).expect("small");
+        for (x, y) in (0..160).flat_map(|x| (4..16).map(move |y| (x, y))) {
+            *map.get_mut(Cell::new(x, y)).expect("inside") = Occupancy::Free;
+        }
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let goals = [free(Pose2::new(2.0, 0.0, PI)), free(Pose2::new(14.0, 0.0, 0.0))];
+        let vehicle = CurveDrive { body: &[0.0, 0.4, 0.8], backing_gain: 2.5, ..VEHICLE };
+        for turn in [0.7, 1.1] {
+            let heading = FRAC_PI_2 * turn;
+            let start = Pose2::new(8.0, 0.1, heading);
+            let way = search(&terrain, &vehicle, &at(start, heading), &goals);
+            assert!(way.is_ok(), "{turn}");
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-use super::{CHECK, Node, STEP};
+use super::{CHECK, Node};
 use crate::{
     nav::{
         BackPath, BackPiece, Path,
@@ -58,11 +58,13 @@ impl Way {
         let count = 1 + self.nodes.iter().skip(1).take_while(is_same).count();
         let section = &self.nodes[..count];
         if is_back {
-            section.iter().filter_map(|node| node.back).for_each(|bend| back.add(BackPiece { bend, length: STEP }));
+            let pieces = section.iter().filter_map(|node| Some(BackPiece { bend: node.back?, length: node.length }));
+            pieces.for_each(|piece| back.add(piece));
             return Section::Back;
         }
         for pair in section.windows(2) {
-            path.points.extend(places(STEP).map(|s| advanced(&pair[0].pose, pair[1].curvature, s).position()));
+            path.points
+                .extend(places(pair[1].length).map(|s| advanced(&pair[0].pose, pair[1].curvature, s).position()));
         }
         let is_whole = count == self.nodes.len();
         let end = if is_whole { self.goal } else { section[count - 1].pose };
