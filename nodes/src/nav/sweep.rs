@@ -150,10 +150,13 @@ impl SweepStop {
             || self.comes_near(map, axes, now)
     }
 
-    /// Returns `true` if a part of the vehicle is where the camera sees no floor, though it should.
+    /// Returns `true` if a part of the vehicle is where the camera sees no floor, though it should, or a cell beside
+    /// that: a wheel at the edge of a pit falls into it.
     fn is_unseen(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes) -> bool {
         let is_known = |point| matches!(map.at(point), Some(Occupancy::Free | Occupancy::Occupied));
-        self.any_point(axes, 0.0, |point| !is_known(point) && self.is_in_view(now[0].to_inner(point)))
+        self.any_point(axes, map.raster().resolution, |point| {
+            !is_known(point) && self.is_in_view(now[0].to_inner(point))
+        })
     }
 
     /// Returns `true` if an obstacle is within the margin at the sides that is not near already: else the vehicle could
@@ -274,7 +277,7 @@ mod tests {
     /// The camera sees neither floor nor a bottom there, and no longer the nearest part of it.
     #[test]
     fn it_stops_before_a_pit_that_was_not_seen() {
-        for side in [-0.3, 0.12] {
+        for side in [-0.3, 0.12, 0.22] {
             let mut map = floor(Point2::default(), Occupancy::Free);
             let cells: Vec<Cell> = map.iter().map(|(cell, _)| cell).collect();
             for cell in cells {
