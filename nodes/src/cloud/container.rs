@@ -82,8 +82,8 @@ impl VerifyContainer {
         Some(Container { pose: container.pose.compose(&refined), ..*container })
     }
 
-    /// Splits the points near the container at the height of the body (eqs. 6.19 to 6.21): keeps those of the body and of
-    /// its lower edge, and counts the others. `None` if nothing is near.
+    /// Splits the points near the container at the height of the body (eqs. 6.19 to 6.21): keeps those of the body and
+    /// of its lower edge, and counts the others. `None` if nothing is near.
     fn collect(&mut self, columns: &Columns, clusters: &Clusters, pose: &Pose2) -> Option<Counts> {
         self.upper.clear();
         self.edge.clear();
@@ -126,8 +126,8 @@ impl VerifyContainer {
         counts
     }
 
-    /// Pose of the body in the frame of the prior pose: the least-squares fit of its near face and its sides, and of the
-    /// prior pose, from the pose `start`.
+    /// Pose of the body in the frame of the prior pose: the least-squares fit of its near face and its sides, and of
+    /// the prior pose, from the pose `start`.
     fn refine(&self, start: Pose2) -> Pose2 {
         let mut pose = start;
         let stride = self.upper.len() / MAX_FITTED + 1;

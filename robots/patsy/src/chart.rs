@@ -14,7 +14,7 @@ type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
 /// Axes with curves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// What is drawn to the right and upward, with units.
+    /// Names of the values to the right and upward, with units.
     pub axes: [String; 2],
     /// The upward axis shows powers of ten, from 1 on.
     pub is_logarithmic: bool,
