@@ -83,6 +83,8 @@ pub struct ClusterCloud {
 #[derive(Debug, Clone, Default)]
 struct Grid {
     size: [usize; 3],
+    /// Number of voxels along each side that may have points.
+    limits: [f32; 3],
     /// Number of the voxel among those with points, plus 1, for each cell; 0 without points.
     cells: Vec<u32>,
     /// Cells with points.
@@ -144,10 +146,12 @@ impl ClusterCloud {
             indices.push(if is_kept { kept } else { NONE });
             kept += u32::from(is_kept);
         }
-        members.retain_mut(|member| {
-            member.cluster = indices[member.cluster as usize];
-            member.cluster != NONE
-        });
+        if (kept as usize) < clusters.len() {
+            members.retain_mut(|member| {
+                member.cluster = indices[member.cluster as usize];
+                member.cluster != NONE
+            });
+        }
         let mut number = 0;
         clusters.retain(|_| {
             number += 1;
@@ -173,6 +177,7 @@ impl Cluster {
 
 impl Grid {
     fn reset(&mut self, size: [usize; 3]) {
+        self.limits = size.map(|side| side as f32);
         // A border of empty voxels, so that each one inside has 26 neighbours.
         let size = size.map(|side| side + 2);
         if self.size == size {
@@ -188,14 +193,13 @@ impl Grid {
 
     /// Number of the voxel of a point, in voxels, or `None` outside of the grid. The outermost voxels stay empty.
     fn add(&mut self, place: [f32; 3]) -> Option<u32> {
-        let mut cell = 0;
-        for (value, size) in place.into_iter().zip(self.size) {
-            // Also false for NaN.
-            if !(value >= 0.0 && value < (size - 2) as f32) {
-                return None;
-            }
-            cell = cell * size + value as usize + 1;
+        // Also false for NaN.
+        let is_inside = |k: usize| 0.0 <= place[k] && place[k] < self.limits[k];
+        if !(is_inside(0) && is_inside(1) && is_inside(2)) {
+            return None;
         }
+        let [x, y, z] = place.map(|value| value as u32 as usize + 1);
+        let cell = (x * self.size[1] + y) * self.size[2] + z;
         if self.cells[cell] == 0 {
             self.parents.push(self.used.len() as u32);
             self.used.push(cell);
