@@ -3,8 +3,14 @@ use crate::{
     persons::Persons,
     scan::{Point2, Pose2},
 };
-use apex_rt::node;
+use apex_rt::{Ctx, Time, node};
+use heapless::Vec;
 use libm::fmaxf;
+
+/// Maximum number of persons beside the robot that are remembered.
+const MAX_KEPT: usize = 8;
+/// Distance up to which a person is one that is remembered, in m.
+const SAME: f32 = 0.5;
 
 /// Slows a robot down near persons (thesis 6.8), the more the nearer they are, also behind and beside it.
 ///
@@ -28,6 +34,10 @@ pub struct PersonCaution {
     /// Distance up to which the speed is `min_speed` whether the person stands or walks: who stands may take a step.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     beside: f32,
+    /// Time for which a person that was so close counts although it is no longer among the persons: the robot itself, or
+    /// its load, often hides who stands beside it.
+    #[param(unit = "s", default = 0.0, range = 0.0..=60.0)]
+    memory: f32,
     /// Velocity from which on a person walks.
     #[param(unit = "m/s", default = 0.3, range = 0.0..=10.0)]
     walking: f32,
@@ -40,12 +50,21 @@ pub struct PersonCaution {
     /// Distance from the origin, or from the axis of the trailer, back to the rear.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     rear: f32,
+    kept: Vec<Kept, MAX_KEPT>,
+}
+
+/// Place of a person who was close to the robot, and when.
+#[derive(Debug, Clone, Copy)]
+struct Kept {
+    place: Point2,
+    seen: Time,
 }
 
 #[node]
 impl PersonCaution {
     fn process(
         &mut self,
+        ctx: &Ctx,
         twist: &Twist,
         pose: Option<&Pose2>,
         trailer: Option<&Pose2>,
@@ -53,13 +72,28 @@ impl PersonCaution {
     ) -> Twist {
         let Some((pose, persons)) = pose.zip(persons) else { return twist.slowed_to(self.min_speed) };
         let line = self.middle_line(pose, trailer.unwrap_or(pose));
+        self.keep(ctx.now(), persons, &line);
+        let is_beside = |kept: &Kept| distance(kept.place, &line) < self.beside;
+        let hidden = self.kept.iter().filter(|kept| is_beside(kept)).map(|_| self.min_speed);
         let speeds = persons.iter().map(|person| {
             let distance = distance(person.position, &line);
             let stands = person.velocity.norm() < self.walking && distance >= self.beside;
             let least = if stands { fmaxf(self.min_speed, self.standing_speed) } else { self.min_speed };
             least + self.gain * fmaxf(distance - self.near, 0.0)
         });
-        twist.slowed_to(speeds.fold(f32::INFINITY, f32::min))
+        twist.slowed_to(speeds.chain(hidden).fold(f32::INFINITY, f32::min))
+    }
+
+    /// Remembers the persons who are close, and forgets those who are seen again or were seen too long ago.
+    fn keep(&mut self, now: Time, persons: &Persons, line: &[Point2]) {
+        let memory = self.memory;
+        let is_seen = |kept: &Kept| persons.iter().any(|person| (person.position - kept.place).norm() < SAME);
+        self.kept.retain(|kept| now.since(kept.seen).as_secs_f32() < memory && !is_seen(kept));
+        let close = persons.iter().filter(|person| distance(person.position, line) < self.beside);
+        for person in close {
+            // Cannot matter if it is full: the robot is slow already.
+            let _ = self.kept.push(Kept { place: person.position, seen: now });
+        }
     }
 
     /// Line from the front of the robot over both axes to the rear.
@@ -83,42 +117,63 @@ mod tests {
 
     #[test]
     fn it_is_slow_near_persons() {
-        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.0, 0.3, 0.4, 0.0, 0.0));
+        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.0, 0.0, 0.3, 0.4, 0.0, 0.0));
         let (twist, pose) = (Twist::new(1.0, 0.0, 0.5), Pose2::new(1.0, 1.0, 2.0));
         let mut at = |persons: &[(f32, f32)]| {
             let persons: Persons =
                 persons.iter().map(|(x, y)| Person { position: Point2::new(*x, *y), ..Person::default() }).collect();
-            node.process(&twist, Some(&pose), None, Some(&persons))
+            node.process(&Ctx::new(Time::ZERO), &twist, Some(&pose), None, Some(&persons))
         };
         assert_eq!(at(&[]), twist);
         assert_eq!(at(&[(9.0, 1.0)]), twist);
         let near = at(&[(9.0, 1.0), (1.0, 2.0)]);
         assert!((near.x - 0.4).abs() < 1e-6 && (near.omega - 0.2).abs() < 1e-6, "{near:?}");
         assert!((at(&[(1.1, 1.0)]).x - 0.2).abs() < 1e-6);
-        assert!((node.process(&twist, Some(&pose), None, None).x - 0.2).abs() < 1e-6);
-        assert!((node.process(&twist, None, None, None).x - 0.2).abs() < 1e-6);
+        assert!((node.process(&Ctx::new(Time::ZERO), &twist, Some(&pose), None, None).x - 0.2).abs() < 1e-6);
+        assert!((node.process(&Ctx::new(Time::ZERO), &twist, None, None, None).x - 0.2).abs() < 1e-6);
     }
 
     #[test]
     fn persons_beside_the_trailer_are_near() {
-        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.0, 0.3, 0.4, 0.0, 0.0));
+        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.0, 0.0, 0.3, 0.4, 0.0, 0.0));
         let (twist, pose, trailer) = (Twist::new(1.0, 0.0, 0.0), Pose2::default(), Pose2::new(-0.7, 0.0, 0.0));
         let persons: Persons =
             core::iter::once(Person { position: Point2::new(-0.6, 0.7), ..Person::default() }).collect();
-        let mut speed = |trailer| node.process(&twist, Some(&pose), trailer, Some(&persons)).x;
+        let mut speed = |trailer| node.process(&Ctx::new(Time::ZERO), &twist, Some(&pose), trailer, Some(&persons)).x;
         assert!((speed(Some(&trailer)) - 0.28).abs() < 1e-6);
         assert!(speed(None) > 0.36);
     }
 
     #[test]
     fn persons_who_stand_are_passed_faster_unless_they_are_close() {
-        let mut node = PersonCaution::construct((0.5, 0.1, 0.3, 0.2, 0.2, 0.4, 0.3, 0.2));
+        let mut node = PersonCaution::construct((0.5, 0.1, 0.3, 0.2, 0.0, 0.2, 0.4, 0.3, 0.2));
         let mut speed = |x: f32, velocity: f32| {
             let (position, velocity) = (Point2::new(x, 0.0), Point2::new(0.0, velocity));
             let persons: Persons = core::iter::once(Person { position, velocity, ..Person::default() }).collect();
-            node.process(&Twist::new(1.0, 0.0, 0.0), Some(&Pose2::default()), None, Some(&persons)).x
+            node.process(
+                &Ctx::new(Time::ZERO),
+                &Twist::new(1.0, 0.0, 0.0),
+                Some(&Pose2::default()),
+                None,
+                Some(&persons),
+            )
+            .x
         };
         assert_eq!([speed(0.6, 0.1), speed(0.6, -0.5), speed(0.45, 0.1)], [0.3, 0.1, 0.1]);
         assert_eq!([speed(-0.5, 0.1), speed(-0.35, 0.1)], [0.3, 0.1]);
+    }
+
+    #[test]
+    fn a_person_whom_the_robot_hides_is_remembered() {
+        let mut node = PersonCaution::construct((0.5, 0.1, 0.3, 0.5, 2.0, 0.2, 0.4, 0.0, 0.0));
+        let mut speed = |ms, places: &[f32]| {
+            let person = |y: &f32| Person { position: Point2::new(0.0, *y), ..Person::default() };
+            let persons: Persons = places.iter().map(person).collect();
+            let ctx = Ctx::new(Time::from_millis(ms));
+            node.process(&ctx, &Twist::new(1.0, 0.0, 0.0), Some(&Pose2::default()), None, Some(&persons)).x
+        };
+        assert_eq!([speed(0, &[0.4]), speed(1900, &[]), speed(2100, &[])], [0.1, 0.1, 1.0]);
+        // One who has stepped aside is seen there, and one who was not close is not remembered.
+        assert_eq!([speed(3000, &[0.4]), speed(3100, &[0.5]), speed(3200, &[])], [0.1, 0.3, 1.0]);
     }
 }

@@ -167,8 +167,7 @@ pub fn table(rows: &[Row]) -> String {
 
 /// Mean absolute errors along and across by distance, in the scan alone and with the cloud (figure 6.24).
 pub fn figure(rows: &[Row]) -> Vec<Panel> {
-    let values: [(&str, fn(&Pose2) -> f32); 2] = [("x", |e| 100.0 * e.x), ("y", |e| 100.0 * e.y)];
-    let panel = |(name, value): (&str, fn(&Pose2) -> f32)| {
+    let panel = |name: &str, value: fn(&Pose2) -> f32| {
         let curve = |(method, name): (usize, &str)| {
             let points = rows.iter().map(|row| [row.distance, row.mean_error(method, value) as f32]);
             Curve { name: name.to_owned(), points: points.collect() }
@@ -177,7 +176,7 @@ pub fn figure(rows: &[Row]) -> Vec<Panel> {
         let curves = [(0, "2D"), (1, "2D and 3D")].map(curve).to_vec();
         Panel { axes, is_logarithmic: false, mark: None, curves }
     };
-    values.map(panel).to_vec()
+    vec![panel("x", |e| 100.0 * e.x), panel("y", |e| 100.0 * e.y)]
 }
 
 impl Row {
