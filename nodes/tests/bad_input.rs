@@ -3,7 +3,7 @@
 
 use apex_macros::graph;
 use apex_nodes::{
-    cloud::{CloudPoint, Clusters, Columns, HazardKind, Label, Labels, PointCloud},
+    cloud::{CloudPoint, Clusters, Columns, HazardKind, Label, Labels, Member, PointCloud},
     persons::{Detections, View},
     scan::{Container, Point2, Pose2},
 };
@@ -146,12 +146,14 @@ fn pairs() -> Vec<(&'static str, Columns, Labels)> {
 #[test]
 fn points_and_labels_of_different_sizes_give_nothing() {
     for (name, points, labels) in pairs() {
-        for members in [points.len(), 30, 0] {
+        for count in [points.len(), 30, 0] {
             let mut apart = Apart::new();
             let inputs = apart.inputs();
             inputs.points.put(points.clone()).expect("room");
             inputs.labels.put(labels.clone()).expect("room");
-            inputs.groups.put(Clusters { clusters: vec![], members: vec![0; members] }).expect("room");
+            // Members that the columns do not have.
+            let members = vec![Member { point: u32::MAX, cluster: 0 }; count];
+            inputs.groups.put(Clusters { clusters: vec![], members, points: count }).expect("room");
             inputs.pose.put(Pose2::default()).expect("room");
             inputs.expected.put(container(Pose2::new(0.3, 0.0, 0.0))).expect("room");
             apart.react(Time::ZERO);

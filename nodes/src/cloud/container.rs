@@ -90,8 +90,9 @@ impl VerifyContainer {
         let mut counts = Counts::default();
         let (sin, cos) = libm::sincosf(pose.theta);
         let (x, y) = (0.5 * self.length + REACH, 0.5 * self.width + REACH);
-        for member in &clusters.members {
-            let i = member.point as usize;
+        // Members of other columns, such as those of a broken recording, are left out.
+        let indices = clusters.members.iter().map(|member| member.point as usize);
+        for i in indices.filter(|i| *i < columns.len()) {
             let d = Point2::new(columns.x[i] - pose.x, columns.y[i] - pose.y);
             let p = Point2::new(cos * d.x + sin * d.y, cos * d.y - sin * d.x);
             if fabsf(p.x) > x || fabsf(p.y) > y {
