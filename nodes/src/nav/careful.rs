@@ -34,8 +34,8 @@ pub struct PersonCaution {
     /// Distance up to which the speed is `min_speed` whether the person stands or walks: who stands may take a step.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     beside: f32,
-    /// Time for which a person that was so close counts although it is no longer among the persons: the robot itself, or
-    /// its load, often hides who stands beside it.
+    /// Time for which a person that was so close counts although it is no longer among the persons: the robot itself,
+    /// or its load, often hides who stands beside it.
     #[param(unit = "s", default = 0.0, range = 0.0..=60.0)]
     memory: f32,
     /// Velocity from which on a person walks.
