@@ -40,7 +40,7 @@ pub struct SweepStop {
     /// Width of the vehicle.
     #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
     width: f32,
-    /// Distance kept from hazards at the sides and, at a stop, from the floor that is not known and behind.
+    /// Distance kept from hazards at the sides and behind, and from floor ahead that is not known.
     #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
     margin: f32,
     /// Distance kept from obstacles ahead at a stop. Of a long thing only the thicker end may be on the map.

@@ -157,7 +157,7 @@ impl CurveSearch {
             }
             let step = self.states.step(&node.pose);
             if vehicle.backs_up() {
-                BENDS.iter().for_each(|bend| self.step_back(ground, vehicle, at, (*bend, step)));
+                BENDS.iter().for_each(|bend| self.step_back(ground, vehicle, at, *bend, step));
             }
             if start.is_back && node.before == NONE {
                 continue;
@@ -165,7 +165,7 @@ impl CurveSearch {
             if self.estimates.at(node.pose.position()) < NEAR || expanded % TRIES == 1 {
                 goals.iter().for_each(|goal| self.try_to_end(ground, vehicle, at, goal));
             }
-            STEERING.iter().for_each(|steering| self.step(ground, vehicle, at, (steering / vehicle.radius, step)));
+            STEERING.iter().for_each(|steering| self.step(ground, vehicle, at, steering / vehicle.radius, step));
         }
         Err(expanded)
     }
@@ -184,7 +184,7 @@ impl CurveSearch {
         self.open.push(Open { estimate: 0.0, node: 0 });
     }
 
-    fn step(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, (curvature, length): (f32, f32)) {
+    fn step(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, curvature: f32, length: f32) {
         let node = self.nodes[before as usize];
         let drive = Drive { ground, vehicle, stands: &self.stands };
         let Some((way, trailer)) = drive.arc(&node.pose, node.trailer, curvature, length) else { return };
@@ -194,7 +194,7 @@ impl CurveSearch {
         self.add(Node { pose, trailer, cost, length, curvature, back: None, before, ending: None });
     }
 
-    fn step_back(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, (bend, length): (f32, f32)) {
+    fn step_back(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, bend: f32, length: f32) {
         let node = self.nodes[before as usize];
         let drive = Drive { ground, vehicle, stands: &self.stands };
         let Some((way, pose, trailer)) = drive.back(&node.pose, node.trailer, bend, length) else { return };
