@@ -1,6 +1,7 @@
 use crate::{Scenario, Truth};
 use apex_nodes::scan::{Container, Pose2};
 use apex_rt::node;
+use apex_sim::say;
 use core::{
     f32::consts::{FRAC_PI_2, PI},
     fmt,
@@ -38,7 +39,8 @@ impl Evaluate {
     /// Prints the table of results to standard output.
     #[slot]
     fn print(&mut self) {
-        println!("{self}");
+        // A table that cannot be shown stops no robot.
+        let _ = say(&format!("{self}\n"));
     }
 
     /// Results of one scenario.

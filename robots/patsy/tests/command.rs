@@ -1,6 +1,10 @@
 //! The program's commands, and what they say to wrong input.
 
-use std::{fs, path::PathBuf, process::Command};
+use std::{
+    fs,
+    path::PathBuf,
+    process::{Command, Stdio},
+};
 
 /// Exit code, standard output and standard error.
 fn patsy(args: &[&str]) -> (Option<i32>, String, String) {
@@ -13,6 +17,20 @@ fn file(name: &str, content: &str) -> String {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::write(&path, content).expect("a file");
     path.display().to_string()
+}
+
+/// As `patsy … | head -0` does.
+#[test]
+fn a_closed_pipe_is_not_an_error() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_patsy"))
+        .args(["missions", "--minutes", "1", "--people", "0", "--out", &file("piped.svg", "")])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(0), ""));
 }
 
 #[test]

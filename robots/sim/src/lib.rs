@@ -25,6 +25,7 @@ mod payload;
 #[cfg(feature = "people")]
 mod people;
 mod plan;
+mod say;
 mod scanner;
 #[cfg(feature = "camera")]
 mod scene;
@@ -53,6 +54,7 @@ pub use payload::{Footprint, Lift};
 #[cfg(feature = "people")]
 pub use people::{Crowd, Pedestrian};
 pub use plan::{FloorPlan, PlanError};
+pub use say::say;
 pub use scanner::LaserScanner;
 #[cfg(feature = "camera")]
 pub use scene::{Look, Panel, Picture, Pillar, Scene};

@@ -1,4 +1,5 @@
 use super::args::{Seeds, next, path, seeds_option};
+use apex_sim::say;
 use lexopt::{Parser, prelude::Long};
 use patsy::{
     accuracy::{accuracy as errors, figure, table},
@@ -19,8 +20,8 @@ pub fn accuracy(parser: &mut Parser) -> Result<ExitCode, String> {
     }
     let all = seeds.all();
     let rows = errors(&all, seeds.jobs).map_err(|e| e.to_string())?;
-    print!("{}", table(&rows));
+    say(&table(&rows))?;
     chart::write(&figure(&rows), &out)?;
-    println!("seeds {} to {}; picture: {}", all[0], all[all.len() - 1], out.display());
+    say(&format!("seeds {} to {}; picture: {}\n", all[0], all[all.len() - 1], out.display()))?;
     Ok(ExitCode::SUCCESS)
 }

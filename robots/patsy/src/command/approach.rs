@@ -1,4 +1,5 @@
 use super::args::{Seeds, next, path, seeds_option};
+use apex_sim::say;
 use lexopt::{Parser, prelude::Long};
 use patsy::approach::{approaches, picture, table};
 use std::{fs, path::PathBuf, process::ExitCode};
@@ -16,11 +17,11 @@ pub fn approach(parser: &mut Parser) -> Result<ExitCode, String> {
     }
     let all = seeds.all();
     let approaches = approaches(&all, seeds.jobs).map_err(|e| e.to_string())?;
-    print!("{}", table(&approaches));
+    say(&table(&approaches))?;
     out.parent()
         .map_or(Ok(()), fs::create_dir_all)
         .and_then(|()| fs::write(&out, picture(&approaches)))
         .map_err(|e| format!("cannot write {}: {e}", out.display()))?;
-    println!("seeds {} to {}; picture: {}", all[0], all[all.len() - 1], out.display());
+    say(&format!("seeds {} to {}; picture: {}\n", all[0], all[all.len() - 1], out.display()))?;
     Ok(ExitCode::SUCCESS)
 }

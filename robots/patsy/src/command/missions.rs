@@ -1,5 +1,5 @@
 use super::args::{Seeds, next, number, path, seeds_option};
-use apex_sim::in_order;
+use apex_sim::{in_order, say};
 use lexopt::{Parser, prelude::Long};
 use patsy::{
     clinic::{FaultKind, Options, PEOPLE},
@@ -35,23 +35,26 @@ pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
                 .map(|(seed, kind)| missions.options(seed, Some(kind))),
         );
     }
-    println!("{}", Row::HEAD);
+    say(&format!("{}\n", Row::HEAD))?;
+    let mut said = Ok(());
     let show = |run: &Result<Run, String>| {
-        if let Ok(run) = run {
-            println!("{}", Row(run));
+        if let (Ok(run), Ok(())) = (run, &said) {
+            said = say(&format!("{}\n", Row(run)));
         }
     };
     let record = |options: &Options| missions.record.as_deref().filter(|_| *options == jobs[0]);
     let work = |options: &Options| run(options, missions.duration, record(options));
     let runs = in_order(&jobs, missions.seeds.jobs, work, show).map_err(|e| e.to_string())?;
+    said?;
     let runs = runs.into_iter().collect::<Result<Vec<Run>, String>>()?;
     let (without, with) = runs.split_at(seeds.len());
-    println!("\n{}\nActive nodes:\n{}", summary(without), activity_table(without));
+    say(&format!("\n{}\nActive nodes:\n{}\n", summary(without), activity_table(without)))?;
     if missions.faults {
-        println!("{}", faults_table(without, with));
+        say(&format!("{}\n", faults_table(without, with)))?;
     }
     write(&missions.out, &picture(&without[0]))?;
-    println!("seeds {} to {}; picture: {}", seeds[0], seeds[seeds.len() - 1], missions.out.display());
+    let (first, last) = (seeds[0], seeds[seeds.len() - 1]);
+    say(&format!("seeds {first} to {last}; picture: {}\n", missions.out.display()))?;
     Ok(if runs.iter().all(|run| run.failures.is_empty()) { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 

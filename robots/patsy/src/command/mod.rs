@@ -8,6 +8,7 @@ mod simulate;
 mod times;
 mod validate;
 
+use apex_sim::say;
 use lexopt::Parser;
 use std::{env, ffi::OsString, process::ExitCode};
 
@@ -89,8 +90,7 @@ pub fn run() -> Result<ExitCode, String> {
     }
     let args: Vec<OsString> = args.collect();
     if args.iter().any(|arg| arg == "--help" || arg == "-h") {
-        print!("{HELP}");
-        return Ok(ExitCode::SUCCESS);
+        return say(HELP).map(|()| ExitCode::SUCCESS);
     }
     let mut parser = Parser::from_args(args);
     let Some(name) = name else { return simulate::simulate_or_replay(&mut parser) };

@@ -1,6 +1,7 @@
 use super::args::{path, unknown};
 use apex_nodes::io::ScanLog;
 use apex_rt::prelude::*;
+use apex_sim::say;
 use lexopt::{Parser, prelude::Long};
 use patsy::{
     RECORDED_SCANNER, Report,
@@ -17,7 +18,7 @@ struct Options {
 
 /// Searches for containers in simulated rooms, or on recorded scans.
 pub fn simulate_or_replay(parser: &mut Parser) -> Result<ExitCode, String> {
-    options(parser)?.map_or_else(|| Ok(simulate()), recorded)
+    options(parser)?.map_or_else(simulate, recorded)
 }
 
 /// Reads the options. `None` selects the simulation.
@@ -45,7 +46,7 @@ fn options(parser: &mut Parser) -> Result<Option<Options>, String> {
     }
 }
 
-fn simulate() -> ExitCode {
+fn simulate() -> Result<ExitCode, String> {
     let mut robot = Simulated::new();
     let mut clock = SimClock::until(Time::MAX);
     let mut watch = Watch::new(const { &Simulated::INFO });
@@ -53,10 +54,9 @@ fn simulate() -> ExitCode {
         let next = robot.react_with(clock.now(), &mut watch);
         watch.advance(&mut clock, next);
     }
-    println!("{}", robot.nodes().evaluate);
-    println!("{}", robot.nodes().referee);
-    println!("seed 1; pictures: out/patsy/*.svg");
-    watch.code()
+    let nodes = robot.nodes();
+    say(&format!("{}\n{}\nseed 1; pictures: out/patsy/*.svg\n", nodes.evaluate, nodes.referee))?;
+    Ok(watch.code())
 }
 
 fn recorded(options: Options) -> Result<ExitCode, String> {
@@ -71,8 +71,7 @@ fn recorded(options: Options) -> Result<ExitCode, String> {
                 let next = robot.react_with(clock.now(), &mut watch);
                 watch.advance(&mut clock, next);
             }
-            println!("{}", robot.nodes().report);
-            println!("pictures: out/patsy/*.svg");
+            say(&format!("{}\npictures: out/patsy/*.svg\n", robot.nodes().report))?;
             watch.code()
         }};
     }

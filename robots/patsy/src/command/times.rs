@@ -1,4 +1,5 @@
 use super::args::{Seeds, next, seeds_option};
+use apex_sim::say;
 use lexopt::Parser;
 use patsy::times::Times;
 use std::process::ExitCode;
@@ -11,7 +12,7 @@ pub fn times(parser: &mut Parser) -> Result<ExitCode, String> {
         seeds.read(parser, option.filter(|option| *option != "jobs"), message)?;
     }
     let all = seeds.all();
-    println!("{}", Times::measure(&all)?);
-    println!("seeds {} to {}", all[0], all[all.len() - 1]);
+    say(&format!("{}\n", Times::measure(&all)?))?;
+    say(&format!("seeds {} to {}\n", all[0], all[all.len() - 1]))?;
     Ok(ExitCode::SUCCESS)
 }

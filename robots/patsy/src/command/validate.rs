@@ -1,4 +1,5 @@
 use super::args::{Seeds, next, number, path, seeds_option};
+use apex_sim::say;
 use lexopt::{Parser, prelude::Long};
 use patsy::validate::{Data, validate as cross_validate};
 use std::process::ExitCode;
@@ -21,6 +22,6 @@ pub fn validate(parser: &mut Parser) -> Result<ExitCode, String> {
         return Err("`validate` needs `--with`, `--labels` and `--without`".to_owned());
     };
     let data = Data::read(&with, &labels, &without)?;
-    print!("{}", cross_validate(&data, folds, seeds.jobs)?);
+    say(&cross_validate(&data, folds, seeds.jobs)?.to_string())?;
     Ok(ExitCode::SUCCESS)
 }

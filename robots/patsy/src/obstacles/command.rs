@@ -3,7 +3,7 @@ use super::{
     labelled_scores,
 };
 use crate::chart;
-use apex_sim::in_order;
+use apex_sim::{in_order, say};
 use lexopt::{Parser, prelude::*};
 use std::{
     ffi::OsString,
@@ -149,15 +149,6 @@ fn work<J: Sync, R: Send>(
     });
     show("");
     results.map_err(|e| e.to_string())
-}
-
-/// Prints a text. A closed pipe is not an error.
-fn say(text: &str) -> Result<(), String> {
-    let mut output = io::stdout();
-    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
-        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(format!("cannot write the output: {e}")),
-        _ => Ok(()),
-    }
 }
 
 #[cfg(test)]

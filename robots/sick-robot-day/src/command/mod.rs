@@ -4,19 +4,13 @@ mod args;
 mod bench;
 mod compete;
 
+use apex_sim::say;
 use sick_robot_day::{
     Sensors,
     measure::{ImageWriter, Progress, cubes, signs, targets},
     run::Setup,
 };
-use std::{
-    fmt,
-    io::{self, Write as _},
-    num::NonZero,
-    ops::RangeInclusive,
-    path::PathBuf,
-    process::ExitCode,
-};
+use std::{fmt, num::NonZero, ops::RangeInclusive, path::PathBuf, process::ExitCode};
 
 /// Seeds of a measurement, and the number of its threads (`None`: all cores), on which the results do not depend.
 #[derive(Clone, Copy)]
@@ -75,13 +69,4 @@ fn perception(seeds: u64, out: Option<PathBuf>) -> Result<(), String> {
     tell(format!("{}\n\n", cubes(seeds, &image_writer, &progress)?))?;
     say(&format!("seeds 1 to {seeds}\n"))?;
     out.map_or(Ok(()), |folder| say(&format!("pictures: {}\n", folder.display())))
-}
-
-/// Prints a text. A closed pipe is not an error.
-fn say(text: &str) -> Result<(), String> {
-    let mut output = io::stdout();
-    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
-        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(format!("cannot write the output: {e}")),
-        _ => Ok(()),
-    }
 }
