@@ -146,12 +146,13 @@ impl ClusterCloud {
             indices.push(if is_kept { kept } else { NONE });
             kept += u32::from(is_kept);
         }
-        if (kept as usize) < clusters.len() {
-            members.retain_mut(|member| {
-                member.cluster = indices[member.cluster as usize];
-                member.cluster != NONE
-            });
+        if kept as usize == clusters.len() {
+            return;
         }
+        members.retain_mut(|member| {
+            member.cluster = indices[member.cluster as usize];
+            member.cluster != NONE
+        });
         let mut number = 0;
         clusters.retain(|_| {
             number += 1;

@@ -5,7 +5,7 @@ use crate::{
 };
 use apex_rt::{Ctx, Time, node};
 use heapless::Vec;
-use libm::fmaxf;
+use libm::{fmaxf, fminf};
 
 /// Maximum number of persons beside the robot that are remembered.
 const MAX_KEPT: usize = 8;
@@ -34,8 +34,8 @@ pub struct PersonCaution {
     /// Distance up to which the speed is `min_speed` whether the person stands or walks: who stands may take a step.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     beside: f32,
-    /// Time for which a person that was so close counts although it is no longer among the persons: the robot itself,
-    /// or its load, often hides who stands beside it.
+    /// Time for which a person within `beside` still counts after the last detection: the robot or its load often hides
+    /// those who stand next to it.
     #[param(unit = "s", default = 0.0, range = 0.0..=60.0)]
     memory: f32,
     /// Velocity from which on a person walks.
@@ -72,28 +72,30 @@ impl PersonCaution {
     ) -> Twist {
         let Some((pose, persons)) = pose.zip(persons) else { return twist.slowed_to(self.min_speed) };
         let line = self.middle_line(pose, trailer.unwrap_or(pose));
-        self.keep(ctx.now(), persons, &line);
-        let is_beside = |kept: &Kept| distance(kept.place, &line) < self.beside;
-        let hidden = self.kept.iter().filter(|kept| is_beside(kept)).map(|_| self.min_speed);
-        let speeds = persons.iter().map(|person| {
+        self.forget(ctx.now(), persons);
+        let is_hidden = self.kept.iter().any(|kept| distance(kept.place, &line) < self.beside);
+        let mut speed = if is_hidden { self.min_speed } else { f32::INFINITY };
+        for person in persons.iter() {
             let distance = distance(person.position, &line);
-            let stands = person.velocity.norm() < self.walking && distance >= self.beside;
-            let least = if stands { fmaxf(self.min_speed, self.standing_speed) } else { self.min_speed };
-            least + self.gain * fmaxf(distance - self.near, 0.0)
-        });
-        twist.slowed_to(speeds.chain(hidden).fold(f32::INFINITY, f32::min))
+            if distance < self.beside {
+                // Does not matter if it is full: the robot is slow already.
+                let _ = self.kept.push(Kept { place: person.position, seen: ctx.now() });
+                speed = fminf(speed, self.min_speed);
+            } else {
+                // Not for what is not a number.
+                let stands = person.velocity.norm() < self.walking && distance >= self.beside;
+                let least = if stands { fmaxf(self.min_speed, self.standing_speed) } else { self.min_speed };
+                speed = fminf(speed, least + self.gain * fmaxf(distance - self.near, 0.0));
+            }
+        }
+        twist.slowed_to(speed)
     }
 
-    /// Remembers the persons who are close, and forgets those who are seen again or were seen too long ago.
-    fn keep(&mut self, now: Time, persons: &Persons, line: &[Point2]) {
+    /// Forgets those who are seen again or were seen too long ago.
+    fn forget(&mut self, now: Time, persons: &Persons) {
         let memory = self.memory;
         let is_seen = |kept: &Kept| persons.iter().any(|person| (person.position - kept.place).norm() < SAME);
         self.kept.retain(|kept| now.since(kept.seen).as_secs_f32() < memory && !is_seen(kept));
-        let close = persons.iter().filter(|person| distance(person.position, line) < self.beside);
-        for person in close {
-            // Cannot matter if it is full: the robot is slow already.
-            let _ = self.kept.push(Kept { place: person.position, seen: now });
-        }
     }
 
     /// Line from the front of the robot over both axes to the rear.

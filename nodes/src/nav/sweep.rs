@@ -258,18 +258,22 @@ mod tests {
         }
     }
 
+    /// Place and speed of a vehicle that has driven towards something on the map for 24 s.
+    fn drive_until_it_stops(mut node: SweepStop, map: &Grid<Occupancy>) -> (f32, f32) {
+        let (mut x, mut speed) = (0.0, 0.0);
+        for step in 0..300 {
+            let (base, ctx) = (Pose2::new(x, 0.0, 0.0), Ctx::new(Time::from_millis(80 * step)));
+            let trailer = Articulated::PATSY.trailer(&base, 0.0);
+            speed = node.process(&ctx, &Twist::new(0.8, 0.0, 0.0), Some(map), &base, &trailer).x;
+            x += 0.08 * speed;
+        }
+        (x, speed)
+    }
+
     #[test]
     fn it_keeps_more_distance_from_what_is_ahead() {
         let map = floor(Point2::new(1.0, 0.0), Occupancy::Occupied);
-        let stop = |ahead| {
-            let (mut node, mut x) = (SweepStop { ahead, ..node() }, 0.0);
-            for step in 0..300 {
-                let (base, ctx) = (Pose2::new(x, 0.0, 0.0), Ctx::new(Time::from_millis(80 * step)));
-                let trailer = Articulated::PATSY.trailer(&base, 0.0);
-                x += 0.08 * node.process(&ctx, &Twist::new(0.8, 0.0, 0.0), Some(&map), &base, &trailer).x;
-            }
-            x
-        };
+        let stop = |ahead| drive_until_it_stops(SweepStop { ahead, ..node() }, &map).0;
         let [near, far] = [stop(0.05), stop(0.25)];
         assert!((0.6..=0.75).contains(&near) && (near - far - 0.2).abs() < 0.06, "{near} m, {far} m");
     }
@@ -286,14 +290,7 @@ mod tests {
                     *map.get_mut(cell).expect("inside") = Occupancy::Unknown;
                 }
             }
-            let (mut node, mut x, mut speed) = (node(), 0.0, 0.0);
-            for step in 0..200 {
-                let (base, ctx) = (Pose2::new(x, 0.0, 0.0), Ctx::new(Time::from_millis(80 * step)));
-                let trailer = Articulated::PATSY.trailer(&base, 0.0);
-                let twist = Twist::new(0.8, 0.0, 0.0);
-                speed = node.process(&ctx, &twist, Some(&map), &base, &trailer).x;
-                x += 0.08 * speed;
-            }
+            let (x, speed) = drive_until_it_stops(node(), &map);
             assert!(speed == 0.0 && (0.4..0.75).contains(&x), "{speed} m/s at {x} m");
         }
     }

@@ -16,11 +16,11 @@ pub struct Containers {
 /// Remembers where containers were seen or set down: one beside or behind a robot is still there, although no wheels
 /// show it.
 ///
-/// `container` is a confirmed detection in the frame of the robot, and ⊥ between detections. `load` is the pose of a
-/// container on the robot, in its frame too, and ⊥ without one: it is no longer where it was seen, and when it is ⊥
-/// again, a container stands where the load was last. `pose` is that of the robot in a fixed frame such as that of
-/// odometry, which is that of the output. A detection replaces those of the same container. Of more than 16 containers,
-/// the ones that were seen last are remembered.
+/// `container` is a confirmed detection in the frame of the robot, and ⊥ between detections. `load` is the pose of the
+/// container that the robot carries, in the same frame, and ⊥ without one. A load is forgotten where it was picked up,
+/// and remembered where it is set down: at its last pose when `load` becomes ⊥. `pose` is that of the robot in a fixed
+/// frame such as that of odometry, which is that of the output. A detection replaces those of the same container. Of
+/// more than 16 containers, the ones that were seen last are remembered.
 #[node]
 #[derive(Debug, Clone)]
 pub struct RememberContainers {
@@ -57,8 +57,7 @@ impl RememberContainers {
         if pose.is_finite() {
             let outer = |inner: &Pose2| inner.is_finite().then(|| pose.compose(inner));
             let load = load.and_then(outer);
-            let set_down = self.load.take().filter(|_| load.is_none());
-            self.load = load;
+            let set_down = core::mem::replace(&mut self.load, load).filter(|_| load.is_none());
             let seen = container.and_then(|container| outer(&container.pose));
             let new = [set_down, seen].into_iter().flatten();
             new.for_each(|pose| self.remember(Known { pose, seen: ctx.now() }));

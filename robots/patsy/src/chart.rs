@@ -1,7 +1,8 @@
 //! Curves as SVG, such as errors by distance.
 
+use crate::write_file;
 use plotters::{coord::Shift, drawing::DrawingAreaErrorKind, prelude::*};
-use std::{fs, io, path::Path};
+use std::{io, path::Path};
 
 /// Width and height of a panel, in pixels.
 const SIZE: (u32, u32) = (480, 340);
@@ -38,10 +39,8 @@ pub struct Curve {
 /// # Errors
 /// If the file cannot be written.
 pub fn write(panels: &[Panel], path: &Path) -> Result<(), String> {
-    path.parent()
-        .map_or(Ok(()), fs::create_dir_all)
-        .and_then(|()| fs::write(path, draw(panels)?))
-        .map_err(|e| format!("cannot write {}: {e}", path.display()))
+    let svg = draw(panels).map_err(|e| format!("cannot draw {}: {e}", path.display()))?;
+    write_file(path, &svg)
 }
 
 fn draw(panels: &[Panel]) -> io::Result<String> {

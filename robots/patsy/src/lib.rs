@@ -10,6 +10,7 @@ pub mod chart;
 pub mod clinic;
 mod drive;
 mod evaluate;
+mod file;
 mod finder;
 mod mission_control;
 pub mod missions;
@@ -36,6 +37,7 @@ pub const CONTAINER_AHEAD: apex_nodes::scan::Container = apex_nodes::scan::Conta
 pub use cart::{Cart, LENGTH, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
 pub use drive::Drive;
 pub use evaluate::{Evaluate, Score, Statistics};
+pub use file::write_file;
 pub use finder::{Finder, Search};
 pub use mission_control::{MissionControl, ahead};
 pub use motion::Scenario;

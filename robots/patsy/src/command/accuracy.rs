@@ -1,23 +1,15 @@
-use super::args::{Seeds, next, path, seeds_option};
+use super::args::{Seeds, seeds_and_out};
 use apex_sim::say;
-use lexopt::{Parser, prelude::Long};
+use lexopt::Parser;
 use patsy::{
     accuracy::{accuracy as errors, figure, table},
     chart,
 };
-use std::{path::PathBuf, process::ExitCode};
+use std::process::ExitCode;
 
 /// Measures the errors of the pose by the distance, in the scan alone and with the camera, and draws them.
 pub fn accuracy(parser: &mut Parser) -> Result<ExitCode, String> {
-    let (mut seeds, mut out) = (Seeds::new(200), PathBuf::from("out/patsy/accuracy.svg"));
-    while let Some(arg) = next(parser)? {
-        if arg == Long("out") {
-            out = path(parser)?;
-        } else {
-            let (option, message) = seeds_option(arg);
-            seeds.read(parser, option, message)?;
-        }
-    }
+    let (seeds, out) = seeds_and_out(parser, Seeds::new(200), "out/patsy/accuracy.svg")?;
     let all = seeds.all();
     let rows = errors(&all, seeds.jobs).map_err(|e| e.to_string())?;
     say(&table(&rows))?;

@@ -1,27 +1,19 @@
-use super::args::{Seeds, next, path, seeds_option};
+use super::args::{Seeds, seeds_and_out};
 use apex_sim::say;
-use lexopt::{Parser, prelude::Long};
-use patsy::approach::{approaches, picture, table};
-use std::{fs, path::PathBuf, process::ExitCode};
+use lexopt::Parser;
+use patsy::{
+    approach::{approaches, picture, table},
+    write_file,
+};
+use std::process::ExitCode;
 
 /// Drives beneath a container from all start poses, and draws from where it works.
 pub fn approach(parser: &mut Parser) -> Result<ExitCode, String> {
-    let (mut seeds, mut out) = (Seeds::new(1), PathBuf::from("out/patsy/approach.svg"));
-    while let Some(arg) = next(parser)? {
-        if arg == Long("out") {
-            out = path(parser)?;
-        } else {
-            let (option, message) = seeds_option(arg);
-            seeds.read(parser, option, message)?;
-        }
-    }
+    let (seeds, out) = seeds_and_out(parser, Seeds::new(1), "out/patsy/approach.svg")?;
     let all = seeds.all();
     let approaches = approaches(&all, seeds.jobs).map_err(|e| e.to_string())?;
     say(&table(&approaches))?;
-    out.parent()
-        .map_or(Ok(()), fs::create_dir_all)
-        .and_then(|()| fs::write(&out, picture(&approaches)))
-        .map_err(|e| format!("cannot write {}: {e}", out.display()))?;
+    write_file(&out, &picture(&approaches))?;
     say(&format!("seeds {} to {}; picture: {}\n", all[0], all[all.len() - 1], out.display()))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -45,6 +45,21 @@ pub fn seeds_option(arg: Arg<'_>) -> (Option<&'static str>, String) {
     (known, unknown(arg))
 }
 
+/// Reads the options of a measurement that draws: those of [`Seeds`], and `--out` for the file, which is `out` without
+/// it.
+pub fn seeds_and_out(parser: &mut Parser, mut seeds: Seeds, out: &str) -> Result<(Seeds, PathBuf), String> {
+    let mut out = PathBuf::from(out);
+    while let Some(arg) = next(parser)? {
+        if arg == Long("out") {
+            out = path(parser)?;
+        } else {
+            let (option, message) = seeds_option(arg);
+            seeds.read(parser, option, message)?;
+        }
+    }
+    Ok((seeds, out))
+}
+
 pub fn next(parser: &mut Parser) -> Result<Option<Arg<'_>>, String> {
     parser.next().map_err(|e| e.to_string())
 }

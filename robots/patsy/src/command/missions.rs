@@ -4,13 +4,9 @@ use lexopt::{Parser, prelude::Long};
 use patsy::{
     clinic::{FaultKind, Options, PEOPLE},
     missions::{Row, Run, activity_table, fault_at, faults_table, picture, run, summary},
+    write_file,
 };
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::ExitCode,
-    time::Duration,
-};
+use std::{path::PathBuf, process::ExitCode, time::Duration};
 
 /// Options of the command.
 struct Missions {
@@ -52,7 +48,7 @@ pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
     if missions.faults {
         say(&format!("{}\n", faults_table(without, with)))?;
     }
-    write(&missions.out, &picture(&without[0]))?;
+    write_file(&missions.out, &picture(&without[0]))?;
     let (first, last) = (seeds[0], seeds[seeds.len() - 1]);
     say(&format!("seeds {first} to {last}; picture: {}\n", missions.out.display()))?;
     Ok(if runs.iter().all(|run| run.failures.is_empty()) { ExitCode::SUCCESS } else { ExitCode::from(1) })
@@ -88,9 +84,4 @@ fn read(parser: &mut Parser) -> Result<Missions, String> {
         }
     }
     Ok(missions)
-}
-
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    let written = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(path, text));
-    written.map_err(|e| format!("cannot write {}: {e}", path.display()))
 }

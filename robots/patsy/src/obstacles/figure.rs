@@ -1,7 +1,8 @@
+use crate::write_file;
 use apex_nodes::cloud::Label;
 use apex_sim::tof::{TofFrame, Truth};
 use core::fmt::Write as _;
-use std::{fs, path::Path};
+use std::path::Path;
 
 /// Picture of a frame: its intensities, its truth, and the labels of the detection.
 pub struct SceneFigure<'a> {
@@ -39,8 +40,7 @@ impl SceneFigure<'_> {
     /// # Errors
     /// If the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), String> {
-        let made = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(path, self.svg()));
-        made.map_err(|e| format!("cannot write {}: {e}", path.display()))
+        write_file(path, &self.svg())
     }
 
     fn svg(&self) -> String {

@@ -111,9 +111,7 @@ impl RangeTable {
         };
         RangeClass::distances().skip_while(is_out_of_view).take_while(is_enough).last()
     }
-}
 
-impl RangeTable {
     /// Median number of detected points by distance (figure 6.20), with the number from which on a thing is detected.
     pub fn figure(&self) -> Panel {
         let curve = |(class, RangeClass { name, .. }): (usize, &RangeClass)| {
