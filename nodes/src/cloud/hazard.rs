@@ -42,12 +42,13 @@ pub struct Area {
 /// 6.5.3).
 ///
 /// Two rolling windows of cells: m_f holds where floor was seen, m_o the share of obstacles among the points of a cell,
-/// averaged over the clouds, so that single false detections do not count. Floor between two consecutive
-/// points of a column that are floor is seen too. Where the floor ends in a column before a point far below it, in two
-/// clouds, m_f holds that floor is missing. Obstacles at points of `scan`, which is in the frame of the robot, do not
-/// count: the scanner sees them itself, and they may be persons, who do not stay. Neither do those at `persons`. `pose`
-/// is that of the robot in a fixed frame, which is also that of the persons and of `trailer`, the axis of a trailer:
-/// wheel odometry is enough.
+/// averaged over the clouds, so that single false detections do not count. Near the robot, where a small thing is a
+/// small share of the many points of a cell, obstacles are forgotten slowly. Floor between two consecutive points of a
+/// column that are floor is seen too. Where the floor ends in a column before a point far below it, or near the robot
+/// before nothing, in two clouds, m_f holds that floor is missing. Obstacles at points of `scan`, which is in the frame
+/// of the robot, do not count: the scanner sees them itself, and they may be persons, who do not stay. Neither do those
+/// at `persons`. `pose` is that of the robot in a fixed frame, which is also that of the persons and of `trailer`, the
+/// axis of a trailer: wheel odometry is enough.
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
 /// was seen, unknown elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or
@@ -67,6 +68,13 @@ pub struct HazardMap {
     /// Weight of a cloud in the average of a cell.
     #[param(default = 0.2, range = 0.001..=1.0)]
     weight: f32,
+    /// Distance from the origin of the robot up to which obstacles are forgotten slowly.
+    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
+    kept: f32,
+    /// Distance from the origin of the robot up to which the camera always sees the floor, so that it is missing where
+    /// nothing is measured.
+    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
+    sure: f32,
     /// Maximum height of obstacles: the robot and its load pass under higher ones.
     #[param(unit = "m", default = 2.0, range = 0.0..=100.0)]
     max_height: f32,
@@ -99,10 +107,18 @@ pub struct HazardMap {
     cloud: u8,
     floor: Rolling<Ground>,
     obstacles: Rolling<f32>,
-    /// Number of obstacle points and of all points of this cloud, by cell.
-    sums: Vec<(f32, u32)>,
+    /// Points of this cloud, by cell.
+    sums: Vec<Sum>,
     /// Cells with a sum.
     touched: Vec<usize>,
+}
+
+/// Points of a cloud in a cell.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    obstacles: f32,
+    points: f32,
+    is_near: bool,
 }
 
 /// Knowledge of the floor in a cell.
@@ -123,6 +139,10 @@ const SCANNED: [f32; 2] = [0.3, 0.2];
 const PERSON: f32 = 0.45;
 /// Length of the strip beyond the end of the floor in which it is missing, in m.
 const BRINK: f32 = 0.3;
+/// Factor of the weight of a cloud without the obstacle, for obstacles near the robot.
+const SLOWER: f32 = 0.05;
+/// Number of rows without a measurement beyond the end of the floor from which on it is missing.
+const ROWS: u8 = 4;
 
 #[node]
 impl HazardMap {
@@ -183,14 +203,22 @@ impl HazardMap {
         for first in (0..points.len()).step_by(points.height.max(1)) {
             // From the far end to the near one.
             let (mut last, mut below): (Option<Point2>, Option<Point2>) = (None, None);
+            let mut missing = 0;
             for i in first..first + points.height {
                 let label = labels.labels[i];
                 if !label.is_valid() {
+                    missing = (missing + u8::from(label == Label::Missing)).min(ROWS);
                     continue;
                 }
-                let point = pose.to_outer(Point2::new(points.x[i], points.y[i]));
+                let place = Point2::new(points.x[i], points.y[i]);
+                let point = pose.to_outer(place);
+                let ends = core::mem::take(&mut missing) >= ROWS && place.norm() < self.sure;
                 match label {
                     Label::Floor => {
+                        if ends {
+                            let beyond = pose.to_outer(place.scaled(1.0 + BRINK / place.norm()));
+                            self.mark(point, beyond, Ground::Doubtful(self.cloud));
+                        }
                         if let Some(below) = below.take() {
                             let way = below - point;
                             let share = (BRINK / way.norm().max(f32::MIN_POSITIVE)).min(1.0);
@@ -239,7 +267,7 @@ impl HazardMap {
         passes: impl Fn(Point2, Point2) -> bool,
     ) {
         let raster = self.obstacles.raster();
-        self.sums.resize(raster.width * raster.height, (0.0, 0));
+        self.sums.resize(raster.width * raster.height, Sum::default());
         for (i, label) in labels.labels.iter().enumerate() {
             let counts = matches!(label, Label::Floor | Label::Obstacle | Label::Overhanging);
             if !counts || points.z[i] > self.max_height {
@@ -251,17 +279,20 @@ impl HazardMap {
                 continue;
             }
             let Some(index) = self.obstacles.index(outer) else { continue };
-            let (sum, count) = &mut self.sums[index];
-            if *count == 0 {
+            let sum = &mut self.sums[index];
+            if sum.points == 0.0 {
                 self.touched.push(index);
             }
-            *sum += if label.is_hazard() { 1.0 } else { 0.0 };
-            *count += 1;
+            sum.obstacles += if label.is_hazard() { 1.0 } else { 0.0 };
+            sum.points += 1.0;
+            sum.is_near |= place.norm_squared() < self.kept * self.kept;
         }
         for index in self.touched.drain(..) {
-            let (sum, count) = core::mem::take(&mut self.sums[index]);
+            let Sum { obstacles, points, is_near } = core::mem::take(&mut self.sums[index]);
             let value = self.obstacles.get_mut(index);
-            *value += self.weight * (sum / count as f32 - *value);
+            let change = obstacles / points - *value;
+            let is_kept = is_near && *value >= self.threshold && change < 0.0;
+            *value += if is_kept { SLOWER * self.weight } else { self.weight } * change;
         }
     }
 
@@ -343,7 +374,7 @@ mod tests {
     use apex_rt::Construct;
 
     fn node() -> HazardMap {
-        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 2.0, 0.5, 0.4, 1.0, 0.4, PI, 1.0, 0.2))
+        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 0.0, 0.0, 2.0, 0.5, 0.4, 1.0, 0.4, PI, 1.0, 0.2))
     }
 
     /// Floor from 0.3 m to `until`, across 1.2 m, with an optional obstacle at this x.
@@ -384,6 +415,30 @@ mod tests {
         // The robot drives on and is now before it, looking at a free floor beyond.
         let (hazard, still) = see(&mut node, 0.2, None, &Pose2::new(0.35, 0.0, 0.0));
         assert!(hazard.is_some_and(|h| h.position.x < 0.6) && still == occupied);
+    }
+
+    #[test]
+    fn near_obstacles_are_kept() {
+        let left = |kept, place| {
+            let (mut node, pose) = (HazardMap { kept, threshold: 0.5, ..node() }, Pose2::default());
+            for obstacle in [Some(place); 5].into_iter().chain([None; 5]) {
+                see(&mut node, 2.0, obstacle, &pose);
+            }
+            see(&mut node, 2.0, None, &pose).1
+        };
+        assert!(left(1.0, 0.8) > 5);
+        assert_eq!([left(0.5, 0.8), left(1.0, 1.5)], [0, 0]);
+    }
+
+    #[test]
+    fn near_floor_before_nothing_is_missing() {
+        let occupied = |sure, until| {
+            let (mut node, pose) = (HazardMap { sure, ..node() }, Pose2::default());
+            [0; 3].map(|_| see(&mut node, until, None, &pose).1)
+        };
+        let [first, second, third] = occupied(1.2, 0.7);
+        assert!(first == 0 && second > 10 && third >= second, "{first} {second} {third}");
+        assert_eq!([occupied(0.0, 0.7), occupied(1.2, 1.5)], [[0; 3]; 2]);
     }
 
     #[test]

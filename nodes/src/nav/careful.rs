@@ -1,6 +1,6 @@
-use super::{Twist, path::nearest_on};
+use super::{Articulated, Twist, outline::Outline};
 use crate::{
-    persons::Persons,
+    persons::{Person, Persons},
     scan::{Point2, Pose2},
 };
 use apex_rt::{Ctx, Time, node};
@@ -11,16 +11,30 @@ use libm::{fmaxf, fminf};
 const MAX_KEPT: usize = 8;
 /// Distance up to which a person is one that is remembered, in m.
 const SAME: f32 = 0.5;
+/// Distance for which the motion of the robot is predicted, in m.
+const STEP: f32 = 0.1;
+/// Share of this distance by which persons are farther away then, if the robot drives away from them.
+const LEFT: f32 = 0.5;
 
-/// Slows a robot down near persons (thesis 6.8), the more the nearer they are, also behind and beside it.
+/// Slows a tractor with a trailer down near persons (thesis 6.8), the more the nearer they are, also behind and beside
+/// it.
 ///
-/// Distances are those from the middle line of the robot: from `front` before its origin to `rear` behind it, or with a
-/// `trailer` over both axes to `rear` behind that of the trailer. `persons`, `pose` and `trailer` are in one frame.
-/// Without persons or a pose, for example before the first scan, the robot keeps to `min_speed`. It still moves with
-/// persons beside it: that it stops before them is the task of a safety field.
+/// Distances are those of the middle of a person from the outline of the vehicle with its load. `persons`, `pose` of
+/// the tractor and `trailer` are in one frame. Without them, for example before the first scan, the robot keeps to
+/// `min_speed`. Persons who stand do not count if the robot drives away from them. It still moves with persons beside
+/// it: that it stops before them is the task of a [`TrailerField`](super::TrailerField).
 #[node]
 #[derive(Debug, Clone)]
 pub struct PersonCaution {
+    /// Shape of the vehicle.
+    #[param(default = Articulated::PATSY)]
+    vehicle: Articulated,
+    /// Length of the load, whose middle is above that of the straight vehicle.
+    #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
+    load_length: f32,
+    /// Width of the load; 0 for none.
+    #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
+    load_width: f32,
     /// Distance up to which the speed is `min_speed`.
     #[param(unit = "m", default = 0.7, range = 0.0..=100.0)]
     near: f32,
@@ -44,12 +58,6 @@ pub struct PersonCaution {
     /// Additional speed per metre of distance beyond `near`.
     #[param(unit = "1/s", default = 0.3, range = 0.0..=100.0)]
     gain: f32,
-    /// Distance from the origin to the front of the robot.
-    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
-    front: f32,
-    /// Distance from the origin, or from the axis of the trailer, back to the rear.
-    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
-    rear: f32,
     kept: Vec<Kept, MAX_KEPT>,
 }
 
@@ -70,25 +78,40 @@ impl PersonCaution {
         trailer: Option<&Pose2>,
         persons: Option<&Persons>,
     ) -> Twist {
-        let Some((pose, persons)) = pose.zip(persons) else { return twist.slowed_to(self.min_speed) };
-        let line = self.middle_line(pose, trailer.unwrap_or(pose));
+        let Some(((base, trailer), persons)) = pose.zip(trailer).zip(persons) else {
+            return twist.slowed_to(self.min_speed);
+        };
+        let now = [*base, *trailer];
+        let outline = Outline::new(self.vehicle, [self.load_length, self.load_width]);
+        let next = self.vehicle.places(&now, twist, STEP).next().unwrap_or(now);
+        let is_left = |place| outline.distance(&next, place) > outline.distance(&now, place) + LEFT * STEP;
         self.forget(ctx.now(), persons);
-        let is_hidden = self.kept.iter().any(|kept| distance(kept.place, &line) < self.beside);
-        let mut speed = if is_hidden { self.min_speed } else { f32::INFINITY };
+        let mut hidden = self.kept.iter().map(|kept| kept.place);
+        let meets_hidden = hidden.any(|place| outline.distance(&now, place) < self.beside && !is_left(place));
+        let mut speed = if meets_hidden { self.min_speed } else { f32::INFINITY };
         for person in persons.iter() {
-            let distance = distance(person.position, &line);
+            let distance = outline.distance(&now, person.position);
             if distance < self.beside {
                 // Does not matter if it is full: the robot is slow already.
                 let _ = self.kept.push(Kept { place: person.position, seen: ctx.now() });
-                speed = fminf(speed, self.min_speed);
-            } else {
-                // Not for what is not a number.
-                let stands = person.velocity.norm() < self.walking && distance >= self.beside;
-                let least = if stands { fmaxf(self.min_speed, self.standing_speed) } else { self.min_speed };
-                speed = fminf(speed, least + self.gain * fmaxf(distance - self.near, 0.0));
+            }
+            if !(self.stands(person) && is_left(person.position)) {
+                speed = fminf(speed, self.speed_at(distance, person));
             }
         }
         twist.slowed_to(speed)
+    }
+
+    /// Highest speed at a distance from a person.
+    fn speed_at(&self, distance: f32, person: &Person) -> f32 {
+        let is_passed = self.stands(person) && distance >= self.beside;
+        let least = if is_passed { fmaxf(self.min_speed, self.standing_speed) } else { self.min_speed };
+        least + self.gain * fmaxf(distance - self.near, 0.0)
+    }
+
+    /// Returns `false` for what is not a number.
+    fn stands(&self, person: &Person) -> bool {
+        person.velocity.norm() < self.walking
     }
 
     /// Forgets those who are seen again or were seen too long ago.
@@ -97,85 +120,96 @@ impl PersonCaution {
         let is_seen = |kept: &Kept| persons.iter().any(|person| (person.position - kept.place).norm() < SAME);
         self.kept.retain(|kept| now.since(kept.seen).as_secs_f32() < memory && !is_seen(kept));
     }
-
-    /// Line from the front of the robot over both axes to the rear.
-    fn middle_line(&self, pose: &Pose2, trailer: &Pose2) -> [Point2; 4] {
-        let on_axis = |axis: &Pose2, x| axis.to_outer(Point2::new(x, 0.0));
-        [on_axis(pose, self.front), pose.position(), trailer.position(), on_axis(trailer, -self.rear)]
-    }
-}
-
-/// Distance of a point from a line through others.
-fn distance(point: Point2, line: &[Point2]) -> f32 {
-    let parts = line.windows(2).map(|ends| (point - nearest_on(ends[0], ends[1], point)).norm());
-    parts.fold(f32::INFINITY, f32::min)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{persons::Person, scan::Point2};
     use apex_rt::Construct;
 
-    #[test]
-    fn it_is_slow_near_persons() {
-        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.0, 0.0, 0.3, 0.4, 0.0, 0.0));
-        let (twist, pose) = (Twist::new(1.0, 0.0, 0.5), Pose2::new(1.0, 1.0, 2.0));
-        let mut at = |persons: &[(f32, f32)]| {
-            let persons: Persons =
-                persons.iter().map(|(x, y)| Person { position: Point2::new(*x, *y), ..Person::default() }).collect();
-            node.process(&Ctx::new(Time::ZERO), &twist, Some(&pose), None, Some(&persons))
+    const LOAD: [f32; 2] = [1.2, 0.7];
+
+    /// At most 0.1 m/s within 0.5 m, 0.3 m/s beside those who stand but not within 0.2 m, and 0.4 m/s more at each
+    /// further metre.
+    fn node([length, width]: [f32; 2]) -> PersonCaution {
+        PersonCaution::construct((Articulated::PATSY, length, width, 0.5, 0.1, 0.3, 0.2, 2.0, 0.2, 0.4))
+    }
+
+    /// Person at a place in the frame of the tractor, who walks at `velocity` m/s.
+    type At = (f32, f32, f32);
+
+    /// Twist that is left of one at a time in ms. The vehicle is straight.
+    fn fire(node: &mut PersonCaution, ms: i64, twist: Twist, persons: &[At]) -> Twist {
+        let base = Pose2::new(1.0, 1.0, 2.0);
+        let trailer = Articulated::PATSY.trailer(&base, base.theta);
+        let person = |&(x, y, velocity): &At| {
+            let (position, velocity) = (base.to_outer(Point2::new(x, y)), Point2::new(0.0, velocity));
+            Person { position, velocity, ..Person::default() }
         };
-        assert_eq!(at(&[]), twist);
-        assert_eq!(at(&[(9.0, 1.0)]), twist);
-        let near = at(&[(9.0, 1.0), (1.0, 2.0)]);
-        assert!((near.x - 0.4).abs() < 1e-6 && (near.omega - 0.2).abs() < 1e-6, "{near:?}");
-        assert!((at(&[(1.1, 1.0)]).x - 0.2).abs() < 1e-6);
-        assert!((node.process(&Ctx::new(Time::ZERO), &twist, Some(&pose), None, None).x - 0.2).abs() < 1e-6);
-        assert!((node.process(&Ctx::new(Time::ZERO), &twist, None, None, None).x - 0.2).abs() < 1e-6);
+        let persons: Persons = persons.iter().map(person).collect();
+        node.process(&Ctx::new(Time::from_millis(ms)), &twist, Some(&base), Some(&trailer), Some(&persons))
+    }
+
+    fn speed(load: [f32; 2], twist: f32, person: At) -> f32 {
+        fire(&mut node(load), 0, Twist::new(twist, 0.0, 0.0), &[person]).x
+    }
+
+    fn assert_near(a: f32, b: f32) {
+        assert!((a - b).abs() < 1e-5, "{a} {b}");
     }
 
     #[test]
-    fn persons_beside_the_trailer_are_near() {
-        let mut node = PersonCaution::construct((0.5, 0.2, 0.2, 0.0, 0.0, 0.3, 0.4, 0.0, 0.0));
-        let (twist, pose, trailer) = (Twist::new(1.0, 0.0, 0.0), Pose2::default(), Pose2::new(-0.7, 0.0, 0.0));
-        let persons: Persons =
-            core::iter::once(Person { position: Point2::new(-0.6, 0.7), ..Person::default() }).collect();
-        let mut speed = |trailer| node.process(&Ctx::new(Time::ZERO), &twist, Some(&pose), trailer, Some(&persons)).x;
-        assert!((speed(Some(&trailer)) - 0.28).abs() < 1e-6);
-        assert!(speed(None) > 0.36);
+    fn it_is_slow_near_persons() {
+        let twist = Twist::new(1.0, 0.0, 0.5);
+        let at = |persons: &[At]| fire(&mut node([0.0; 2]), 0, twist, persons);
+        assert_eq!([at(&[]), at(&[(9.0, 0.0, 1.0)])], [twist; 2]);
+        let near = at(&[(9.0, 0.0, 1.0), (1.25, 0.0, 1.0)]);
+        assert_near(near.x, 0.3);
+        assert_near(near.omega, 0.15);
+        assert_near(at(&[(0.6, 0.0, 1.0)]).x, 0.1);
+    }
+
+    #[test]
+    fn without_persons_or_a_pose_it_is_slow() {
+        let (twist, at, none) = (Twist::new(1.0, 0.0, 0.0), Pose2::default(), Persons::default());
+        let fire = |base, trailer, persons| node(LOAD).process(&Ctx::new(Time::ZERO), &twist, base, trailer, persons).x;
+        assert_eq!(fire(Some(&at), Some(&at), Some(&none)), 1.0);
+        assert_eq!(fire(None, Some(&at), Some(&none)), 0.1);
+        assert_eq!(fire(Some(&at), None, Some(&none)), 0.1);
+        assert_eq!(fire(Some(&at), Some(&at), None), 0.1);
+    }
+
+    #[test]
+    fn distances_are_from_the_outline() {
+        assert_near(speed([0.0; 2], 1.0, (-0.7, 0.8, 1.0)), 0.14);
+        assert_near(speed(LOAD, 1.0, (-0.7, 0.95, 1.0)), 0.14);
+        // The corner of the load is nearer than the tractor.
+        assert_near(speed(LOAD, 1.0, (0.625, 0.75, 1.0)), 0.1);
+        assert_near(speed([0.0; 2], 1.0, (-1.4, 0.0, 1.0)), 0.14);
     }
 
     #[test]
     fn persons_who_stand_are_passed_faster_unless_they_are_close() {
-        let mut node = PersonCaution::construct((0.5, 0.1, 0.3, 0.2, 0.0, 0.2, 0.4, 0.3, 0.2));
-        let mut speed = |x: f32, velocity: f32| {
-            let (position, velocity) = (Point2::new(x, 0.0), Point2::new(0.0, velocity));
-            let persons: Persons = core::iter::once(Person { position, velocity, ..Person::default() }).collect();
-            node.process(
-                &Ctx::new(Time::ZERO),
-                &Twist::new(1.0, 0.0, 0.0),
-                Some(&Pose2::default()),
-                None,
-                Some(&persons),
-            )
-            .x
-        };
-        assert_eq!([speed(0.6, 0.1), speed(0.6, -0.5), speed(0.45, 0.1)], [0.3, 0.1, 0.1]);
-        assert_eq!([speed(-0.5, 0.1), speed(-0.35, 0.1)], [0.3, 0.1]);
+        let speed = |x: f32, velocity: f32| speed([0.0; 2], 1.0, (x, 0.0, velocity));
+        assert_eq!([speed(0.6, 0.1), speed(0.6, -0.5), speed(0.4, 0.1)], [0.3, 0.1, 0.1]);
+    }
+
+    #[test]
+    fn the_robot_leaves_those_who_stand() {
+        assert_eq!([speed([0.0; 2], -1.0, (0.4, 0.0, 0.1)), speed([0.0; 2], 1.0, (-1.0, 0.0, 0.1))], [-1.0, 1.0]);
+        assert_eq!([speed([0.0; 2], -1.0, (0.4, 0.0, 0.5)), speed([0.0; 2], 1.0, (-1.0, 0.0, 0.5))], [-0.1, 0.1]);
+        assert_eq!(speed([0.0; 2], -1.0, (-1.0, 0.0, 0.1)), -0.1);
     }
 
     #[test]
     fn a_person_whom_the_robot_hides_is_remembered() {
-        let mut node = PersonCaution::construct((0.5, 0.1, 0.3, 0.5, 2.0, 0.2, 0.4, 0.0, 0.0));
+        let mut node = node([0.0; 2]);
         let mut speed = |ms, places: &[f32]| {
-            let person = |y: &f32| Person { position: Point2::new(0.0, *y), ..Person::default() };
-            let persons: Persons = places.iter().map(person).collect();
-            let ctx = Ctx::new(Time::from_millis(ms));
-            node.process(&ctx, &Twist::new(1.0, 0.0, 0.0), Some(&Pose2::default()), None, Some(&persons)).x
+            let persons: std::vec::Vec<At> = places.iter().map(|y| (-0.3, *y, 0.0)).collect();
+            fire(&mut node, ms, Twist::new(1.0, 0.0, 0.0), &persons).x
         };
-        assert_eq!([speed(0, &[0.4]), speed(1900, &[]), speed(2100, &[])], [0.1, 0.1, 1.0]);
+        assert_eq!([speed(0, &[0.35]), speed(1900, &[]), speed(2100, &[])], [0.1, 0.1, 1.0]);
         // One who has stepped aside is seen there, and one who was not close is not remembered.
-        assert_eq!([speed(3000, &[0.4]), speed(3100, &[0.5]), speed(3200, &[])], [0.1, 0.3, 1.0]);
+        assert_eq!([speed(3000, &[0.35]), speed(3100, &[0.45]), speed(3200, &[])], [0.1, 0.3, 1.0]);
     }
 }

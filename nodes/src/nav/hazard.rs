@@ -65,7 +65,7 @@ impl HazardStop {
         last.driven += last.speed * ctx.now().since(last.twist_at).as_secs_f32();
         let ahead = self.front + self.margin + last.driven;
         let gap = last.hazard.map_or(f32::INFINITY, |hazard| hazard.position.x - ahead);
-        let twist = twist.stoppable(gap, self.deceleration);
+        let twist = twist.stoppable(gap, self.deceleration, 0.0);
         (last.twist_at, last.speed) = (ctx.now(), twist.x);
         twist
     }

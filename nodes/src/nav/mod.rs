@@ -25,6 +25,8 @@ mod law;
 mod message;
 mod motion;
 #[cfg(feature = "std")]
+mod outline;
+#[cfg(feature = "std")]
 mod path;
 mod payload;
 mod pid;
@@ -41,6 +43,8 @@ mod steer;
 #[cfg(feature = "std")]
 mod sweep;
 mod track;
+#[cfg(feature = "std")]
+mod trailer_field;
 mod twist;
 
 #[cfg(feature = "std")]
@@ -59,7 +63,7 @@ pub use law::FollowingLaw;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
 #[cfg(feature = "std")]
 pub use path::{Path, Projection};
-pub use payload::{Articulated, BackUp, PlannedApproach, ReactiveApproach, trailer_rotation};
+pub use payload::{Articulated, BackUp, PlannedApproach, ReactiveApproach};
 #[cfg(feature = "std")]
 pub use payload::{BackFollower, BackPath, BackPiece};
 pub use pid::Pid;
@@ -76,4 +80,6 @@ pub use steer::Steer;
 #[cfg(feature = "std")]
 pub use sweep::SweepStop;
 pub use track::{TrackPose, stand_before};
+#[cfg(feature = "std")]
+pub use trailer_field::TrailerField;
 pub use twist::Twist;

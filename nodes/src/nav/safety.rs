@@ -1,4 +1,4 @@
-use super::{Twist, latest::Latest};
+use super::{Twist, latest::Latest, twist::braking_speed};
 use crate::scan::{Point2, Scan};
 use apex_rt::{Ctx, node};
 use libm::{fmaxf, sqrtf};
@@ -14,14 +14,12 @@ pub struct ProtectiveField {
     pub deceleration: f32,
     /// Delay before the robot begins to brake, in s.
     pub latency: f32,
-    /// Distance by which a point that is within the margin already may come nearer, in m.
-    pub graze: f32,
 }
 
 impl ProtectiveField {
     /// Distance that the robot can move in a direction before an obstacle is within its margin, in m: infinite without
-    /// such an obstacle, 0 with one that is within the margin already and would come nearer by more than `graze`.
-    /// Points beside or behind the robot do not count. The direction and the points are in the frame of the robot.
+    /// such an obstacle, 0 with one that is within the margin already. Points beside or behind the robot do not count.
+    /// The direction and the points are in the frame of the robot.
     pub fn gap(&self, direction: Point2, points: impl Iterator<Item = Point2>) -> f32 {
         let reach = self.radius + self.margin;
         let unit = direction.scaled(1.0 / direction.norm());
@@ -29,20 +27,14 @@ impl ProtectiveField {
             let (ahead, aside) = (unit.dot(point), unit.perpendicular().dot(point));
             let chord = reach * reach - aside * aside;
             let is_met = ahead > 0.0 && chord > 0.0;
-            if !is_met {
-                return None;
-            }
-            let gap = ahead - sqrtf(chord);
-            let is_grazed = gap <= 0.0 && point.norm() - aside.abs() <= self.graze;
-            (!is_grazed).then(|| fmaxf(gap, 0.0))
+            is_met.then(|| fmaxf(ahead - sqrtf(chord), 0.0))
         });
         gaps.fold(f32::INFINITY, f32::min)
     }
 
-    /// Maximum speed from which the robot still stops within `gap` m, in m/s: the solution of v²/2a + v·t = gap.
+    /// Maximum speed from which the robot still stops within `gap` m, in m/s.
     pub fn highest_speed(&self, gap: f32) -> f32 {
-        let (a, t) = (self.deceleration, self.latency);
-        a * (sqrtf(t * t + 2.0 * gap / a) - t)
+        braking_speed(gap, self.deceleration, self.latency)
     }
 
     /// The twist, slowed down as far as the obstacles require. Rotation is not limited.
@@ -81,14 +73,6 @@ pub struct SafetyField {
     /// Maximum age of a scan.
     #[param(unit = "s", default = 0.5, range = 0.0..=60.0)]
     max_age: f32,
-    /// Distance by which a point that is within the margin already may come nearer: what is beside the robot would else
-    /// hold it in both directions.
-    #[param(unit = "m", default = 0.0, range = 0.0..=1.0)]
-    graze: f32,
-    /// Slows the rotation down with the velocity, for a base that must not turn on the spot, such as a tractor with a
-    /// trailer.
-    #[param(default = false)]
-    keep_curve: bool,
     last: Latest<Scan>,
 }
 
@@ -96,13 +80,10 @@ pub struct SafetyField {
 impl SafetyField {
     fn process(&mut self, ctx: &Ctx, twist: &Twist, scan: Option<&Scan>) -> Twist {
         self.last.update(ctx.now(), scan);
-        let Self { radius, margin, deceleration, latency, graze, .. } = *self;
-        let field = ProtectiveField { radius, margin, deceleration, latency, graze };
+        let Self { radius, margin, deceleration, latency, .. } = *self;
+        let field = ProtectiveField { radius, margin, deceleration, latency };
         match self.last.young(ctx.now(), self.max_age) {
-            Some(scan) if twist.is_finite() => {
-                let limited = field.limit(twist, scan.points().map(|(_, point)| point));
-                if self.keep_curve { twist.slowed_to(limited.velocity().norm()) } else { limited }
-            }
+            Some(scan) if twist.is_finite() => field.limit(twist, scan.points().map(|(_, point)| point)),
             _ => Twist::ZERO,
         }
     }
@@ -114,8 +95,7 @@ mod tests {
     use apex_rt::{Construct, Time};
     use core::f32::consts::{PI, TAU};
 
-    const FIELD: ProtectiveField =
-        ProtectiveField { radius: 0.3, margin: 0.1, deceleration: 1.0, latency: 0.0, graze: 0.0 };
+    const FIELD: ProtectiveField = ProtectiveField { radius: 0.3, margin: 0.1, deceleration: 1.0, latency: 0.0 };
 
     fn gap(direction: (f32, f32), point: (f32, f32)) -> f32 {
         let at = |(x, y)| Point2::new(x, y);
@@ -130,15 +110,6 @@ mod tests {
         for elsewhere in [(1.0, 0.41), (-0.5, 0.0), (f32::NAN, 0.0)] {
             assert_eq!(gap((1.0, 0.0), elsewhere), f32::INFINITY);
         }
-    }
-
-    #[test]
-    fn what_is_beside_may_be_grazed() {
-        let field = ProtectiveField { graze: 0.02, ..FIELD };
-        let at = |x, y| field.gap(Point2::new(1.0, 0.0), [Point2::new(x, y)].into_iter());
-        assert_eq!([at(0.05, 0.35), at(0.15, 0.3), at(0.35, 0.1)], [f32::INFINITY, 0.0, 0.0]);
-        // It is within the margin only later.
-        assert!((at(0.5, 0.39) - 0.411).abs() < 1e-3);
     }
 
     #[test]
@@ -161,7 +132,7 @@ mod tests {
             scan.ranges.extend((0..360).map(|i| (3.0 - x) / libm::cosf(-PI + i as f32 * TAU / 360.0)));
             scan
         };
-        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5, 0.0, false));
+        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5));
         let (mut x, mut last) = (0.0, 1.0);
         for step in 0..1000 {
             let twist = node.process(&ctx(step), &Twist::new(1.0, 0.0, 0.2), Some(&scan(x)));
@@ -177,7 +148,7 @@ mod tests {
     #[test]
     fn without_a_scan_it_stands_still() {
         let ctx = |ms| Ctx::new(Time::from_millis(ms));
-        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5, 0.0, false));
+        let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5));
         let twist = Twist::new(1.0, 0.0, 0.0);
         assert_eq!(node.process(&ctx(0), &twist, None), Twist::ZERO);
         assert_eq!(node.process(&ctx(100), &twist, Some(&Scan::default())), twist);

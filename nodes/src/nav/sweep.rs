@@ -1,7 +1,10 @@
-use super::{Articulated, Twist, latest::Latest, trailer_rotation};
+use super::{
+    Articulated, Twist,
+    latest::Latest,
+    outline::{Axes, Part},
+};
 use crate::{
     map::{Grid, Occupancy},
-    math::normalize_angle,
     scan::{Point2, Pose2},
 };
 use apex_rt::{Ctx, node};
@@ -9,8 +12,6 @@ use libm::{fmaxf, fminf};
 
 /// Distance between predicted places, and between checked points of a part of the vehicle, in m.
 const STEP: f32 = 0.05;
-/// Largest angle between tractor and trailer that is predicted, in rad.
-const JACKKNIFE: f32 = 1.4;
 
 /// Stops a tractor with a trailer before it drives over an obstacle, missing floor, or floor that was not seen.
 ///
@@ -25,21 +26,9 @@ const JACKKNIFE: f32 = 1.4;
 #[node]
 #[derive(Debug, Clone)]
 pub struct SweepStop {
-    /// Distance of the tractor's axis from its front.
-    #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
-    front: f32,
-    /// Distance from the tractor's axis back to the hitch.
-    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
-    hitch: f32,
-    /// Distance from the hitch back to the trailer's axis.
-    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
-    drawbar: f32,
-    /// Distance from the trailer's axis back to its rear.
-    #[param(unit = "m", default = 0.15, range = 0.0..=10.0)]
-    rear: f32,
-    /// Width of the vehicle.
-    #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
-    width: f32,
+    /// Shape of the vehicle.
+    #[param(default = Articulated::PATSY)]
+    vehicle: Articulated,
     /// Distance kept from hazards at the sides and behind, and from floor ahead that is not known.
     #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
     margin: f32,
@@ -64,17 +53,6 @@ pub struct SweepStop {
     last: Latest<Grid<Occupancy>>,
 }
 
-/// Rectangle of a part of the vehicle in the frame of its axis: x from and to, and half of the width, in m.
-#[derive(Debug, Clone, Copy)]
-struct Part {
-    from: f32,
-    to: f32,
-    half: f32,
-}
-
-/// Poses of the axes of tractor and trailer.
-type Axes = [Pose2; 2];
-
 #[node]
 impl SweepStop {
     fn process(
@@ -91,7 +69,7 @@ impl SweepStop {
             return Twist::ZERO;
         }
         let gap = self.gap(map, twist, [*base, *trailer]);
-        twist.stoppable(gap, self.deceleration)
+        twist.stoppable(gap, self.deceleration, 0.0)
     }
 
     /// Distance that the vehicle can drive before it is too near to something that is not free, in m.
@@ -99,42 +77,19 @@ impl SweepStop {
         if twist.x == 0.0 {
             return f32::INFINITY;
         }
-        let (curvature, step) = (twist.omega / twist.x, STEP.copysign(twist.x));
         let count = (self.look_ahead / STEP) as u16;
         let kept = if twist.x > 0.0 { self.ahead } else { self.margin };
-        let (mut base, mut heading) = (now[0], now[1].theta);
         let mut unseen = f32::INFINITY;
-        for k in 1..=count {
-            let bend = normalize_angle(&(base.theta - heading)).clamp(-JACKKNIFE, JACKKNIFE);
-            heading += trailer_rotation(1.0, curvature, bend, self.hitch, self.drawbar) * step;
-            base = base.compose(&Pose2::new(step, 0.0, step * curvature));
-            let axes = [base, self.shape().trailer(&base, heading)];
-            let free = f32::from(k - 1) * STEP;
+        for (k, axes) in (0..count).zip(self.vehicle.places(&now, twist, STEP)) {
+            let free = f32::from(k) * STEP;
             if self.meets(map, &axes, &now, twist.x < 0.0) {
                 return fminf(free - kept, unseen);
             }
             if unseen.is_infinite() && twist.x > 0.0 && self.is_unseen(map, &axes, &now) {
-                unseen = fmaxf(free - (self.near - self.front), 0.0) - self.margin;
+                unseen = fmaxf(free - (self.near - self.vehicle.front), 0.0) - self.margin;
             }
         }
         unseen
-    }
-
-    fn shape(&self) -> Articulated {
-        let Self { front, hitch, drawbar, rear, width, .. } = *self;
-        Articulated { hitch, drawbar, front, rear, width }
-    }
-
-    fn parts(&self) -> [Part; 2] {
-        let half = 0.5 * self.width;
-        [Part { from: -self.hitch, to: self.front, half }, Part { from: -self.rear, to: 0.5 * self.drawbar, half }]
-    }
-
-    /// Parts of the vehicle with the drawbar between them: what is beside it is neither before one part nor behind the
-    /// other.
-    fn whole(&self) -> [Part; 2] {
-        let [tractor, trailer] = self.parts();
-        [tractor, Part { to: self.drawbar, ..trailer }]
     }
 
     /// Returns `true` if a part of the vehicle is on something that is not free, or an obstacle is within the margin at
@@ -145,7 +100,7 @@ impl SweepStop {
             Some(Occupancy::Occupied) => true,
             _ => is_backward,
         };
-        let beneath = self.whole().map(|part| part.widened(0.5 * map.raster().resolution));
+        let beneath = self.vehicle.whole().map(|part| part.widened(0.5 * map.raster().resolution));
         self.any_point(axes, 0.0, |point| is_hazard(point) && !covers(&beneath, now, point))
             || self.comes_near(map, axes, now)
     }
@@ -162,7 +117,7 @@ impl SweepStop {
     /// Returns `true` if an obstacle is within the margin at the sides that is not near already: else the vehicle could
     /// not get away from it in either direction.
     fn comes_near(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes) -> bool {
-        let near = self.whole().map(|part| part.grown(2.0 * self.margin));
+        let near = self.vehicle.whole().map(|part| part.grown(2.0 * self.margin));
         self.any_point(axes, self.margin, |point| {
             map.at(point) == Some(&Occupancy::Occupied) && !covers(&near, now, point)
         })
@@ -170,7 +125,11 @@ impl SweepStop {
 
     /// Returns `true` if `is` holds for a point of the parts, which are wider by `margin` on both sides.
     fn any_point(&self, axes: &Axes, margin: f32, is: impl Fn(Point2) -> bool) -> bool {
-        self.parts().iter().zip(axes).any(|(part, axis)| part.widened(margin).points().any(|p| is(axis.to_outer(p))))
+        self.vehicle
+            .parts()
+            .iter()
+            .zip(axes)
+            .any(|(part, axis)| part.widened(margin).points(STEP).any(|p| is(axis.to_outer(p))))
     }
 
     /// Returns `true` if the camera sees a place in the frame of the tractor.
@@ -184,29 +143,6 @@ fn covers(parts: &[Part; 2], axes: &Axes, point: Point2) -> bool {
     parts.iter().zip(axes).any(|(part, axis)| part.covers(axis.to_inner(point)))
 }
 
-impl Part {
-    fn widened(self, by: f32) -> Self {
-        Self { half: self.half + by, ..self }
-    }
-
-    fn grown(self, by: f32) -> Self {
-        Self { from: self.from - by, to: self.to + by, half: self.half + by }
-    }
-
-    fn covers(&self, point: Point2) -> bool {
-        self.from <= point.x && point.x <= self.to && point.y.abs() <= self.half
-    }
-
-    /// Points of the part, about a step apart.
-    fn points(self) -> impl Iterator<Item = Point2> {
-        let [columns, rows] = [self.to - self.from, 2.0 * self.half].map(|size| libm::ceilf(size / STEP).max(1.0));
-        (0..=columns as u16).flat_map(move |i| {
-            let x = self.from + (self.to - self.from) * f32::from(i) / columns;
-            (0..=rows as u16).map(move |k| Point2::new(x, self.half * (2.0 * f32::from(k) / rows - 1.0)))
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -215,7 +151,7 @@ mod tests {
     use core::f32::consts::FRAC_PI_2;
 
     fn node() -> SweepStop {
-        SweepStop::construct((0.25, 0.1, 0.55, 0.15, 0.4, 0.05, 0.05, 0.5, 1.0, 0.4, 1.0, 0.6))
+        SweepStop::construct((Articulated::PATSY, 0.05, 0.05, 0.5, 1.0, 0.4, 1.0, 0.6))
     }
 
     /// Floor of 6 m × 6 m about the origin with one cell that is not free.

@@ -1,5 +1,8 @@
 use crate::scan::Point2;
 use apex_rt::Units;
+#[cfg(feature = "std")]
+use libm::fmaxf;
+use libm::sqrtf;
 
 /// Velocity of a robot in the plane, in its own frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Units)]
@@ -36,23 +39,32 @@ impl Twist {
     }
 
     /// The twist on the same curve, at `max_speed` in m/s at most.
+    #[cfg(feature = "std")]
     pub(super) fn slowed_to(&self, max_speed: f32) -> Self {
         let speed = self.velocity().norm();
-        let share = if speed > max_speed { max_speed / speed } else { 1.0 };
+        // NaN if a parameter is NaN: the robot then stands still.
+        let share = if speed <= max_speed { 1.0 } else { fmaxf(max_speed / speed, 0.0) };
         Self::of(self.velocity().scaled(share), self.omega * share)
     }
 
     /// The twist on the same curve, slowed down so far that it can be stopped within `gap` m with a `deceleration` in
-    /// m/s².
+    /// m/s², after a `latency` in s.
     #[cfg(feature = "std")]
-    pub(super) fn stoppable(&self, gap: f32, deceleration: f32) -> Self {
-        self.slowed_to(libm::sqrtf(2.0 * deceleration * gap.max(0.0)))
+    pub(super) fn stoppable(&self, gap: f32, deceleration: f32, latency: f32) -> Self {
+        self.slowed_to(braking_speed(gap.max(0.0), deceleration, latency))
     }
 
     /// Returns `true` if all components are finite.
     pub const fn is_finite(&self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.omega.is_finite()
     }
+}
+
+/// Maximum speed from which a robot stops within `gap` m, if it begins to brake after `latency` s: the solution of
+/// v²/2a + v·t = gap.
+pub(super) fn braking_speed(gap: f32, deceleration: f32, latency: f32) -> f32 {
+    let (a, t) = (deceleration, latency);
+    a * (sqrtf(t * t + 2.0 * gap / a) - t)
 }
 
 /// Stop of a node that drives: when it is interrupted, it sends a twist of zero before it is silent.

@@ -1,6 +1,6 @@
 use apex_nodes::{
     math::normalize_angle,
-    nav::{Twist, trailer_rotation},
+    nav::{Articulated, Twist},
     scan::{Point2, Pose2},
 };
 
@@ -48,10 +48,8 @@ pub struct Tractor {
     pub base: Differential,
     /// Heading of the trailer in the world, in rad.
     pub trailer: f32,
-    /// Distance from the axis of the tractor back to the hitch, in m.
-    pub hitch: f32,
-    /// Distance from the hitch back to the axis of the trailer, in m.
-    pub drawbar: f32,
+    /// Shape of both.
+    pub shape: Articulated,
 }
 
 impl Omnidirectional {
@@ -89,15 +87,13 @@ impl Tractor {
     pub fn step(&mut self, command: &Twist, dt: f32) {
         self.base.step(command, dt);
         let Twist { x, omega, .. } = self.base.twist;
-        let turn = trailer_rotation(x, omega, self.base.pose.theta - self.trailer, self.hitch, self.drawbar);
+        let turn = self.shape.trailer_rotation(x, omega, self.base.pose.theta - self.trailer);
         self.trailer = normalize_angle(&(self.trailer + turn * dt));
     }
 
     /// Pose of the middle of the trailer's axis in the world.
     pub fn trailer_pose(&self) -> Pose2 {
-        let hitch = self.base.pose.to_outer(Point2::new(-self.hitch, 0.0));
-        let axis = hitch - Point2::polar(self.drawbar, self.trailer);
-        Pose2::new(axis.x, axis.y, self.trailer)
+        self.shape.trailer(&self.base.pose, self.trailer)
     }
 }
 
@@ -160,7 +156,11 @@ mod tests {
     #[test]
     fn a_trailer_comes_into_line() {
         let base = Differential { pose: Pose2::default(), twist: Twist::ZERO, limits: LIMITS, track: 0.5 };
-        let mut tractor = Tractor { base, trailer: -FRAC_PI_2, hitch: 0.2, drawbar: 0.8 };
+        let mut tractor = Tractor {
+            base,
+            trailer: -FRAC_PI_2,
+            shape: Articulated { hitch: 0.2, drawbar: 0.8, ..Articulated::PATSY },
+        };
         assert!((tractor.trailer_pose().y - 0.8).abs() < 1e-6 && (tractor.trailer_pose().x + 0.2).abs() < 1e-6);
         for _ in 0..1000 {
             tractor.step(&Twist::new(1.0, 0.0, 0.0), 0.01);

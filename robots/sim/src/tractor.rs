@@ -20,21 +20,9 @@ pub struct TractorBase {
     /// Drawing of the world.
     #[param]
     world: &'static str,
-    /// Distance of the tractor's axis from its front.
-    #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
-    front: f32,
-    /// Distance from the tractor's axis back to the hitch.
-    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
-    hitch: f32,
-    /// Distance from the hitch back to the trailer's axis.
-    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
-    drawbar: f32,
-    /// Distance from the trailer's axis back to its rear.
-    #[param(unit = "m", default = 0.15, range = 0.0..=10.0)]
-    rear: f32,
-    /// Width of tractor and trailer.
-    #[param(unit = "m", default = 0.4, range = 0.01..=10.0)]
-    width: f32,
+    /// Shape of the vehicle.
+    #[param(default = Articulated::PATSY)]
+    vehicle: Articulated,
     /// Length of a container.
     #[param(unit = "m", default = 1.2, range = 0.01..=10.0)]
     load_length: f32,
@@ -135,11 +123,6 @@ impl TractorBase {
         self.is_raised = false;
     }
 
-    fn shape(&self) -> Articulated {
-        let Self { hitch, drawbar, front, rear, width, .. } = *self;
-        Articulated { hitch, drawbar, front, rear, width }
-    }
-
     fn begin(&self, now: Time) -> Result<Moving, PlanError> {
         let plan = FloorPlan::parse(self.world)?;
         let limits = Limits {
@@ -148,8 +131,8 @@ impl TractorBase {
             turn: self.turn,
             turn_acceleration: 3.0 * self.turn,
         };
-        let base = Differential { pose: plan.start, twist: Twist::ZERO, limits, track: self.width };
-        let vehicle = Tractor { base, trailer: plan.start.theta, hitch: self.hitch, drawbar: self.drawbar };
+        let base = Differential { pose: plan.start, twist: Twist::ZERO, limits, track: self.vehicle.width };
+        let vehicle = Tractor { base, trailer: plan.start.theta, shape: self.vehicle };
         let odometry = Odometry::new(OdometryNoise::PIONEER.times(self.drift), self.seed);
         Ok(Moving { plan, vehicle, lift: Lift::lowered(self.lift_duration), odometry, last: now })
     }
@@ -174,9 +157,8 @@ impl TractorBase {
 
     /// Distance of the vehicle with its load to the nearest object, in m.
     fn clearance(&self, moving: &Moving) -> f32 {
-        let shape = self.shape();
-        let Tractor { base, trailer, .. } = &moving.vehicle;
-        let parts = Footprint::of(&shape, &base.pose, *trailer);
+        let Tractor { base, trailer, shape } = &moving.vehicle;
+        let parts = Footprint::of(shape, &base.pose, *trailer);
         let load = moving.lift.carries().then(|| {
             let rear = moving.vehicle.trailer_pose();
             let ahead = 0.5 * shape.length() - shape.rear;
@@ -201,7 +183,7 @@ mod tests {
 ########################";
 
     fn node(world: &'static str) -> TractorBase {
-        TractorBase::construct((world, 0.25, 0.1, 0.55, 0.15, 0.4, 1.2, 0.7, 1.0, 1.0, 2.0, 1.0, 0.0, 0.5, 1))
+        TractorBase::construct((world, Articulated::PATSY, 1.2, 0.7, 1.0, 1.0, 2.0, 1.0, 0.0, 0.5, 1))
     }
 
     fn fire(node: &mut TractorBase, ms: i64, twist: Twist) -> (Pose2, Pose2, Option<bool>) {

@@ -1,9 +1,8 @@
 use super::super::{
     Terrain,
     payload::{
-        Articulated, backing_rotation,
+        Articulated,
         dubins::{Curve, advanced},
-        trailer_rotation,
     },
 };
 use crate::{
@@ -96,11 +95,11 @@ impl Drive<'_> {
     /// Length of a step backward with costs, and the pose and the heading of the trailer at its end, or `None` if
     /// something is touched on it. The angle to the trailer approaches `wanted`, in rad.
     pub fn back(&self, from: &Pose2, trailer: f32, wanted: f32, length: f32) -> Option<(f32, Pose2, f32)> {
-        let CurveDrive { shape: Articulated { hitch, drawbar, .. }, backing_gain, .. } = *self.vehicle;
+        let CurveDrive { shape, backing_gain, .. } = *self.vehicle;
         self.along(from, trailer, length, |pose, trailer, step| {
             let angle = remainderf(pose.theta - trailer, TAU);
-            let turn = backing_rotation(1.0, angle, -backing_gain * (angle - wanted), hitch, drawbar);
-            let trailer = trailer + step * trailer_rotation(-1.0, turn, angle, hitch, drawbar);
+            let turn = shape.backing_rotation(1.0, angle, -backing_gain * (angle - wanted));
+            let trailer = trailer + step * shape.trailer_rotation(-1.0, turn, angle);
             let pose = advanced(pose, -turn, -step);
             self.is_on_floor(&pose, trailer).then_some((pose, trailer))
         })
@@ -154,11 +153,11 @@ impl Drive<'_> {
 
     /// Heading of the trailer after a step; that of the vehicle if there is none.
     fn towed(&self, pose: &Pose2, trailer: f32, curvature: f32, step: f32) -> f32 {
-        let CurveDrive { shape: Articulated { hitch, drawbar, .. }, body, .. } = *self.vehicle;
+        let CurveDrive { shape, body, .. } = *self.vehicle;
         if body.is_empty() {
             return pose.theta + step * curvature;
         }
-        trailer + step * trailer_rotation(1.0, curvature, pose.theta - trailer, hitch, drawbar)
+        trailer + step * shape.trailer_rotation(1.0, curvature, pose.theta - trailer)
     }
 
     /// Highest cost of the places of the vehicle at a pose, or `None` if something is touched there.

@@ -29,15 +29,9 @@ pub struct CurvePlanner {
     /// Smallest radius of a curve.
     #[param(unit = "m", default = 0.8, range = 0.1..=100.0)]
     radius: f32,
-    /// Distance from the axis of the vehicle to its front.
-    #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
-    front: f32,
-    /// Distance from the axis back to the hitch of a trailer.
-    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
-    hitch: f32,
-    /// Distance from the hitch back to the axis of the trailer.
-    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
-    drawbar: f32,
+    /// Shape of the vehicle.
+    #[param(default = Articulated::PATSY)]
+    vehicle: Articulated,
     /// Places on the trailer, with its load, that must not touch anything, from its axis forward; empty without a
     /// trailer.
     #[param(unit = "m", default = &[])]
@@ -46,12 +40,6 @@ pub struct CurvePlanner {
     /// only drives forward.
     #[param(unit = "1/m", default = 0.0, range = 0.0..=100.0)]
     backing_gain: f32,
-    /// Distance from the axis of the trailer back to its rear.
-    #[param(unit = "m", default = 0.15, range = 0.0..=10.0)]
-    rear: f32,
-    /// Width of vehicle and trailer on the floor.
-    #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
-    width: f32,
     /// Additional cost of `other`.
     #[param(unit = "m", default = 0.0, range = 0.0..=1000.0)]
     other_cost: f32,
@@ -89,8 +77,7 @@ impl CurvePlanner {
     ) {
         let terrain = Terrain { map, costs, unknown_is_open: false };
         let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry] });
-        let Self { radius, front, hitch, drawbar, body, rear, width, .. } = *self;
-        let shape = Articulated { hitch, drawbar, front, rear, width };
+        let Self { radius, vehicle: shape, body, .. } = *self;
         let limit = core::mem::take(&mut self.next);
         let backing_gain = if limit == Limit::StaysForward { 0.0 } else { self.backing_gain };
         let vehicle = CurveDrive { radius, shape, body, backing_gain };

@@ -1,17 +1,24 @@
-use super::vehicle::backing_twist;
+use super::vehicle::{Articulated, backing_twist};
 use crate::{
     math::normalize_angle,
     nav::{Twist, twist::Halt},
     scan::Pose2,
 };
 use apex_rt::{Ctx, Event, node};
+use heapless::Deque;
 
-/// Backs a tractor with a passively steered trailer up by a distance, for example away from an obstacle.
+/// Distance between the angles that are remembered, in m, and their number.
+const STEP: f32 = 0.05;
+const REMEMBERED: usize = 64;
+
+/// Backs a tractor with a passively steered trailer up by a distance, for example away from an obstacle, on the way on
+/// which it came: over floor that it has driven on.
 ///
-/// A trailer that is pushed turns away to the side, so the tractor steers against it: the angle between the two decays
-/// at the rate `gain` (Lamiraux et al. 1998). `base` and `trailer` are the poses of the two axes in one fixed frame
-/// such as that of odometry. Works while it is active; `done` comes with a twist of zero. Nothing behind the vehicle is
-/// looked at.
+/// The node remembers the angle between tractor and trailer on the last 3.2 m of a way forward, also while it is not
+/// active. A trailer that is pushed turns away to the side, so the tractor steers against it: the angle approaches the
+/// remembered one at the rate `gain` (Lamiraux et al. 1998), and 0 where nothing is remembered, as after a way backward
+/// that another node drove. `base` and `trailer` are the poses of the two axes in one fixed frame such as that of
+/// odometry. Drives while it is active; `done` comes with a twist of zero. Nothing behind the vehicle is looked at.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BackUp {
@@ -21,59 +28,96 @@ pub struct BackUp {
     /// Maximum speed.
     #[param(unit = "m/s", default = 0.2, range = 0.001..=10.0)]
     speed: f32,
-    /// Rate at which the angle between tractor and trailer decays.
+    /// Rate at which the angle between tractor and trailer approaches that of the way.
     #[param(unit = "1/s", default = 0.6, range = 0.0..=10.0)]
     gain: f32,
-    /// Distance from the tractor's axis back to the hitch.
-    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
-    hitch: f32,
-    /// Distance from the hitch back to the trailer's axis.
-    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
-    drawbar: f32,
+    /// Shape of the vehicle.
+    #[param(default = Articulated::PATSY)]
+    vehicle: Articulated,
     last: Option<Pose2>,
+    /// Distance driven backward since the activation, in m.
     driven: f32,
+    /// Angles on the way on which the vehicle came, the last one at its end.
+    way: Deque<f32, REMEMBERED>,
+    /// Distance driven since that place, in m: negative backward.
+    beyond: f32,
     halt: Halt,
 }
 
 #[node]
 impl BackUp {
     fn process(&mut self, ctx: &Ctx, base: &Pose2, trailer: &Pose2, done: Event<()>) -> Option<Twist> {
+        let is_usable = base.is_finite() && trailer.is_finite();
+        let bend = normalize_angle(&(base.theta - trailer.theta));
+        if is_usable {
+            let last = self.last.replace(*base).unwrap_or(*base);
+            self.remember(base.relative_to(&last).x, bend, ctx.active());
+        }
         if !ctx.active() {
             return self.halt.rest();
         }
-        if !(base.is_finite() && trailer.is_finite()) {
+        if !is_usable {
             return self.halt.drive(Twist::ZERO);
         }
-        let last = self.last.replace(*base).unwrap_or(*base);
-        self.driven += (base.position() - last.position()).norm();
         let left = self.distance - self.driven;
         if left <= 0.0 {
-            self.forget();
+            self.begin();
             done.emit(());
             return self.halt.drive(Twist::ZERO);
         }
-        let bend = normalize_angle(&(base.theta - trailer.theta));
-        let rate = |_| -self.gain * bend;
-        self.halt.drive(backing_twist(left, self.speed, bend, rate, [self.hitch, self.drawbar]))
+        let (wanted, slope) = self.wanted();
+        let rate = |speed| speed * slope - self.gain * (bend - wanted);
+        self.halt.drive(backing_twist(left, self.speed, bend, rate, &self.vehicle))
     }
 
-    /// Begins again at the next activation.
+    /// Begins again.
     #[on_activate]
-    fn forget(&mut self) {
-        (self.last, self.driven) = (None, 0.0);
+    fn begin(&mut self) {
+        self.driven = 0.0;
+    }
+
+    /// Angle of the way here, in rad, and its change backward, in rad/m.
+    fn wanted(&self) -> (f32, f32) {
+        let mut ends = self.way.iter().rev().copied();
+        let last = ends.next().unwrap_or(0.0);
+        let slope = (ends.next().unwrap_or(last) - last) / STEP;
+        (last + slope * (-self.beyond).max(0.0), slope)
+    }
+
+    /// Adds a motion forward to the way, or leaves the places that the vehicle has backed up over.
+    fn remember(&mut self, moved: f32, bend: f32, is_own: bool) {
+        if is_own {
+            self.driven -= moved;
+        }
+        self.beyond += moved;
+        while self.beyond >= STEP {
+            self.beyond -= STEP;
+            if self.way.is_full() {
+                self.way.pop_front();
+            }
+            // Cannot fail: there is room.
+            let _ = self.way.push_back(bend);
+        }
+        while self.beyond <= -STEP {
+            self.beyond += STEP;
+            if is_own {
+                self.way.pop_back();
+            } else {
+                self.way.clear();
+            }
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::nav::{Articulated, trailer_rotation};
     use apex_rt::{Construct, Time};
 
     #[test]
     fn it_backs_up_and_straightens_the_trailer() {
         for bent in [0.6_f32, 0.0, -0.8] {
-            let mut node = BackUp::construct((1.5, 0.2, 0.6, 0.1, 0.55));
+            let mut node = BackUp::construct((1.5, 0.2, 0.6, Articulated::PATSY));
             let (mut base, mut heading, mut done) = (Pose2::default(), -bent, None);
             for step in 0..2000 {
                 let ctx = Ctx::new(Time::from_millis(20 * step)).of_node(true);
@@ -82,7 +126,7 @@ mod tests {
                 if done.is_some() {
                     break;
                 }
-                heading += trailer_rotation(twist.x, twist.omega, base.theta - heading, 0.1, 0.55) * 0.02;
+                heading += Articulated::PATSY.trailer_rotation(twist.x, twist.omega, base.theta - heading) * 0.02;
                 base = base.compose(&Pose2::new(0.02 * twist.x, 0.0, 0.02 * twist.omega));
             }
             assert!(done.is_some() && base.x < -0.9 && (base.theta - heading).abs() < 0.1, "{base:?} {heading}");
@@ -90,8 +134,37 @@ mod tests {
     }
 
     #[test]
+    fn it_backs_up_on_the_way_on_which_it_came() {
+        let vehicle = Articulated::PATSY;
+        let mut node = BackUp::construct((1.5, 0.2, 0.6, vehicle));
+        let (mut base, mut heading) = (Pose2::default(), 0.0);
+        let mut ways: [std::vec::Vec<Pose2>; 2] = Default::default();
+        for step in 0..1000 {
+            // A quarter of a turn to the left, one to the right, and back.
+            let is_back = step >= 400;
+            let (ctx, axis) =
+                (Ctx::new(Time::from_millis(20 * step)).of_node(is_back), vehicle.trailer(&base, heading));
+            let mut done = None;
+            let sent = node.process(&ctx, &base, &axis, apex_rt::event(&mut done));
+            if done.is_some() {
+                break;
+            }
+            ways[usize::from(is_back)].push(axis);
+            let twist = sent.unwrap_or(Twist::new(0.25, 0.0, if step < 200 { 0.3 } else { -0.3 }));
+            heading += vehicle.trailer_rotation(twist.x, twist.omega, base.theta - heading) * 0.02;
+            base = base.compose(&Pose2::new(0.02 * twist.x, 0.0, 0.02 * twist.omega));
+        }
+        let [forward, back] = ways;
+        let off = |axis: &Pose2| {
+            forward.iter().map(|on| (on.position() - axis.position()).norm()).fold(f32::INFINITY, f32::min)
+        };
+        let farthest = back.iter().map(off).fold(0.0, f32::max);
+        assert!(back.len() > 300 && farthest < 0.03, "{} steps, {farthest} m beside the way", back.len());
+    }
+
+    #[test]
     fn it_rests_without_activity_and_stops_without_a_pose() {
-        let (mut node, at) = (BackUp::construct((1.0, 0.2, 0.6, 0.1, 0.55)), Pose2::default());
+        let (mut node, at) = (BackUp::construct((1.0, 0.2, 0.6, Articulated::PATSY)), Pose2::default());
         let idle = Ctx::new(Time::ZERO);
         assert_eq!(node.process(&idle, &at, &at, Event::unconnected()), None);
         let nan = Pose2::new(f32::NAN, 0.0, 0.0);

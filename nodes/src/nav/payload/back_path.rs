@@ -1,4 +1,4 @@
-use super::vehicle::backing_twist;
+use super::vehicle::{Articulated, backing_twist};
 use crate::{
     math::normalize_angle,
     nav::{Twist, twist::Halt},
@@ -70,12 +70,9 @@ pub struct BackFollower {
     /// planner.
     #[param(unit = "1/m", default = 2.5, range = 0.0..=100.0)]
     gain: f32,
-    /// Distance from the tractor's axis back to the hitch.
-    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
-    hitch: f32,
-    /// Distance from the hitch back to the trailer's axis.
-    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
-    drawbar: f32,
+    /// Shape of the vehicle.
+    #[param(default = Articulated::PATSY)]
+    vehicle: Articulated,
     /// Time that the vehicle may go without progress.
     #[param(unit = "s", default = 3.0, range = 0.0..=600.0)]
     blocked_timeout: f32,
@@ -124,7 +121,7 @@ impl BackFollower {
         let left = self.path.length() - self.driven;
         let bend = normalize_angle(&(base.theta - trailer.theta));
         let rate = |speed| -self.gain * speed * (bend - wanted);
-        self.halt.drive(backing_twist(left, self.speed, bend, rate, [self.hitch, self.drawbar]))
+        self.halt.drive(backing_twist(left, self.speed, bend, rate, &self.vehicle))
     }
 
     /// Drops the path.
@@ -145,7 +142,6 @@ impl BackFollower {
 #[cfg(test)]
 pub(in crate::nav) mod tests {
     use super::*;
-    use crate::nav::{Articulated, trailer_rotation};
     use apex_rt::Construct;
 
     /// Period of the simulation, in s.
@@ -161,7 +157,7 @@ pub(in crate::nav) mod tests {
     impl Backing {
         /// Begins with a path.
         pub fn new(path: &BackPath) -> Self {
-            let node = BackFollower::construct((0.25, 2.5, 0.1, 0.55, 1.0));
+            let node = BackFollower::construct((0.25, 2.5, Articulated::PATSY, 1.0));
             Self { node, path: Some(path.clone()), now: Time::ZERO }
         }
 
@@ -170,7 +166,7 @@ pub(in crate::nav) mod tests {
             let (twist, ends) = self.react(base, *heading);
             let twist = twist.expect("it drives");
             assert_eq!(ends[1], None, "blocked at {base:?}");
-            *heading += PERIOD * trailer_rotation(twist.x, twist.omega, base.theta - *heading, 0.1, 0.55);
+            *heading += PERIOD * Articulated::PATSY.trailer_rotation(twist.x, twist.omega, base.theta - *heading);
             *base = base.compose(&Pose2::new(PERIOD * twist.x, 0.0, PERIOD * twist.omega));
             ends[0].is_some()
         }

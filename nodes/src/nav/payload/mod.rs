@@ -15,6 +15,4 @@ pub(super) use back_path::tests::Backing;
 pub use back_path::{BackFollower, BackPath, BackPiece};
 pub use planned::PlannedApproach;
 pub use reactive::ReactiveApproach;
-#[cfg(feature = "std")]
-pub(super) use vehicle::backing_rotation;
-pub use vehicle::{Articulated, trailer_rotation};
+pub use vehicle::Articulated;

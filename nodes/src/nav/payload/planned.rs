@@ -1,6 +1,6 @@
 use super::{
     dubins::{Curve, advanced, curves},
-    vehicle::{Arrival, Articulated, approach_speed, arrival, trailer_rotation},
+    vehicle::{Arrival, Articulated, approach_speed, arrival},
 };
 use crate::{
     math::normalize_angle,
@@ -51,21 +51,9 @@ pub struct PlannedApproach {
     /// Deceleration before the goal.
     #[param(unit = "m/s^2", default = 0.2, range = 0.01..=10.0)]
     deceleration: f32,
-    /// Distance of the tractor's axis from its front.
-    #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
-    front: f32,
-    /// Distance from the tractor's axis back to the hitch.
-    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
-    hitch: f32,
-    /// Distance from the hitch back to the trailer's axis.
-    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
-    drawbar: f32,
-    /// Distance from the trailer's axis back to its rear.
-    #[param(unit = "m", default = 0.15, range = 0.0..=10.0)]
-    rear: f32,
-    /// Width of the vehicle.
-    #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
-    width: f32,
+    /// Shape of the vehicle.
+    #[param(default = Articulated::PATSY)]
+    vehicle: Articulated,
     /// Length of the container.
     #[param(unit = "m", default = 1.2, range = 0.0..=10.0)]
     container_length: f32,
@@ -117,7 +105,7 @@ impl PlannedApproach {
         let Some(container) = self.container.filter(|_| base.is_finite() && trailer.is_finite()) else {
             return self.halt.rest();
         };
-        let vehicle = self.vehicle();
+        let vehicle = &self.vehicle;
         let rear = container.to_inner(vehicle.rear_most(trailer));
         match arrival(&base.relative_to(&container), rear, vehicle.axis(), self.tolerance) {
             Arrival::Reached => {
@@ -145,15 +133,10 @@ impl PlannedApproach {
         (self.container, self.plan) = (None, None);
     }
 
-    fn vehicle(&self) -> Articulated {
-        let Self { front, hitch, drawbar, rear, width, .. } = *self;
-        Articulated { hitch, drawbar, front, rear, width }
-    }
-
     /// Returns `true` at the end of the curve. Before, the vehicle may pass the container.
     fn is_past(&self, base: &Pose2, container: &Pose2) -> bool {
         let Some(plan) = &self.plan else { return false };
-        let at_goal = base.relative_to(container).position() - Point2::new(self.vehicle().axis(), 0.0);
+        let at_goal = base.relative_to(container).position() - Point2::new(self.vehicle.axis(), 0.0);
         plan.curve.length() - plan.driven < self.tolerance || at_goal.norm() < 2.0 * self.tolerance
     }
 
@@ -175,7 +158,7 @@ impl PlannedApproach {
 
     /// Shortest curve beneath the container on which the trailer fits.
     fn plan(&self, base: &Pose2, trailer: f32, container: Pose2) -> Option<Plan> {
-        let goal = self.vehicle().axis();
+        let goal = self.vehicle.axis();
         let mut best: Option<Curve> = None;
         for line in 0..LINES.0 {
             let straight = LINES.1 * f32::from(line);
@@ -192,20 +175,20 @@ impl PlannedApproach {
 
     /// Returns `true` if tractor and trailer touch nothing on the curve and are in line at its end.
     fn fits(&self, curve: &Curve, trailer: f32, container: &Pose2) -> bool {
-        let vehicle = self.vehicle();
+        let vehicle = &self.vehicle;
         let (mut base, mut heading) = (curve.start.relative_to(container), trailer - container.theta);
         for (curvature, length) in curve.parts {
             let steps = libm::ceilf(length / STEP);
             let step = if steps > 0.0 { length / steps } else { 0.0 };
             for _ in 0..steps as u16 {
                 let bend = normalize_angle(&(base.theta - heading));
-                if bend.abs() > self.max_bend && !is_relaxing(bend, curvature, &vehicle) {
+                if bend.abs() > self.max_bend && !is_relaxing(bend, curvature, vehicle) {
                     return false;
                 }
-                let turn = trailer_rotation(1.0, curvature, bend, vehicle.hitch, vehicle.drawbar);
+                let turn = vehicle.trailer_rotation(1.0, curvature, bend);
                 heading += turn * step;
                 base = advanced(&base, curvature, step);
-                if self.touches(&vehicle, &base, heading) {
+                if self.touches(&base, heading) {
                     return false;
                 }
             }
@@ -215,13 +198,13 @@ impl PlannedApproach {
 
     /// Returns `true` if the vehicle reaches into the container beside the free strip. Poses are in the frame of the
     /// container.
-    fn touches(&self, vehicle: &Articulated, base: &Pose2, heading: f32) -> bool {
+    fn touches(&self, base: &Pose2, heading: f32) -> bool {
         let (x, y) = (0.5 * self.container_length + self.margin, 0.5 * self.container_width + self.margin);
-        if base.position().norm() > x + y + vehicle.length() {
+        if base.position().norm() > x + y + self.vehicle.length() {
             return false;
         }
         let blocked = |p: Point2| p.x.abs() <= x && p.y.abs() <= y && p.y.abs() > 0.5 * self.free_width;
-        vehicle.outline(base, heading).into_iter().any(blocked)
+        self.vehicle.outline(base, heading).into_iter().any(blocked)
     }
 
     /// Twist along the plan.
@@ -238,7 +221,7 @@ impl PlannedApproach {
 
 /// Returns `true` if a bend becomes smaller on a curve.
 fn is_relaxing(bend: f32, curvature: f32, vehicle: &Articulated) -> bool {
-    let change = curvature - trailer_rotation(1.0, curvature, bend, vehicle.hitch, vehicle.drawbar);
+    let change = curvature - vehicle.trailer_rotation(1.0, curvature, bend);
     change * bend < 0.0
 }
 
@@ -259,13 +242,11 @@ mod tests {
     const CONTAINER: Pose2 = Pose2::new(4.0, 0.0, 0.0);
 
     fn planned() -> PlannedApproach {
-        PlannedApproach::construct((
-            0.8, 1.0, 0.5, 0.03, 0.2, 0.25, 0.1, 0.55, 0.15, 0.4, 1.2, 0.76, 0.43, 0.05, 0.05, 0.05,
-        ))
+        PlannedApproach::construct((0.8, 1.0, 0.5, 0.03, 0.2, Articulated::PATSY, 1.2, 0.76, 0.43, 0.05, 0.05, 0.05))
     }
 
     fn reactive() -> ReactiveApproach {
-        ReactiveApproach::construct((0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, 0.25, 0.1, 0.55, 0.15, 0.05))
+        ReactiveApproach::construct((0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, Articulated::PATSY, 0.05))
     }
 
     /// Drives until the end, or for 100 s. Returns the pose of the base and whether it was reached or missed.
@@ -282,7 +263,7 @@ mod tests {
                 return (base, reached.is_some(), missed.is_some());
             }
             let Twist { x, omega, .. } = twist.expect("a twist while it is active");
-            heading += trailer_rotation(x, omega, base.theta - heading, 0.1, 0.55) * 0.05;
+            heading += Articulated::PATSY.trailer_rotation(x, omega, base.theta - heading) * 0.05;
             base = advanced(&base, if x > 0.0 { omega / x } else { 0.0 }, 0.05 * x);
         }
         (base, false, false)

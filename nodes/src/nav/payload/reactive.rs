@@ -47,18 +47,9 @@ pub struct ReactiveApproach {
     /// Maximum steering angle.
     #[param(unit = "rad", default = 1.0, range = 0.01..=1.5)]
     max_steering: f32,
-    /// Distance of the tractor's axis from its front.
-    #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
-    front: f32,
-    /// Distance from the tractor's axis back to the hitch.
-    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
-    hitch: f32,
-    /// Distance from the hitch back to the trailer's axis.
-    #[param(unit = "m", default = 0.55, range = 0.01..=10.0)]
-    drawbar: f32,
-    /// Distance from the trailer's axis back to its rear.
-    #[param(unit = "m", default = 0.15, range = 0.0..=10.0)]
-    rear: f32,
+    /// Shape of the vehicle.
+    #[param(default = Articulated::PATSY)]
+    vehicle: Articulated,
     /// Maximum offset of the vehicle from the middle of the container at the end, along and across.
     #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
     tolerance: f32,
@@ -84,7 +75,7 @@ impl ReactiveApproach {
         let Some(container) = self.container.filter(|_| base.is_finite() && trailer.is_finite()) else {
             return self.halt.rest();
         };
-        let vehicle = self.vehicle();
+        let vehicle = &self.vehicle;
         let (base_in, rear) = (base.relative_to(&container), container.to_inner(vehicle.rear_most(trailer)));
         match arrival(&base_in, rear, vehicle.axis(), self.tolerance) {
             Arrival::Ahead => self.halt.drive(self.twist(&base_in, &trailer.relative_to(&container), rear)),
@@ -105,14 +96,9 @@ impl ReactiveApproach {
         self.container = None;
     }
 
-    fn vehicle(&self) -> Articulated {
-        let Self { front, hitch, drawbar, rear, .. } = *self;
-        Articulated { hitch, drawbar, front, rear, width: 0.0 }
-    }
-
     /// Twist of the law. Poses are in the frame of the container.
     fn twist(&self, base: &Pose2, trailer: &Pose2, rear: Point2) -> Twist {
-        let vehicle = self.vehicle();
+        let vehicle = &self.vehicle;
         let to_goal = Point2::new(vehicle.axis(), 0.0) - base.position();
         let steering = if to_goal.norm() >= vehicle.length() {
             let angle = |pose: &Pose2, from: Point2| {

@@ -2,20 +2,26 @@ use crate::{
     nav::Twist,
     scan::{Point2, Pose2},
 };
-use libm::{sincosf, sqrtf};
+use apex_rt::Units;
+use libm::{fmaxf, sincosf, sqrtf};
 
 /// Tractor with two driven wheels and a trailer with one axis, which follows passively. All lengths in m.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Units)]
 pub struct Articulated {
     /// Distance from the axis of the tractor back to the hitch.
+    #[unit("m")]
     pub hitch: f32,
     /// Distance from the hitch back to the axis of the trailer.
+    #[unit("m")]
     pub drawbar: f32,
     /// Distance from the axis of the tractor to its front.
+    #[unit("m")]
     pub front: f32,
     /// Distance from the axis of the trailer back to its rear.
+    #[unit("m")]
     pub rear: f32,
     /// Width of both.
+    #[unit("m")]
     pub width: f32,
 }
 
@@ -65,22 +71,27 @@ impl Articulated {
             behind(-self.rear, -half),
         ]
     }
-}
 
-/// Angular velocity of a trailer, in rad/s (off-axle hitching; Lamiraux et al. 1998). The tractor moves at `speed` m/s
-/// and turns at `rotation` rad/s; `angle` is its heading relative to the trailer, in rad. With `speed` 1 and the
-/// curvature as `rotation`, the result is in rad per metre of the path.
-pub fn trailer_rotation(speed: f32, rotation: f32, angle: f32, hitch: f32, drawbar: f32) -> f32 {
-    let (sin, cos) = sincosf(angle);
-    (speed * sin - hitch * rotation * cos) / drawbar
-}
+    /// Angular velocity of the trailer, in rad/s (off-axle hitching; Lamiraux et al. 1998). The tractor moves at
+    /// `speed` m/s and turns at `rotation` rad/s; `bend` is its heading relative to the trailer, in rad. With `speed` 1
+    /// and the curvature as `rotation`, the result is in rad per metre of the path.
+    pub fn trailer_rotation(&self, speed: f32, rotation: f32, bend: f32) -> f32 {
+        let (sin, cos) = sincosf(bend);
+        (speed * sin - self.hitch * rotation * cos) / self.drawbar()
+    }
 
-/// Angular velocity, in rad/s, of a tractor that drives backward at `speed` m/s, so that its `bend`, its heading
-/// relative to the trailer in rad, changes by `rate` rad/s (feedback linearization of the off-axle hitch; Lamiraux et
-/// al. 1998).
-pub(in crate::nav) fn backing_rotation(speed: f32, bend: f32, rate: f32, hitch: f32, drawbar: f32) -> f32 {
-    let (sin, cos) = sincosf(bend);
-    (rate - speed * sin / drawbar) / (1.0 + hitch * cos / drawbar)
+    /// Angular velocity, in rad/s, of a tractor that drives backward at `speed` m/s, so that its `bend`, its heading
+    /// relative to the trailer in rad, changes by `rate` rad/s (feedback linearization of the off-axle hitch; Lamiraux
+    /// et al. 1998).
+    pub(in crate::nav) fn backing_rotation(&self, speed: f32, bend: f32, rate: f32) -> f32 {
+        let ((sin, cos), drawbar) = (sincosf(bend), self.drawbar());
+        (rate - speed * sin / drawbar) / (1.0 + self.hitch * cos / drawbar)
+    }
+
+    /// Length of the drawbar, by which angles can be divided: at least 1 cm, also of one that is not a number.
+    fn drawbar(&self) -> f32 {
+        fmaxf(self.drawbar, 0.01)
+    }
 }
 
 /// Speed at `distance` m before a stop under constant deceleration, between a minimum and a maximum, in m/s.
@@ -89,19 +100,18 @@ pub(super) fn approach_speed(distance: f32, deceleration: f32, [least, most]: [f
 }
 
 /// Twist of a tractor that backs up and stops after `left` m. Its angle `bend` to the trailer, in rad, changes at the
-/// rate that `rate` returns for a speed. `most` is the maximum speed, and `hitch` and `drawbar` are those of the
-/// vehicle.
+/// rate that `rate` returns for a speed. `most` is the maximum speed.
 pub(super) fn backing_twist(
     left: f32,
     most: f32,
     bend: f32,
     rate: impl FnOnce(f32) -> f32,
-    [hitch, drawbar]: [f32; 2],
+    vehicle: &Articulated,
 ) -> Twist {
     const DECELERATION: f32 = 0.3;
     const SLOWEST: f32 = 0.03;
     let speed = approach_speed(left, DECELERATION, [SLOWEST, most]);
-    Twist::new(-speed, 0.0, backing_rotation(speed, bend, rate(speed), hitch, drawbar))
+    Twist::new(-speed, 0.0, vehicle.backing_rotation(speed, bend, rate(speed)))
 }
 
 /// Outcome of the comparison of a vehicle with its goal.
@@ -141,10 +151,14 @@ mod tests {
 
     #[test]
     fn a_trailer_turns_towards_the_tractor() {
-        assert_eq!(trailer_rotation(1.0, 0.0, 0.0, 0.1, 0.5), 0.0);
-        assert!(trailer_rotation(1.0, 0.0, 0.5, 0.1, 0.5) > 0.9);
+        let vehicle = Articulated { drawbar: 0.5, ..Articulated::PATSY };
+        assert_eq!(vehicle.trailer_rotation(1.0, 0.0, 0.0), 0.0);
+        assert!(vehicle.trailer_rotation(1.0, 0.0, 0.5) > 0.9);
         // The hitch swings to the other side when the tractor turns on the spot.
-        assert!((trailer_rotation(0.0, 1.0, 0.0, 0.1, 0.5) + 0.2).abs() < 1e-6);
+        assert!((vehicle.trailer_rotation(0.0, 1.0, 0.0) + 0.2).abs() < 1e-6);
+        for drawbar in [0.0, f32::NAN] {
+            assert!(Articulated { drawbar, ..vehicle }.trailer_rotation(1.0, 0.1, 0.2).is_finite());
+        }
     }
 
     #[test]

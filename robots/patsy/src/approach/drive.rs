@@ -83,10 +83,10 @@ enum Node {
 
 impl Node {
     fn new(controller: Controller) -> Self {
-        let Articulated { hitch, drawbar, front, rear, width } = Articulated::PATSY;
+        let vehicle = Articulated::PATSY;
         match controller {
             Controller::Reactive => Self::Reactive(ReactiveApproach::construct((
-                0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, front, hitch, drawbar, rear, 0.05,
+                0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, vehicle, 0.05,
             ))),
             Controller::Planned => Self::Planned(PlannedApproach::construct((
                 0.8,
@@ -94,11 +94,7 @@ impl Node {
                 0.5,
                 0.03,
                 0.2,
-                front,
-                hitch,
-                drawbar,
-                rear,
-                width,
+                vehicle,
                 LENGTH,
                 WIDTH + 0.08,
                 0.43,
@@ -159,9 +155,9 @@ fn container(seed: u64) -> World {
 
 fn tractor(start: Pose2) -> Tractor {
     let limits = Limits { speed: 1.0, acceleration: 1.0, turn: 2.0, turn_acceleration: 6.0 };
-    let Articulated { hitch, drawbar, width, .. } = Articulated::PATSY;
-    let base = Differential { pose: start, twist: Twist::ZERO, limits, track: width };
-    Tractor { base, trailer: start.theta, hitch, drawbar }
+    let shape = Articulated::PATSY;
+    let base = Differential { pose: start, twist: Twist::ZERO, limits, track: shape.width };
+    Tractor { base, trailer: start.theta, shape }
 }
 
 fn offset(vehicle: &Tractor) -> f32 {

@@ -28,7 +28,7 @@ pub(super) struct Body {
 impl Body {
     pub fn new(pose: Pose2) -> Self {
         let base = Differential { pose, twist: Twist::ZERO, limits: LIMITS, track: SHAPE.width };
-        let tractor = Tractor { base, trailer: pose.theta, hitch: SHAPE.hitch, drawbar: SHAPE.drawbar };
+        let tractor = Tractor { base, trailer: pose.theta, shape: SHAPE };
         Self { tractor, lift: Lift::lowered(LIFT), load: None }
     }
 

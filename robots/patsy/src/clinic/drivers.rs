@@ -73,7 +73,7 @@ impl Scanner {
     }
 }
 
-/// Scanner on the trailer: a source of scans over 180° behind its axis, 6 cm above the floor.
+/// Safety scanner on the trailer: a source of scans over 270° at its axis, 6 cm above the floor.
 #[node]
 #[derive(Debug)]
 pub struct RearScanner {
@@ -90,12 +90,11 @@ impl RearScanner {
 
     /// Sends scans whose x axis points backward.
     fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
-        const LASER: Laser = Laser { field_of_view: PI, ..Laser::S300 };
         let mut clinic = self.clinic.at(ctx.now());
         let pose = clinic.trailer().compose(&Pose2::new(0.0, 0.0, PI));
         let token = scan.get_mut();
         token.stamp = ctx.now();
-        LASER.measure(clinic.scanned(), &pose, &mut self.random, token);
+        Laser::S300.measure(clinic.scanned(), &pose, &mut self.random, token);
     }
 }
 

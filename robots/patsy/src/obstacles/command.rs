@@ -1,6 +1,6 @@
 use super::{
-    Detector, RANGES, RangeClass, RangeTable, RecordedTable, SceneFigure, StepTimes, Summary, labelled_scene,
-    labelled_scores,
+    Detector, LookoutTable, RANGES, RangeClass, RangeTable, RecordedTable, SceneFigure, StepTimes, Summary, Thing,
+    drive_on, labelled_scene, labelled_scores,
 };
 use crate::chart;
 use apex_sim::{in_order, say};
@@ -37,7 +37,9 @@ Pictures of a scene and of the points by distance are written to out/patsy. Exit
 const PICTURES: &str = "out/patsy";
 /// Number of scenes, and of rounds with each, for the computing time.
 const TIMED: (u64, usize) = (20, 50);
-/// Minimum number of trials at each distance.
+/// Speed of the drives towards things, in m/s.
+const SPEED: f32 = 0.7;
+/// Minimum number of trials at each distance, and of drives.
 const LEAST_TRIALS: u64 = 5;
 
 struct Options {
@@ -99,7 +101,7 @@ fn simulated(options: &Options) -> Result<(), String> {
     let scenes = scenes.into_iter().collect::<Result<Vec<_>, _>>()?;
     say(&format!("{}\n\n", Summary::new(&scenes, threshold)))?;
 
-    let trials = (options.seeds / 10).max(LEAST_TRIALS);
+    let [trials, drives] = [(options.seeds / 10).max(LEAST_TRIALS), (options.seeds / 4).max(LEAST_TRIALS)];
     let each = |(class, distance)| (0..trials).map(move |trial| (class, distance, options.first + trial));
     let classes = (0..RANGES.len()).flat_map(|class| RangeClass::distances().map(move |distance| (class, distance)));
     let jobs: Vec<(usize, f32, u64)> = classes.flat_map(each).collect();
@@ -107,6 +109,12 @@ fn simulated(options: &Options) -> Result<(), String> {
         |(class, distance, seed): &(usize, f32, u64)| (*class, *distance, RANGES[*class].trial(*distance, *seed));
     let table = RangeTable { trials: work(&jobs, options.jobs, "trials", trial)? };
     say(&format!("{table}\n({trials} trials at each distance; detected: at least 10 points)\n\n"))?;
+
+    let each = |thing: Option<Thing>| (options.first..options.first + drives).map(move |seed| (thing, seed));
+    let jobs: Vec<(Option<Thing>, u64)> = Thing::LITTLE.map(Some).into_iter().chain([None]).flat_map(each).collect();
+    let drive = |(thing, seed): &(Option<Thing>, u64)| (*thing, drive_on(*thing, SPEED, *seed));
+    let lookout = LookoutTable { drives: work(&jobs, options.jobs, "drives", drive)? };
+    say(&format!("{lookout}\n(at {SPEED} m/s)\n\n"))?;
 
     say(&format!("{}\n\n", StepTimes::measure(options.first, TIMED.0.min(options.seeds), TIMED.1)))?;
     let [picture, ranges] = ["obstacles.svg", "ranges.svg"].map(|name| Path::new(PICTURES).join(name));

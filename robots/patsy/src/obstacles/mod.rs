@@ -5,6 +5,7 @@ mod bench;
 mod command;
 mod detector;
 mod figure;
+mod lookout;
 mod plane;
 mod range;
 mod rated;
@@ -19,6 +20,7 @@ pub use bench::{Method, SceneScores, Summary, labelled_scores};
 pub use command::run;
 pub use detector::{Detector, Weights};
 pub use figure::SceneFigure;
+pub use lookout::{LookoutTable, Outcome, drive_on};
 pub use plane::Plane;
 pub use range::{RANGES, RangeClass, RangeTable, Trial};
 pub use rated::{RateDetection, Rating, SceneTof};
@@ -32,4 +34,9 @@ pub use times::StepTimes;
 /// Compiled graphs of `obstacles.afg`.
 pub mod programs {
     apex_macros::graph!("obstacles.afg");
+}
+
+/// Compiled graph of `lookout.afg`.
+mod lookout_programs {
+    apex_macros::graph!("lookout.afg");
 }

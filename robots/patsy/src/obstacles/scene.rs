@@ -35,16 +35,31 @@ impl Scene {
 
     /// Takes a frame from the origin.
     pub fn take(&mut self) -> TofFrame {
+        self.take_from(&Pose2::default(), Time::ZERO)
+    }
+
+    /// Takes a frame from a pose at a time.
+    pub fn take_from(&mut self, pose: &Pose2, now: Time) -> TofFrame {
         let mut frame = TofFrame::default();
-        self.camera.take(&self.space, &Pose2::default(), Time::ZERO, &mut self.random, &mut frame);
+        self.camera.take(&self.space, pose, now, &mut self.random, &mut frame);
         frame
+    }
+
+    /// Random number from −`most` to `most`.
+    pub fn uniform(&mut self, most: f32) -> f32 {
+        self.random.uniform(-most, most)
+    }
+
+    /// Places a thing.
+    pub fn place_at(&mut self, thing: Thing, pose: &Pose2) {
+        thing.place(pose, &mut self.random, &mut self.space);
     }
 
     /// Places a thing at a distance, at a random place across and in a random direction.
     pub fn place(&mut self, thing: Thing, distance: f32) {
-        let across = distance * self.random.uniform(-0.45, 0.45);
-        let pose = Pose2::new(distance, across, self.random.uniform(-PI, PI));
-        thing.place(&pose, &mut self.random, &mut self.space);
+        let across = distance * self.uniform(0.45);
+        let pose = Pose2::new(distance, across, self.uniform(PI));
+        self.place_at(thing, &pose);
     }
 
     /// Adds a wall across the view.

@@ -1,0 +1,193 @@
+use super::{
+    Articulated, Twist,
+    latest::Latest,
+    outline::{Axes, Outline},
+};
+use crate::scan::{Point2, Pose2, Scan};
+use apex_rt::{Ctx, node};
+use std::vec::Vec;
+
+/// Distance between predicted places, in m.
+const STEP: f32 = 0.02;
+/// Length of the curve that is predicted, in m.
+const LOOK_AHEAD: f32 = 0.8;
+/// Greatest distance that a corner of the vehicle moves on a metre of the curve, in m.
+const SWING: f32 = 2.0;
+/// Distance by which a point that is within the margin already may come nearer, in m: what is beside the vehicle would
+/// else hold it in both directions.
+const GRAZE: f32 = 0.01;
+
+/// Slows a tractor with a trailer down before obstacles on its curve, and stops it before it touches one: a
+/// [`SafetyField`](super::SafetyField) of the shape of the vehicle with its load, whose corners swing out in curves.
+///
+/// `ahead` and `behind` are scans in the frames of the tractor and of the trailer, without the load. They may be ⊥, as
+/// scans come less often than twists, but the vehicle stops if one of the two is older than `max_age`. `base` and
+/// `trailer` are the poses of the two axes in one fixed frame such as that of odometry.
+#[node]
+#[derive(Debug, Clone)]
+pub struct TrailerField {
+    /// Shape of the vehicle.
+    #[param(default = Articulated::PATSY)]
+    vehicle: Articulated,
+    /// Length of the load, whose middle is above that of the straight vehicle.
+    #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
+    load_length: f32,
+    /// Width of the load; 0 for none.
+    #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
+    load_width: f32,
+    /// Minimum distance from obstacles at a stop.
+    #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
+    margin: f32,
+    /// Deceleration of the vehicle.
+    #[param(unit = "m/s^2", default = 1.0, range = 0.01..=100.0)]
+    deceleration: f32,
+    /// Delay before the vehicle begins to brake.
+    #[param(unit = "s", default = 0.1, range = 0.0..=10.0)]
+    latency: f32,
+    /// Maximum age of a scan.
+    #[param(unit = "s", default = 0.5, range = 0.0..=60.0)]
+    max_age: f32,
+    last: [Latest<Scan>; 2],
+    /// Points near the vehicle, and their distances from it.
+    near: Vec<(Point2, f32)>,
+}
+
+#[node]
+impl TrailerField {
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        twist: &Twist,
+        ahead: Option<&Scan>,
+        behind: Option<&Scan>,
+        base: &Pose2,
+        trailer: &Pose2,
+    ) -> Twist {
+        for (last, scan) in self.last.iter_mut().zip([ahead, behind]) {
+            last.update(ctx.now(), scan);
+        }
+        let now = [*base, *trailer];
+        let is_usable = twist.is_finite() && now.iter().all(Pose2::is_usable);
+        if !(is_usable && self.find_near(ctx, &now)) {
+            return Twist::ZERO;
+        }
+        twist.stoppable(self.gap(twist, &now), self.deceleration, self.latency)
+    }
+
+    /// Finds the points near the vehicle. Returns `false` without young scans.
+    fn find_near(&mut self, ctx: &Ctx, now: &Axes) -> bool {
+        self.near.clear();
+        let outline = self.outline();
+        for (last, axis) in self.last.iter().zip(now) {
+            let Some(scan) = last.young(ctx.now(), self.max_age) else { return false };
+            let points = scan.points().map(|(_, point)| axis.to_outer(point));
+            let near = points.map(|point| (point, outline.distance(now, point)));
+            self.near.extend(near.filter(|(_, distance)| *distance < self.margin + SWING * LOOK_AHEAD));
+        }
+        true
+    }
+
+    /// Distance that the vehicle can drive before an obstacle is within its margin, in m.
+    fn gap(&self, twist: &Twist, now: &Axes) -> f32 {
+        if twist.x == 0.0 || self.near.is_empty() {
+            return f32::INFINITY;
+        }
+        let (outline, count) = (self.outline(), (LOOK_AHEAD / STEP) as u16);
+        let is_met = |axes: &Axes, driven: f32, &(point, before): &(Point2, f32)| {
+            if before > self.margin + SWING * driven {
+                return false;
+            }
+            let distance = outline.distance(axes, point);
+            let is_grazed = before < self.margin && before - distance <= GRAZE;
+            distance < self.margin && !is_grazed
+        };
+        let places = (0..count).map(|k| f32::from(k) * STEP).zip(self.vehicle.places(now, twist, STEP));
+        let mut met = places.filter(|(free, axes)| self.near.iter().any(|point| is_met(axes, free + STEP, point)));
+        met.next().map_or(f32::INFINITY, |(free, _)| free)
+    }
+
+    fn outline(&self) -> Outline {
+        Outline::new(self.vehicle, [self.load_length, self.load_width])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_rt::{Construct, Time};
+    use core::f32::consts::{PI, TAU};
+
+    const LOAD: [f32; 2] = [1.2, 0.7];
+
+    fn node([length, width]: [f32; 2]) -> TrailerField {
+        TrailerField::construct((Articulated::PATSY, length, width, 0.02, 0.8, 0.1, 0.5))
+    }
+
+    /// Scan of points in the frame of its scanner, each hit by one beam.
+    fn scan(points: &[Point2]) -> Scan {
+        let mut scan = Scan { angle_min: -PI, angle_increment: TAU / 1080.0, range_max: 20.0, ..Scan::default() };
+        scan.ranges.extend([f32::INFINITY; 1080]);
+        for point in points {
+            let beam = libm::roundf((point.angle() + PI) / scan.angle_increment) as usize % 1080;
+            scan.ranges[beam] = point.norm();
+        }
+        scan
+    }
+
+    /// Speed that is left of a twist with points in the frame of the tractor, of a straight vehicle.
+    fn speed(load: [f32; 2], twist: Twist, points: &[(f32, f32)]) -> f32 {
+        let base = Pose2::new(1.0, 2.0, 0.5);
+        let trailer = Articulated::PATSY.trailer(&base, 0.5);
+        let points: Vec<Point2> = points.iter().map(|(x, y)| Point2::new(*x, *y)).collect();
+        let (front, rear): (Vec<Point2>, Vec<Point2>) = points.iter().partition(|point| point.x > -0.6);
+        let rear: Vec<Point2> = rear.iter().map(|p| trailer.to_inner(base.to_outer(*p))).collect();
+        let ctx = Ctx::new(Time::ZERO);
+        let limited = node(load).process(&ctx, &twist, Some(&scan(&front)), Some(&scan(&rear)), &base, &trailer);
+        assert!((limited.omega * twist.x - twist.omega * limited.x).abs() < 1e-5, "the same curve");
+        limited.x
+    }
+
+    #[test]
+    fn it_stops_before_what_its_outline_meets() {
+        let (ahead, back) = (Twist::new(0.5, 0.0, 0.0), Twist::new(-0.5, 0.0, 0.0));
+        assert_eq!(speed([0.0; 2], ahead, &[(0.26, 0.1)]), 0.0);
+        assert_eq!(speed([0.0; 2], ahead, &[(0.26, 0.25), (1.5, 0.0), (-1.0, 0.1)]), 0.5);
+        let near = speed([0.0; 2], ahead, &[(0.33, -0.19)]);
+        assert!((0.1..0.4).contains(&near), "{near}");
+        assert_eq!(speed(LOAD, ahead, &[(0.33, -0.33)]), 0.0);
+        assert_eq!(speed(LOAD, back, &[(0.33, -0.33)]), -0.5);
+        let [empty, loaded] = [[0.0; 2], LOAD].map(|load| speed(load, back, &[(-0.95, 0.1)]));
+        assert!(empty < loaded - 0.1 && loaded < 0.0, "{empty} {loaded}");
+    }
+
+    #[test]
+    fn the_corner_of_the_load_swings_out() {
+        let (straight, bend) = (Twist::new(0.4, 0.0, 0.0), Twist::new(0.4, 0.0, 0.5));
+        let beside = [(0.43, -0.375)];
+        assert_eq!([speed(LOAD, straight, &beside), speed([0.0; 2], bend, &beside)], [0.4, 0.4]);
+        assert!(speed(LOAD, bend, &beside) < 0.35);
+    }
+
+    #[test]
+    fn what_touches_it_at_its_side_holds_it_in_no_direction() {
+        for x in [0.2, -0.3, -0.8] {
+            for twist in [0.5, -0.5].map(|x| Twist::new(x, 0.0, 0.0)) {
+                assert_eq!(speed(LOAD, twist, &[(x, 0.36), (x, -0.36)]), twist.x, "at {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn it_stands_without_both_scans() {
+        let (mut node, twist, at) = (node(LOAD), Twist::new(0.5, 0.0, 0.1), Pose2::default());
+        let trailer = Articulated::PATSY.trailer(&at, 0.0);
+        let empty = Scan::default();
+        let mut fire = |ms, twist: &Twist, ahead, behind| {
+            node.process(&Ctx::new(Time::from_millis(ms)), twist, ahead, behind, &at, &trailer)
+        };
+        assert_eq!([fire(0, &twist, None, None), fire(50, &twist, Some(&empty), None)], [Twist::ZERO; 2]);
+        assert_eq!([fire(100, &twist, None, Some(&empty)), fire(500, &twist, None, None)], [twist; 2]);
+        assert_eq!(fire(600, &twist, None, Some(&empty)), Twist::ZERO);
+        assert_eq!(fire(700, &Twist { x: f32::NAN, ..twist }, Some(&empty), Some(&empty)), Twist::ZERO);
+    }
+}
