@@ -61,7 +61,7 @@ impl Outline {
     /// Outline of a vehicle with a load of this length and width, in m, whose middle is above that of the straight
     /// vehicle. A load of width 0 is none.
     pub fn new(vehicle: Articulated, [length, width]: [f32; 2]) -> Self {
-        let middle = 0.5 * vehicle.length() - vehicle.rear;
+        let middle = vehicle.lift();
         let load = Part { from: middle - 0.5 * length, to: middle + 0.5 * length, half: 0.5 * width };
         Self { vehicle, load: (width > 0.0).then_some(load) }
     }

@@ -22,6 +22,7 @@ mod report;
 mod room;
 mod sim_laser;
 pub mod times;
+mod tractor;
 pub mod validate;
 
 /// A container two metres ahead, for tests.
@@ -45,6 +46,7 @@ pub use progress::Progress;
 pub use referee::{Ends, Referee};
 pub use report::{RECORDED_SCANNER, Report};
 pub use sim_laser::{SimLaser, Truth};
+use tractor::tractor;
 
 /// Compiled robots of `patsy.afg`.
 pub mod programs {

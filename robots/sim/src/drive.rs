@@ -1,3 +1,4 @@
+use crate::Footprint;
 use apex_nodes::{
     math::normalize_angle,
     nav::{Articulated, Twist},
@@ -83,6 +84,17 @@ impl Differential {
 }
 
 impl Tractor {
+    /// Creates a tractor that stands at a pose, with its trailer straight behind.
+    pub const fn straight(pose: Pose2, shape: Articulated, limits: Limits) -> Self {
+        let base = Differential { pose, twist: Twist::ZERO, limits, track: shape.width };
+        Self { base, trailer: pose.theta, shape }
+    }
+
+    /// Areas of tractor and trailer.
+    pub fn footprints(&self) -> [Footprint; 2] {
+        Footprint::of(&self.shape, &self.base.pose, self.trailer)
+    }
+
     /// Moves for `dt` s; the trailer follows.
     pub fn step(&mut self, command: &Twist, dt: f32) {
         self.base.step(command, dt);

@@ -1,4 +1,4 @@
-use crate::{Differential, FloorPlan, Footprint, Lift, Limits, Odometry, OdometryNoise, PlanError, Tractor};
+use crate::{FloorPlan, Footprint, Lift, Limits, Odometry, OdometryNoise, PlanError, Tractor};
 use apex_nodes::{
     nav::{Articulated, Twist},
     scan::Pose2,
@@ -131,8 +131,7 @@ impl TractorBase {
             turn: self.turn,
             turn_acceleration: 3.0 * self.turn,
         };
-        let base = Differential { pose: plan.start, twist: Twist::ZERO, limits, track: self.vehicle.width };
-        let vehicle = Tractor { base, trailer: plan.start.theta, shape: self.vehicle };
+        let vehicle = Tractor::straight(plan.start, self.vehicle, limits);
         let odometry = Odometry::new(OdometryNoise::PIONEER.times(self.drift), self.seed);
         Ok(Moving { plan, vehicle, lift: Lift::lowered(self.lift_duration), odometry, last: now })
     }
@@ -157,12 +156,10 @@ impl TractorBase {
 
     /// Distance of the vehicle with its load to the nearest object, in m.
     fn clearance(&self, moving: &Moving) -> f32 {
-        let Tractor { base, trailer, shape } = &moving.vehicle;
-        let parts = Footprint::of(shape, &base.pose, *trailer);
+        let parts = moving.vehicle.footprints();
         let load = moving.lift.carries().then(|| {
             let rear = moving.vehicle.trailer_pose();
-            let ahead = 0.5 * shape.length() - shape.rear;
-            let middle = rear.compose(&Pose2::new(ahead, 0.0, 0.0));
+            let middle = rear.compose(&Pose2::new(self.vehicle.lift(), 0.0, 0.0));
             Footprint { pose: middle, length: self.load_length, width: self.load_width }
         });
         parts.iter().chain(&load).map(|part| part.clearance(&moving.plan.world)).fold(f32::INFINITY, f32::min)

@@ -40,6 +40,12 @@ impl Articulated {
         0.5 * self.length() - self.front
     }
 
+    /// Distance from the axis of the trailer forward to the middle of the straight vehicle, above which its load is, in
+    /// m.
+    pub const fn lift(&self) -> f32 {
+        0.5 * self.length() - self.rear
+    }
+
     /// Rear-most point of the trailer whose axis is at `trailer`.
     pub fn rear_most(&self, trailer: &Pose2) -> Point2 {
         trailer.to_outer(Point2::new(-self.rear, 0.0))

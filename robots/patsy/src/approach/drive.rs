@@ -1,10 +1,10 @@
-use crate::{Cart, LENGTH, WIDTH};
+use crate::{Cart, LENGTH, WIDTH, tractor};
 use apex_nodes::{
     nav::{Articulated, PlannedApproach, ReactiveApproach, Twist},
     scan::Pose2,
 };
 use apex_rt::{Construct as _, Ctx, Event, Time};
-use apex_sim::{Differential, Footprint, Limits, Random, Tractor, World};
+use apex_sim::{Random, Tractor, World};
 use core::{f32::consts::PI, fmt};
 
 /// Period of the controller, in ms.
@@ -134,10 +134,7 @@ pub fn drive(controller: Controller, seed: u64, start: Pose2) -> Approach {
         for _ in 0..STEPS {
             vehicle.step(&twist, PERIOD as f32 * 1e-3 / f32::from(STEPS));
         }
-        if Footprint::of(&Articulated::PATSY, &vehicle.base.pose, vehicle.trailer)
-            .iter()
-            .any(|f| f.clearance(&world) <= 0.0)
-        {
+        if vehicle.footprints().iter().any(|f| f.clearance(&world) <= 0.0) {
             return at_end(End::Contact, &vehicle, time);
         }
     }
@@ -151,13 +148,6 @@ fn container(seed: u64) -> World {
     let mut world = World::default();
     Cart::new(CONTAINER, castors).add_to(&mut world);
     world
-}
-
-fn tractor(start: Pose2) -> Tractor {
-    let limits = Limits { speed: 1.0, acceleration: 1.0, turn: 2.0, turn_acceleration: 6.0 };
-    let shape = Articulated::PATSY;
-    let base = Differential { pose: start, twist: Twist::ZERO, limits, track: shape.width };
-    Tractor { base, trailer: start.theta, shape }
 }
 
 fn offset(vehicle: &Tractor) -> f32 {

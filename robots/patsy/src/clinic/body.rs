@@ -1,18 +1,15 @@
 use super::site::area;
-use crate::{Cart, LENGTH, WIDTH};
+use crate::{Cart, LENGTH, WIDTH, tractor};
 use apex_nodes::{
     math::normalize_angle,
-    nav::{Articulated, Twist},
+    nav::Twist,
     scan::{Point2, Pose2},
 };
-use apex_sim::{Differential, Footprint, Lift, Limits, Tractor, World};
+use apex_sim::{Footprint, Lift, Tractor, World};
 use core::f32::consts::PI;
 
-/// Shape of the vehicle.
-pub(super) const SHAPE: Articulated = Articulated::PATSY;
 /// Time that the lift takes, in s.
 const LIFT: f32 = 3.0;
-const LIMITS: Limits = Limits { speed: 1.0, acceleration: 1.0, turn: 2.0, turn_acceleration: 6.0 };
 /// Greatest distance and angle of a container from the middle of the lift at which it is lifted.
 const CATCH: [f32; 2] = [0.12, 0.2];
 
@@ -27,14 +24,12 @@ pub(super) struct Body {
 
 impl Body {
     pub fn new(pose: Pose2) -> Self {
-        let base = Differential { pose, twist: Twist::ZERO, limits: LIMITS, track: SHAPE.width };
-        let tractor = Tractor { base, trailer: pose.theta, shape: SHAPE };
-        Self { tractor, lift: Lift::lowered(LIFT), load: None }
+        Self { tractor: tractor(pose), lift: Lift::lowered(LIFT), load: None }
     }
 
     /// Areas of tractor and trailer, and of the container on the lift.
     pub fn areas(&self) -> impl Iterator<Item = Footprint> + '_ {
-        let parts = Footprint::of(&SHAPE, &self.tractor.base.pose, self.tractor.trailer);
+        let parts = self.tractor.footprints();
         let load = self.load_pose().map(|pose| Footprint { pose, length: LENGTH, width: WIDTH });
         parts.into_iter().chain(load)
     }
@@ -75,7 +70,7 @@ impl Body {
     /// Takes a container that is above the lift when it begins to rise.
     pub fn catch(&mut self, carts: &[Cart]) {
         let trailer = self.tractor.trailer_pose();
-        let middle = Pose2::new(0.5 * SHAPE.length() - SHAPE.rear, 0.0, 0.0);
+        let middle = Pose2::new(self.tractor.shape.lift(), 0.0, 0.0);
         self.load = carts.iter().enumerate().find_map(|(number, cart)| {
             let place = area(cart).pose.relative_to(&trailer);
             let off = place.relative_to(&middle);
@@ -92,7 +87,7 @@ impl Body {
     /// Points on the floor where the wheels stand.
     pub fn wheels(&self) -> [Point2; 4] {
         let (base, trailer) = (self.tractor.base.pose, self.tractor.trailer_pose());
-        let half = 0.4 * SHAPE.width;
+        let half = 0.4 * self.tractor.shape.width;
         [(base, half), (base, -half), (trailer, half), (trailer, -half)]
             .map(|(pose, y)| pose.to_outer(Point2::new(0.0, y)))
     }

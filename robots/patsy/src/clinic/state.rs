@@ -1,6 +1,6 @@
 use super::{
     Contact, DOCK, Delivery, Fault, FaultKind, Order, PEOPLE, Report, STAIRWELL,
-    body::{Body, SHAPE, along},
+    body::{Body, along},
     site::{Site, area},
     view,
 };
@@ -329,7 +329,7 @@ impl State {
         if self.report.falls.is_empty() && wheels.iter().any(|wheel| STAIRWELL.contains(wheel.x, wheel.y)) {
             self.report.falls.push(self.now);
         }
-        let parts = Footprint::of(&SHAPE, &self.body.tractor.base.pose, self.body.tractor.trailer);
+        let parts = self.body.tractor.footprints();
         let is_under = |place: Point2| parts.iter().any(|part| part.distance(place) <= 0.0);
         let Self { site, report, now, .. } = self;
         site.things.retain(|(thing, pose)| {

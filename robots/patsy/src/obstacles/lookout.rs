@@ -1,11 +1,11 @@
 use super::{Scene, Thing, lookout_programs::LookOut};
+use crate::tractor;
 use apex_nodes::{
-    nav::{Articulated, Twist},
+    nav::Twist,
     persons::Persons,
     scan::{Pose2, Scan},
 };
 use apex_rt::Time;
-use apex_sim::{Differential, Footprint, Limits, Tractor};
 use core::{f32::consts::PI, fmt};
 
 /// End of a drive straight on.
@@ -40,7 +40,7 @@ pub fn drive_on(thing: Option<Thing>, speed: f32, seed: u64) -> Outcome {
     if let Some(thing) = thing {
         scene.place_at(thing, &place);
     }
-    let mut vehicle = tractor();
+    let mut vehicle = tractor(Pose2::default());
     let mut program = Box::new(LookOut::new());
     for period in 0..(LONGEST * 1000.0) as i64 / PERIOD {
         let now = Time::from_millis(period * PERIOD);
@@ -57,7 +57,7 @@ pub fn drive_on(thing: Option<Thing>, speed: f32, seed: u64) -> Outcome {
         for _ in 0..STEPS {
             vehicle.step(&twist, PERIOD as f32 * 1e-3 / f32::from(STEPS));
         }
-        let parts = Footprint::of(&vehicle.shape, &vehicle.base.pose, vehicle.trailer);
+        let parts = vehicle.footprints();
         if thing.is_some() && parts.iter().any(|part| part.distance(place.position()) <= 0.0) {
             return Outcome::RunOver;
         }
@@ -68,13 +68,6 @@ pub fn drive_on(thing: Option<Thing>, speed: f32, seed: u64) -> Outcome {
     Outcome::Stopped
 }
 
-fn tractor() -> Tractor {
-    let shape = Articulated::PATSY;
-    let limits = Limits { speed: 1.0, acceleration: 1.0, turn: 2.0, turn_acceleration: 6.0 };
-    let base = Differential { pose: Pose2::default(), twist: Twist::ZERO, limits, track: shape.width };
-    Tractor { base, trailer: 0.0, shape }
-}
-
 /// Outcomes by thing.
 #[derive(Debug, Clone, Default)]
 pub struct LookoutTable {
@@ -83,6 +76,11 @@ pub struct LookoutTable {
 }
 
 impl LookoutTable {
+    /// Things of the rows, and nothing in the last one.
+    pub fn things() -> impl Iterator<Item = Option<Thing>> {
+        Thing::LITTLE.map(Some).into_iter().chain([None])
+    }
+
     fn count(&self, thing: Option<Thing>, outcome: Outcome) -> usize {
         self.drives.iter().filter(|drive| **drive == (thing, outcome)).count()
     }
@@ -91,7 +89,7 @@ impl LookoutTable {
 impl fmt::Display for LookoutTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:<16}{:>10}{:>10}{:>10}", "drives towards", "stopped", "run over", "passed")?;
-        for thing in Thing::LITTLE.map(Some).into_iter().chain([None]) {
+        for thing in Self::things() {
             let name = thing.map_or_else(|| "nothing".to_owned(), |thing| format!("{thing:?}").to_lowercase());
             write!(f, "\n{name:<16}")?;
             for outcome in [Outcome::Stopped, Outcome::RunOver, Outcome::Passed] {
