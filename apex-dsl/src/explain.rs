@@ -110,6 +110,11 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
         }
         steps(text, graph, &cluster.block, indent + 2);
     }
+    for silence in &analysis.silences {
+        let nodes: Vec<String> = silence.nodes.iter().map(|node| graph.path(*node)).collect();
+        let guard = analysis.guards[silence.guard].text(graph);
+        let _ = writeln!(text, "{pad}silence of {guard}: ⊥ takes its place after the time of {}", nodes.join(", "));
+    }
     if graph.connections.iter().any(|c| !graph.is_synchronous(c)) {
         let _ = writeln!(text, "{pad}asynchronous connections");
         asynchronous(text, graph, analysis, &pad);

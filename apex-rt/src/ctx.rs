@@ -6,13 +6,22 @@ use core::time::Duration;
 pub struct Ctx {
     now: Time,
     stamp: Time,
+    /// Time of the reaction: later than `now` while it makes up for what is late.
+    reaction: Time,
     active: bool,
 }
 
 impl Ctx {
     /// Returns the context of a reaction at `now`.
     pub const fn new(now: Time) -> Self {
-        Self { now, stamp: now, active: false }
+        Self::at(now, now)
+    }
+
+    /// Returns the context of the instant `now` of a reaction at `reaction`.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const fn at(now: Time, reaction: Time) -> Self {
+        Self { now, stamp: now, reaction, active: false }
     }
 
     /// Returns the context of a node that is `active` or not.
@@ -42,16 +51,22 @@ impl Ctx {
         self.active
     }
 
-    /// Returns the logical time of this reaction, which is constant during the reaction.
+    /// Returns the logical time of this instant. A late reaction consists of all instants that have passed.
     #[inline(always)]
     pub const fn now(&self) -> Time {
         self.now
     }
 
+    /// Returns the time by which this instant is late: zero, unless the program has fallen behind its clock.
+    #[inline(always)]
+    pub const fn behind(&self) -> Duration {
+        self.reaction.since(self.now)
+    }
+
     /// Returns `true` if node `node` has finished later than its `deadline` allows, and reports that to the observer.
     #[doc(hidden)]
     pub fn is_late<O: Observer>(&self, node: usize, deadline: Duration, observer: &mut O) -> bool {
-        let age = self.now.since(self.stamp).saturating_add(elapsed(observer));
+        let age = self.reaction.since(self.stamp).saturating_add(elapsed(observer));
         let late = age > deadline;
         if late {
             observer.late(node, age);

@@ -38,6 +38,8 @@ pub struct NodeInfo {
     pub required: bool,
     /// `true` if a ⊥ at this node must be passed on for a join downstream (thesis eq. 3.8).
     pub siblings: bool,
+    /// Period of a source with `every`.
+    pub every: Option<core::time::Duration>,
 }
 
 /// A place in the source files.
@@ -130,7 +132,14 @@ impl NodeInfo {
     /// Returns a row of the table of nodes. `place` has file, line and column.
     pub const fn new(name: &'static str, kind: usize, place: [u32; 3], required: bool, siblings: bool) -> Self {
         let [file, line, column] = place;
-        Self { name, kind, place: Place { file: file as usize, line, column }, required, siblings }
+        let place = Place { file: file as usize, line, column };
+        Self { name, kind, place, required, siblings, every: None }
+    }
+
+    /// Returns the row of a source with a period, in ns.
+    #[must_use]
+    pub const fn every(self, period: u64) -> Self {
+        Self { every: Some(core::time::Duration::from_nanos(period)), ..self }
     }
 }
 

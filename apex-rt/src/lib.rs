@@ -12,6 +12,8 @@ mod cell;
 mod clock;
 mod ctx;
 mod dispatch;
+#[cfg(feature = "std")]
+mod end;
 mod event;
 mod failure;
 mod info;
@@ -67,6 +69,8 @@ pub use info::{ConnectionInfo, GroupInfo, Info, KindInfo, NodeInfo, Place, PortI
 pub use list::List;
 pub use mailbox::Mailbox;
 #[doc(hidden)]
+pub use mailbox::{Arrival, first_arrival};
+#[doc(hidden)]
 pub use node::construct;
 pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, Trigger};
 pub use observer::Observer;
@@ -88,7 +92,7 @@ pub use stop::UntilStopped;
 #[cfg(feature = "std")]
 pub use switch::Switch;
 pub use time::Time;
-pub use timer::{Agenda, Timeout, Timer};
+pub use timer::{Agenda, ProgramTime, Silence, Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 
 /// The items that most users of Apex need besides `apex_macros::graph`.

@@ -1,16 +1,54 @@
+//! Storage for tokens at the ports of a program.
+
+#[cfg(target_has_atomic = "32")]
+use core::sync::atomic::{AtomicU32, Ordering};
+
 /// Storage for one token at a graph-level input, slot or event.
 ///
 /// As in every connection, there is at most one token and nothing is ever overwritten. The sender of an event is held
-/// back until the token in the mailbox has been taken.
+/// back until the token in the mailbox has been taken. Tokens in several slots are served in the order in which they
+/// were put in.
 #[derive(Debug, Clone)]
 pub struct Mailbox<T> {
     token: Option<T>,
+    arrival: Arrival,
+}
+
+/// Number of a token in the order in which tokens were put into the mailboxes of a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Arrival(u32);
+
+impl Arrival {
+    const NONE: Self = Self(0);
+
+    /// Returns the number of the next token. All programs of a process share the numbers: only their order matters.
+    fn next() -> Self {
+        #[cfg(target_has_atomic = "32")]
+        {
+            static COUNT: AtomicU32 = AtomicU32::new(0);
+            Self(COUNT.fetch_add(1, Ordering::Relaxed))
+        }
+        // Without atomic operations the tokens keep the order of the ports.
+        #[cfg(not(target_has_atomic = "32"))]
+        Self::NONE
+    }
+
+    /// Returns `true` if this token was put in before the other one. The numbers may have wrapped around between them.
+    const fn is_before(self, other: Self) -> bool {
+        self.0.wrapping_sub(other.0) > u32::MAX / 2
+    }
+}
+
+/// Returns the place of the token that was put in first; of those that came together, the first place.
+pub fn first_arrival(arrivals: &[Option<Arrival>]) -> Option<usize> {
+    let waiting = arrivals.iter().enumerate().filter_map(|(place, arrival)| Some((place, (*arrival)?)));
+    waiting.reduce(|first, next| if next.1.is_before(first.1) { next } else { first }).map(|(place, _)| place)
 }
 
 impl<T> Mailbox<T> {
     /// Returns an empty mailbox.
     pub const fn new() -> Self {
-        Self { token: None }
+        Self { token: None, arrival: Arrival::NONE }
     }
 
     /// Puts a token in, for a later reaction.
@@ -22,6 +60,7 @@ impl<T> Mailbox<T> {
             return Err(token);
         }
         self.token = Some(token);
+        self.arrival = Arrival::next();
         Ok(())
     }
 
@@ -35,6 +74,12 @@ impl<T> Mailbox<T> {
         self.token.is_some()
     }
 
+    /// Returns the number of the token in the mailbox, if there is one.
+    #[doc(hidden)]
+    pub fn arrival(&self) -> Option<Arrival> {
+        self.token.as_ref().map(|_| self.arrival)
+    }
+
     /// Takes the token out: the graph those of its inputs and slots, its user those of events.
     pub fn take(&mut self) -> Option<T> {
         self.token.take()
@@ -44,5 +89,33 @@ impl<T> Mailbox<T> {
 impl<T> Default for Mailbox<T> {
     fn default() -> Self {
         Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_token_is_the_one_that_was_put_in_first() {
+        let mut mailboxes = [Mailbox::new(), Mailbox::new(), Mailbox::new()];
+        for place in [2, 0, 1] {
+            assert_eq!(mailboxes[place].put(place), Ok(()));
+        }
+        let first = |mailboxes: &[Mailbox<usize>]| {
+            let arrivals: std::vec::Vec<_> = mailboxes.iter().map(Mailbox::arrival).collect();
+            first_arrival(&arrivals)
+        };
+        for place in [2, 0, 1] {
+            assert_eq!(first(&mailboxes), Some(place));
+            assert_eq!(mailboxes[place].take(), Some(place));
+        }
+        assert_eq!(first(&mailboxes), None);
+    }
+
+    #[test]
+    fn numbers_wrap_around() {
+        assert!(Arrival(u32::MAX).is_before(Arrival(0)) && !Arrival(0).is_before(Arrival(u32::MAX)));
+        assert!(!Arrival(7).is_before(Arrival(7)));
     }
 }

@@ -77,6 +77,25 @@ pub trait Observer {
         let _ = (node, running);
     }
 
+    /// Called when the time of a reaction was earlier than that of the reaction before, by `by`. The program's own time
+    /// goes on from where it was.
+    fn set_back(&mut self, by: Duration) {
+        let _ = by;
+    }
+
+    /// Called when the program has fallen behind its clock: it is `behind` late, and its last reaction took `reaction`.
+    /// The next call comes after it has caught up.
+    fn behind(&mut self, behind: Duration, reaction: Duration) {
+        let _ = (behind, reaction);
+    }
+
+    /// Returns `true` if a late reaction ends after the first of the instants that have passed, so that other things
+    /// are served between them; `false` if it makes up for all of them.
+    #[inline(always)]
+    fn ends_early(&mut self) -> bool {
+        false
+    }
+
     /// Returns the duration of this reaction so far, by the machine's clock. A deadline adds it to the time that tokens
     /// waited. Zero if it is not measured.
     #[inline(always)]
@@ -177,6 +196,16 @@ macro_rules! pass_on_others {
         fn hung(&mut $self, node: usize, running: Duration) {
             $($to.hung(node, running);)+
         }
+        fn set_back(&mut $self, by: Duration) {
+            $($to.set_back(by);)+
+        }
+        fn behind(&mut $self, behind: Duration, reaction: Duration) {
+            $($to.behind(behind, reaction);)+
+        }
+        #[inline(always)]
+        fn ends_early(&mut $self) -> bool {
+            false $(|| $to.ends_early())+
+        }
         #[inline(always)]
         fn elapsed(&mut $self) -> Duration {
             Duration::ZERO$(.max($to.elapsed()))+
@@ -236,8 +265,8 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
     pass_on!(self, self.0, self.1);
 }
 
-/// Observer that writes failures, missed deadlines, hanging nodes, refused parameter values, deadlocks, endless loops
-/// and violated claims to standard error, with the names of the nodes.
+/// Observer that writes failures, missed deadlines, hanging nodes, refused parameter values, deadlocks, endless loops,
+/// violated claims, and what is odd about the time to standard error, with the names of the nodes.
 #[cfg(feature = "std")]
 #[derive(Debug, Clone, Copy)]
 pub struct StdErr(pub &'static crate::Info);
@@ -277,5 +306,20 @@ impl Observer for StdErr {
     }
     fn claim_failed(&mut self, claim: usize) {
         eprintln!("{}: the claim `{}` does not hold", self.0.name, self.0.claims[claim]);
+    }
+    fn set_back(&mut self, by: Duration) {
+        eprintln!(
+            "{}: the time was set back by {by:.1?}; the program's own time goes on from where it was",
+            self.0.name
+        );
+    }
+    fn behind(&mut self, behind: Duration, reaction: Duration) {
+        let name = self.0.name;
+        let shortest = self.0.nodes.iter().filter_map(|node| Some((node.every?, node.name))).min();
+        let period = shortest.map(|(every, source)| format!(", and `{source}` fires every {every:?}"));
+        eprintln!(
+            "{name}: slow: a reaction takes {reaction:.1?}{}: {behind:.1?} behind; move slow nodes to a thread group of their own, or let sources `skip` what they miss",
+            period.unwrap_or_default()
+        );
     }
 }

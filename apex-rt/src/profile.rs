@@ -2,7 +2,7 @@
 //! (`ui.perfetto.dev`, `chrome://tracing`). The trace shows active nodes in another colour.
 
 use crate::{
-    Clock, Info, Observer, Ports, Program, StdErr, UntilStopped,
+    Clock, Info, Observer, Ports, Program, StdErr,
     instruments::{Instruments, Streams, Tapped},
     run::drive_groups,
 };
@@ -182,7 +182,8 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>,
         let measures = Profile::of_group(&profile, group);
         (StdErr(info), (Some(measures), (Tapped::default(), streams.of_group(group))))
     };
-    let code = drive_groups(program, UntilStopped::ctrl_c_if_free(clock), ports, observer);
+    crate::end::on_signals();
+    let code = drive_groups(program, clock, ports, observer);
     let mut profile = profile.into_inner().unwrap_or_else(PoisonError::into_inner);
     if let Err(error) = profile.finish() {
         cannot_write(error);

@@ -1,8 +1,11 @@
-#[cfg(feature = "std")]
-use crate::Ports;
 use crate::{
     Clock, Info, Observer, Parameters, Time,
     threads::{SingleGroup, Spawn, Wake},
+};
+#[cfg(feature = "std")]
+use crate::{
+    Ports,
+    end::{Driven, is_asked},
 };
 use core::time::Duration;
 #[cfg(feature = "std")]
@@ -32,6 +35,13 @@ impl Next {
             (Self::At(t), Self::Input) | (Self::Input, Self::At(t)) => Self::At(t),
             (Self::Input, Self::Input) => Self::Input,
         }
+    }
+
+    /// Returns `true` for a time that is not after `time`.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn is_at_most(self, time: Time) -> bool {
+        matches!(self, Self::At(at) if at <= time)
     }
 }
 
@@ -67,6 +77,9 @@ pub trait Program: Parameters {
     fn waiting(&self, found: impl FnMut(usize)) {
         let _ = found;
     }
+
+    /// Calls the `#[on_stop]` methods of all nodes, because the program has ended: a driver stops its motors there.
+    fn stop(&mut self) {}
 
     /// Returns `true` if node `node` is active (thesis eq. 7.1).
     fn is_active(&self, node: usize) -> bool {
@@ -119,6 +132,10 @@ impl<P: Program> Program for &mut P {
         (**self).waiting(found);
     }
 
+    fn stop(&mut self) {
+        (**self).stop();
+    }
+
     #[cfg(feature = "record")]
     const RECORD: Option<&'static str> = P::RECORD;
 
@@ -150,13 +167,42 @@ pub(crate) fn react<P: Program, O: Observer>(
     next
 }
 
-/// Observer that measures the duration of a reaction. Its type does not depend on the clock, and that of all runs with
+/// Observer that measures the duration of a reaction, and ends a late one after each instant: tokens and requests of
+/// other threads are served before the next. Its type does not depend on the clock, and that of all runs with
 /// one type of observer is the same: the program is compiled once for them.
 struct Stopwatch<'a>(&'a mut dyn FnMut() -> Duration);
 
 impl Observer for Stopwatch<'_> {
+    fn ends_early(&mut self) -> bool {
+        true
+    }
+
     fn elapsed(&mut self) -> Duration {
         (self.0)()
+    }
+}
+
+/// Lateness of a program, which is reported once until it has caught up.
+#[derive(Debug, Default)]
+pub(crate) struct Lateness {
+    is_told: bool,
+}
+
+/// Lateness from which on it is reported.
+const TOLD_FROM: Duration = Duration::from_secs(1);
+
+impl Lateness {
+    /// Looks at a reaction that began at `now`. `elapsed` returns its duration.
+    pub fn look<O: Observer>(&mut self, next: Next, now: Time, observer: &mut O, elapsed: impl FnOnce() -> Duration) {
+        match next {
+            Next::At(due) if due <= now => {
+                let behind = now.since(due);
+                if behind >= TOLD_FROM && !core::mem::replace(&mut self.is_told, true) {
+                    observer.behind(behind, elapsed());
+                }
+            }
+            _ => self.is_told = false,
+        }
     }
 }
 
@@ -176,6 +222,32 @@ pub(crate) trait Outside<P> {
     fn wait<C: Clock>(&mut self, clock: &mut C, until: Option<Time>) -> bool;
 }
 
+/// A driven program. Its nodes stop when it is dropped.
+#[cfg(not(feature = "std"))]
+struct Driven<P: Program> {
+    program: P,
+}
+
+#[cfg(not(feature = "std"))]
+impl<P: Program> Driven<P> {
+    fn new(program: P) -> Self {
+        Self { program }
+    }
+}
+
+#[cfg(not(feature = "std"))]
+impl<P: Program> Drop for Driven<P> {
+    fn drop(&mut self) {
+        self.program.stop();
+    }
+}
+
+/// Returns `true` if all programs of the process are to end: without an operating system, never.
+#[cfg(not(feature = "std"))]
+const fn is_asked() -> bool {
+    false
+}
+
 impl<P> Outside<P> for () {
     fn exchange(&mut self, _program: &mut P) -> bool {
         false
@@ -188,6 +260,9 @@ impl<P> Outside<P> for () {
     }
 
     fn wait<C: Clock>(&mut self, clock: &mut C, until: Option<Time>) -> bool {
+        #[cfg(feature = "std")]
+        return clock.wait(until, &is_asked);
+        #[cfg(not(feature = "std"))]
         until.is_some_and(|time| clock.wait_until(time))
     }
 }
@@ -205,11 +280,26 @@ impl<P> Outside<P> for () {
 /// [`Profile`](crate::profile::Profile) is written to that file, and its table to standard error; Ctrl-C then ends the
 /// program. With the feature `record`, the run is recorded in the file in the environment variable `APEX_RECORD`, or
 /// else in that of the program's `record` statement. If `APEX_REPLAY` names a recording, that is replayed instead.
+///
+/// By the machine's clock, the signals that end a process (SIGINT, SIGTERM, SIGHUP) end the program after its present
+/// reaction, unless they have another handler; a second signal ends the process within a second. However the driving
+/// ends, the `#[on_stop]` methods of all nodes are called.
 pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
+    #[cfg(feature = "std")]
+    on_signals(&clock);
     #[cfg(any(feature = "profile", feature = "record"))]
     return crate::instruments::drive(program, clock, Ports::new());
     #[cfg(not(any(feature = "profile", feature = "record")))]
     drive_alone(program, clock)
+}
+
+/// Lets signals end a program that the machine's clock drives. One in simulated time may be part of a test, which ends
+/// with its process.
+#[cfg(feature = "std")]
+fn on_signals<C: Clock>(clock: &C) {
+    if clock.pace().is_some() {
+        crate::end::on_signals();
+    }
 }
 
 /// Drives a program that nothing but its clock concerns, without instruments.
@@ -234,6 +324,7 @@ fn drive_alone<P: Program, C: Clock>(program: P, clock: C) -> u8 {
 /// of other threads would come at no defined time.
 #[cfg(feature = "std")]
 pub fn drive_from<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>) -> u8 {
+    on_signals(&clock);
     #[cfg(any(feature = "profile", feature = "record"))]
     return crate::instruments::drive(program, clock, ports);
     #[cfg(not(any(feature = "profile", feature = "record")))]
@@ -281,20 +372,26 @@ pub fn drive_with<P: Program, C: Clock, O: Observer>(program: P, clock: C, mut o
 }
 
 fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
-    mut program: P,
+    program: P,
     mut clock: C,
     observer: &mut O,
     mut outside: W,
 ) -> u8 {
-    outside.exchange(&mut program);
+    let mut driven = Driven::new(program);
+    let program = &mut driven.program;
+    outside.exchange(program);
+    let mut lateness = Lateness::default();
     loop {
         let now = clock.now();
-        let next = react(&mut program, now, observer, &mut || clock.now().since(now));
-        outside.serve(&mut program);
-        let came = outside.exchange(&mut program);
+        let next = react(program, now, observer, &mut || clock.now().since(now));
+        lateness.look(next, now, observer, || clock.now().since(now));
+        outside.serve(program);
+        let came = outside.exchange(program);
         let until = match next {
             Next::Exit(code) => return code,
-            _ if came => continue,
+            _ if came && !is_asked() => continue,
+            // The time of a simulated clock does not pass while a program makes up for what is late.
+            Next::At(time) if C::SIMULATED && time <= now && !is_asked() => continue,
             Next::Now => Some(now),
             Next::At(time) => Some(time),
             Next::Input if C::SIMULATED || !outside.is_open() => {
@@ -303,14 +400,18 @@ fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
             }
             Next::Input => None,
         };
-        if !outside.wait(&mut clock, until) {
+        if is_asked() || !outside.wait(&mut clock, until) {
             return 0;
         }
     }
 }
 
 /// Drives a program as [`drive`] does, for the end of `main`: after `abort` the process exits with code 1.
+///
+/// The signals that end a process (SIGINT, SIGTERM, SIGHUP) end the program, as its clock does.
 pub fn run<P: Program, C: Clock>(program: P, clock: C) {
+    #[cfg(feature = "std")]
+    crate::end::on_signals();
     let code = drive(program, clock);
     #[cfg(feature = "std")]
     if code != 0 {

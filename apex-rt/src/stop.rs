@@ -1,3 +1,5 @@
+#[cfg(feature = "ctrl-c")]
+use crate::end;
 use crate::{Clock, Switch, Time};
 
 /// A clock that ends when a switch is turned, by the handler of a signal or by another thread.
@@ -7,14 +9,6 @@ pub struct UntilStopped<C> {
     switch: &'static Switch,
 }
 
-/// Switch that the signals turn that end a process.
-#[cfg(feature = "ctrl-c")]
-static STOPPED: Switch = Switch::new();
-
-/// Exit code after a second signal, which is that of Ctrl-C in shells.
-#[cfg(feature = "ctrl-c")]
-const INTERRUPTED: i32 = 130;
-
 impl<C: Clock> UntilStopped<C> {
     /// Returns `clock` with an end when `switch` is turned. A custom clock notices that during a wait only if it
     /// implements [`Clock::wait`].
@@ -23,33 +17,16 @@ impl<C: Clock> UntilStopped<C> {
     }
 
     /// Returns `clock` with an end at Ctrl-C or another signal that would otherwise end the process. A second signal
-    /// ends the process at once, in case a node hangs. A process can have only one such clock.
+    /// ends the process within a second, in case a node hangs. A process can have only one such clock.
+    /// [`run`](crate::run) and [`drive`](crate::drive) by the machine's clock need none.
     ///
     /// # Errors
     /// The signals cannot be handled, or already have another handler.
     #[cfg(feature = "ctrl-c")]
     pub fn ctrl_c(clock: C) -> Result<Self, String> {
-        ctrlc::set_handler(asked).map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;
-        Ok(Self::new(clock, &STOPPED))
+        end::handle_signals().map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;
+        Ok(Self::new(clock, &end::ASKED))
     }
-
-    /// Returns `clock` as [`ctrl_c`](Self::ctrl_c) does. If the signals already have another handler, that has to end
-    /// the clock.
-    #[cfg(any(feature = "profile", feature = "record"))]
-    pub(crate) fn ctrl_c_if_free(clock: C) -> Self {
-        let _ = ctrlc::set_handler(asked);
-        Self::new(clock, &STOPPED)
-    }
-}
-
-/// Handles a signal that is to end the process.
-#[cfg(feature = "ctrl-c")]
-fn asked() {
-    if STOPPED.is_set() {
-        eprintln!("ended immediately: it was asked to stop a second time");
-        std::process::exit(INTERRUPTED);
-    }
-    STOPPED.set();
 }
 
 impl<C: Clock> Clock for UntilStopped<C> {

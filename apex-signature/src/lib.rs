@@ -83,6 +83,8 @@ pub struct ParamDecl {
     pub default: Option<Expr>,
     /// Legal values.
     pub range: Option<syn::ExprRange>,
+    /// `true` for `silence`: without tokens for this time the node is called with ⊥.
+    pub is_silence: bool,
 }
 
 /// The methods of an `#[node] impl` that matter to graphs.
@@ -98,6 +100,8 @@ pub struct Methods {
     pub on_activate: Option<String>,
     /// The method marked `#[on_deactivate]`: called when the node is no longer active.
     pub on_deactivate: Option<String>,
+    /// The method marked `#[on_stop]`: called when the program ends, for whatever reason.
+    pub on_stop: Option<String>,
 }
 
 /// A method marked `#[slot]`.
@@ -117,7 +121,7 @@ pub struct Slot {
 }
 
 /// Names of the attributes that mark methods of a node.
-pub const METHOD_MARKS: [&str; 4] = ["slot", "no_message", "on_activate", "on_deactivate"];
+pub const METHOD_MARKS: [&str; 5] = ["slot", "no_message", "on_activate", "on_deactivate", "on_stop"];
 /// The attribute that marks an event of failure.
 pub const FAILURE: &str = "failure";
 /// The attribute with the unit of the tokens of a port.
@@ -127,16 +131,30 @@ pub const DEACTIVATES: &str = "deactivates";
 
 /// The interface of a function node.
 pub fn function(item: &ItemFn) -> syn::Result<Callable> {
-    callable(&item.sig, &item.attrs)
+    let callable = callable(&item.sig, &item.attrs)?;
+    let is_silence = |arg: &&Arg| matches!(&arg.form, Form::Param(decl) if decl.is_silence);
+    match callable.args.iter().find(is_silence) {
+        Some(arg) => {
+            let message = format!("only a parameter of a struct can be its `silence`: make `{}` a field", arg.name);
+            Err(syn::Error::new(item.sig.ident.span(), message))
+        }
+        None => Ok(callable),
+    }
 }
 
 /// The parameters of a struct node, by field.
 pub fn params(item: &ItemStruct) -> syn::Result<Vec<(&Field, ParamDecl)>> {
-    let mut params = Vec::new();
+    let mut params: Vec<(&Field, ParamDecl)> = Vec::new();
     for field in &item.fields {
         if let Some(decl) = param(&field.attrs, &field.ty)? {
             if field.ident.is_none() {
                 return Err(syn::Error::new(field.span(), "a parameter needs a name: use a struct with named fields"));
+            }
+            if decl.is_silence && params.iter().any(|(_, other)| other.is_silence) {
+                return Err(syn::Error::new(
+                    field.span(),
+                    "a node has one `silence`: that of another parameter is enough",
+                ));
             }
             params.push((field, decl));
         }
@@ -162,6 +180,7 @@ pub fn methods(item: &ItemImpl) -> syn::Result<Methods> {
             match *mark {
                 "on_activate" => methods.on_activate = name,
                 "on_deactivate" => methods.on_deactivate = name,
+                "on_stop" => methods.on_stop = name,
                 _ => methods.no_message = name,
             }
         }
@@ -461,7 +480,7 @@ pub fn unit(attrs: &[Attribute]) -> syn::Result<Option<String>> {
 
 fn param(attrs: &[Attribute], ty: &Type) -> syn::Result<Option<ParamDecl>> {
     let Some(attr) = attrs.iter().find(|a| a.path().is_ident("param")) else { return Ok(None) };
-    let mut decl = ParamDecl { ty: ty.clone(), unit: None, default: None, range: None };
+    let mut decl = ParamDecl { ty: ty.clone(), unit: None, default: None, range: None, is_silence: false };
     if matches!(attr.meta, syn::Meta::Path(_)) {
         return Ok(Some(decl));
     }
@@ -477,8 +496,10 @@ fn param(attrs: &[Attribute], ty: &Type) -> syn::Result<Option<ParamDecl>> {
                 return Err(syn::Error::new(expr.span(), "a range is written `0.0..=2.0`"));
             };
             decl.range = Some(range);
+        } else if meta.path.is_ident("silence") {
+            decl.is_silence = true;
         } else {
-            return Err(meta.error("a parameter has `unit`, `default` and `range`"));
+            return Err(meta.error("a parameter has `unit`, `default`, `range` and `silence`"));
         }
         Ok(())
     })?;

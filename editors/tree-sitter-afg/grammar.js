@@ -101,6 +101,7 @@ module.exports = grammar({
         seq('each', optional('par'), optional(seq('(', field('port', $.identifier), ')'))),
         prec.right(seq('delay', optional($.expression))),
         'pipelined',
+        'skip',
         'essential',
         'restart',
       ),

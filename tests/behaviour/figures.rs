@@ -171,7 +171,11 @@ fn figure_8_02_activity_takes_the_way_of_the_message() {
 fn figure_8_10_follows_until_it_is_there_or_gives_up() {
     let mut program = Follow::new();
     simulate(&mut program, Time::ZERO, Time::from_secs(3));
-    assert_eq!(program.nodes().follow.follower.steps, 2 + 5, "there, and given up after half a second");
+    assert_eq!(
+        program.nodes().follow.follower.steps,
+        2 + 6,
+        "there, and given up after half a second, a last step included"
+    );
     assert_eq!((program.nodes().done.count, program.nodes().no_path.seen.as_slice()), (2, &[20][..]));
     assert_eq!(active(&program), "no_path");
 }
@@ -192,5 +196,5 @@ fn figure_8_11_follows_fast_and_slowly() {
     let all = [&["detect"][..], &fast, &fast, &slow, &none, &fast, &["track"]].concat();
     assert_eq!(came, all);
     let nodes = program.nodes();
-    assert_eq!((nodes.fast.follower.steps, nodes.slow.follower.steps), (1 + 3 + 2, 3));
+    assert_eq!((nodes.fast.follower.steps, nodes.slow.follower.steps), (1 + 3 + 2, 4));
 }

@@ -18,6 +18,7 @@ mod handed;
 mod hygiene;
 mod inputs;
 mod large;
+mod late;
 mod lifecycle;
 mod machines;
 mod missing;

@@ -27,6 +27,7 @@ mod live;
 mod order;
 mod rates;
 mod schedule;
+mod silences;
 mod stamps;
 mod steps;
 
@@ -48,6 +49,7 @@ pub use delivery::{Delivery, at_start, ordered};
 pub use order::{Loops, circles, events_on_circles};
 pub use rates::has_rates;
 pub use schedule::{Block, Run, Step};
+pub use silences::{Silence, parameter as silence_parameter};
 pub use stamps::Stamps;
 
 /// Results of the analysis of a graph.
@@ -69,6 +71,8 @@ pub struct Analysis {
     pub characteristics: IdVec<NodeId, Characteristics>,
     /// Clock of each node.
     pub clocks: IdVec<NodeId, Clock>,
+    /// Guards in whose place ⊥ is taken after a silence.
+    pub silences: Vec<Silence>,
     /// Connections with slots or events.
     pub asynchronous: Asynchronous,
     /// Clusters and connections that keep stamps.
@@ -179,6 +183,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
     let characteristics = characteristics::characteristics(graph, catalog, &links, &order);
     let clocks = clocks::clocks(graph, catalog, &links, &order, &cluster_of);
     let active = activity::reachable(graph);
+    let silences = silences::silences(graph, catalog, &guards, &clusters);
     let mut analysis = Analysis {
         order,
         repetitions,
@@ -188,6 +193,7 @@ pub fn analyse(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) 
         cluster_of,
         characteristics,
         clocks,
+        silences,
         asynchronous,
         stamps: Stamps::default(),
         active,

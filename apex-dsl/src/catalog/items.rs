@@ -162,6 +162,8 @@ pub struct NodeMethods {
     pub on_activate: Option<String>,
     /// `#[on_deactivate]` method.
     pub on_deactivate: Option<String>,
+    /// `#[on_stop]` method.
+    pub on_stop: Option<String>,
 }
 
 /// A slot.
@@ -235,6 +237,8 @@ pub struct ParamItem {
     pub default: Option<Default>,
     /// Smallest and largest value, and `true` if the largest is included.
     pub range: Option<(Option<f64>, Option<f64>, bool)>,
+    /// `true` for the time without tokens after which the node is called with ⊥.
+    pub is_silence: bool,
 }
 
 /// The default of a parameter.
@@ -610,6 +614,7 @@ fn param(name: String, docs: String, decl: &signature::ParamDecl) -> ParamItem {
             .range
             .as_ref()
             .map(|r| (bound(&r.start), bound(&r.end), matches!(r.limits, syn::RangeLimits::Closed(_)))),
+        is_silence: decl.is_silence,
     }
 }
 
@@ -673,6 +678,7 @@ fn methods(item: &syn::ItemImpl, name: &str) -> syn::Result<NodeMethods> {
         no_message: methods.no_message,
         on_activate: methods.on_activate,
         on_deactivate: methods.on_deactivate,
+        on_stop: methods.on_stop,
     })
 }
 

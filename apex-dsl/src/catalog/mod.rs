@@ -241,6 +241,7 @@ impl Catalog {
             slots,
             on_activate: methods.iter().find_map(|m| m.on_activate.clone()),
             on_deactivate: methods.iter().find_map(|m| m.on_deactivate.clone()),
+            on_stop: methods.iter().find_map(|m| m.on_stop.clone()),
             deactivates: node.deactivates,
         }
     }
@@ -288,6 +289,7 @@ impl Catalog {
             unit: param.unit.clone(),
             default: param.default.clone(),
             range: param.range,
+            is_silence: param.is_silence,
         }
     }
 

@@ -48,6 +48,8 @@ pub struct Signature {
     pub on_activate: Option<String>,
     /// Method that is called when the node becomes inactive.
     pub on_deactivate: Option<String>,
+    /// Method that is called when the program ends.
+    pub on_stop: Option<String>,
     /// `true` if its tokens take activity away instead of passing it on.
     pub deactivates: bool,
     /// Part of the Rust libraries that the node needs, and the reason.
@@ -85,6 +87,11 @@ impl Signature {
         self.ports.iter().find_map(of_port).or_else(|| self.params.iter().find_map(of_param))
     }
 
+    /// Parameter with the time without tokens after which the node is called with ⊥, by its number.
+    pub fn silence(&self) -> Option<usize> {
+        self.params.iter().position(|param| param.is_silence)
+    }
+
     /// Returns `true` if the tokens of a firing at this port are in an array.
     pub fn is_batched(&self, port: usize) -> bool {
         self.ports[port].rate > 1
@@ -106,6 +113,8 @@ pub struct ParamSig {
     pub default: Option<DefaultValue>,
     /// Smallest and largest value, and `true` if the largest is included.
     pub range: Option<(Option<f64>, Option<f64>, bool)>,
+    /// `true` for the time without tokens after which the node is called with ⊥.
+    pub is_silence: bool,
 }
 
 /// A port of a node type.

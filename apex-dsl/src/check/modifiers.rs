@@ -9,7 +9,7 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// Reports timers of nodes that cannot have one, and `essential` without effect.
+/// Reports timers of nodes that cannot have one, and `skip` and `essential` without effect.
 pub fn check_modifiers(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let driven: BTreeSet<NodeId> =
         graph.connections.iter().filter(|c| graph.port(c.to).kind == PortKind::Input).map(|c| c.to.node).collect();
@@ -32,6 +32,12 @@ pub fn check_modifiers(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagn
                 Diagnostic::error("every-on-driven", node.span, message)
                     .note(format!("remove `{word}`, or move the source out of the body")),
             );
+        }
+        if node.modifiers.skip && node.modifiers.every.is_none() {
+            let message =
+                format!("`skip` has no effect on `{}`: it has no period whose firings it could miss", node.name);
+            let error = Diagnostic::error("wrong-modifier", node.span, message);
+            diagnostics.push(error.note("write `every` before it, as in `every 10ms skip`, or remove it"));
         }
         if node.modifiers.essential && !can_see_missing(graph, catalog, id) {
             let message = format!("`essential` has no effect on `{}`: the node cannot see ⊥", node.name);

@@ -1,6 +1,11 @@
 //! Cells between thread groups: what a part does at its ends of them.
 
-use super::{Generator, activity::ProgramView, plan::is_buffer, wiring::Flag};
+use super::{
+    Generator,
+    activity::ProgramView,
+    plan::is_buffer,
+    wiring::{Entry, Flag},
+};
 use crate::{
     graph::{CellEnd, ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
@@ -99,6 +104,11 @@ impl Generator<'_> {
         let free: Vec<usize> = links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
         let all_free = quote!(true #(&& self.state.dispatcher.has(#free))*);
         let test = self.allows(view, &[]);
+        // Otherwise nothing but a token from the cell occupies the connections.
+        let is_silent = wiring.silences.iter().any(|silence| {
+            matches!(&silence.entry, Entry::Connection { connection, .. } if graph.connections[*connection].from == end)
+        });
+        let is_all_free = is_silent.then(|| quote!(&& #all_free));
         let carries = (analysis.active.contains(&node) && !far.takes_activity).then(|| {
             let set = self.set(Flag::Active(node), true);
             quote! { if ::core::mem::take(&mut parcel.active) { #set } }
@@ -115,7 +125,7 @@ impl Generator<'_> {
                 ends.#cell.release();
                 #told
             }
-            if !self.state.#holding && #is_full #test {
+            if !self.state.#holding #is_all_free && #is_full #test {
                 let Self { nodes, state, .. } = self;
                 let mut stamp = now;
                 ends.#cell.take(|parcel| {

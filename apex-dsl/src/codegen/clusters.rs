@@ -88,7 +88,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Code of a cluster. The timers of its sources advance with it.
+    /// Code of a cluster. The timers of its sources advance with it, and the silences of its inputs begin again.
     fn cluster(&self, view: ProgramView<'_>, cluster: ClusterId) -> TokenStream {
         let guards = view.analysis.clusters[cluster].own_guards.iter();
         let timers = guards.filter_map(|guard| match view.analysis.guards[*guard] {
@@ -100,8 +100,9 @@ impl Generator<'_> {
             false => quote! { state.timers[#timer].advance(); },
         });
         let advances: TokenStream = advances.collect();
+        let hear = self.hear(view, cluster);
         let code = Emitter::new(self, view, cluster).program_cluster();
-        quote! { #advances #code }
+        quote! { #advances #hear #code }
     }
 }
 

@@ -49,6 +49,7 @@ impl Generator<'_> {
         if view.wiring.has_agenda() {
             field("agenda", quote!(::apex_rt::Agenda), quote!(::apex_rt::Agenda::new()));
         }
+        field("time", quote!(::apex_rt::ProgramTime), quote!(::apex_rt::ProgramTime::new()));
         for (cell, _) in receivers(view.graph) {
             let name = Self::holding(cell).to_string();
             field(&name, quote!(bool), quote!(false));
@@ -131,18 +132,19 @@ impl Generator<'_> {
         let queued = analysis.asynchronous.delivery == Delivery::Queued;
         let serves = !analysis.asynchronous.slots.is_empty() && queued;
         let endless = analysis.asynchronous.endless;
-        let (raises, wishes) = (self.raises(view), self.wishes(view));
+        let (raises, expires, wishes) = (self.raises(view), self.expires_first(view), self.wishes(view));
         let once = analysis.guards.iter().enumerate().filter(|(_, g)| **g == Guard::React).filter_map(|(i, _)| {
             let bit = bits.guard(i)?;
             Some(quote! { self.state.dispatcher.raise(#bit); })
         });
+        let once: Vec<TokenStream> = once.collect();
         let next = self.next(view);
         let serve = |quiet: bool| match (serves, quiet) {
             (false, _) => quote!(),
             (true, true) => quote! { if !self.state.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } },
             (true, false) => quote! { if !self.state.queue.is_empty() { self.serve(ctx, observer); } },
         };
-        let loops = !bits.dispatched().is_empty() || !raises.is_empty();
+        let loops = !bits.dispatched().is_empty() || !raises.is_empty() || !expires.is_empty();
         let any_stays = !bits.is_all_free();
         // Slots see in which order clusters fire: that of the text.
         let ordered = any_stays || !analysis.asynchronous.slots.is_empty();
@@ -195,7 +197,14 @@ impl Generator<'_> {
         };
         let stop = endless.then(|| quote! { if self.state.steps.is_used_up() { break; } });
         let serve_first = serve(true);
-        let begins = if self.part.is_some() { quote!(begins) } else { quote!(true) };
+        let has_instants = Self::has_instants(view);
+        // Sources without a period fire when the reaction has made up for all that is late.
+        let begins = match (self.part.is_some(), has_instants) {
+            (true, true) => quote!(begins && completes),
+            (true, false) => quote!(begins),
+            (false, true) => quote!(completes),
+            (false, false) => quote!(true),
+        };
         let body = loops.then(|| {
             quote! {
                 let mut first = #begins;
@@ -206,29 +215,56 @@ impl Generator<'_> {
                     #inside
                     first = false;
                     #stop
+                    #expires
                     #leave
                 }
             }
         });
+        let begin = (!once.is_empty() || !before.is_empty()).then(|| match self.part.is_some() || has_instants {
+            true => quote! { if #begins { #(#once)* #before } },
+            false => quote! { #(#once)* #before },
+        });
         let signature = self.signature(graph);
-        let begin = match self.part {
-            Some(_) => quote! { if begins { #(#once)* #before } },
-            None => quote! { #(#once)* #before },
+        let instant = quote! {
+            let ctx = &::apex_rt::Ctx::at(at, now);
+            #begin_steps
+            #start
+            #begin
+            #body
+            #exit
+            #used_up
+            #[allow(unused_mut)]
+            let mut next = ::apex_rt::Next::Input;
+            #wishes
+        };
+        let next = quote!(next.or(#next));
+        let (instant_begins, skips) = (self.next_instant(view), self.skips(view));
+        let reaction = match has_instants {
+            false => quote! {
+                let at = now;
+                self.state.time.begin(at);
+                #instant
+                self.state.time.outside(#next)
+            },
+            true => quote! {
+                #skips
+                loop {
+                    #instant_begins
+                    let completes = at >= now || observer.ends_early();
+                    #instant
+                    if completes {
+                        // Instants that are left come before anything else.
+                        let next = if next.is_at_most(now) { next } else { #next };
+                        return self.state.time.outside(next);
+                    }
+                }
+            },
         };
         quote! {
             #signature {
-                let ctx = &::apex_rt::Ctx::new(now);
+                let now = self.state.time.of(now, observer);
                 #exit
-                #begin_steps
-                #start
-                #begin
-                #body
-                #exit
-                #used_up
-                #[allow(unused_mut)]
-                let mut next = #next;
-                #wishes
-                next
+                #reaction
             }
         }
     }
@@ -334,23 +370,34 @@ impl Generator<'_> {
             }
         }
         raises.timed(self.timers_due(view));
+        let slots: Vec<NodeId> = graph.nodes.ids().filter(|node| is_entered(view, *node)).collect();
+        if slots.len() > 1 {
+            raises.always(self.enter_in_order(view, &slots));
+        }
         for (id, node) in graph.nodes.iter_enumerated() {
-            if matches!(node.kind, NodeKind::Boundary(PortKind::Slot)) && !view.links.sends[id].is_empty() {
-                raises.always(self.enter(view, id));
-            }
             match node.kind {
+                NodeKind::Boundary(_) if slots == [id] => raises.always(self.enter(view, id)),
                 NodeKind::Sender(far) => raises.always(self.send_far(view, id, far)),
                 NodeKind::Receiver(far) => raises.always(self.receive_far(view, id, far)),
                 _ => {}
             }
-            if let Some(timeout) = view.wiring.timeout(id).filter(|_| !view.wiring.is_tabled) {
-                raises.timed(self.expires(view, timeout));
-            }
-        }
-        if view.wiring.is_tabled {
-            raises.timed(self.all_expire(view));
         }
         raises.finish()
+    }
+
+    /// What happens if nothing else is left to do at an instant: what came in time counts before a timeout or a
+    /// silence. The first of them happens, as others may then be void.
+    fn expires_first(&self, view: ProgramView<'_>) -> TokenStream {
+        let timeouts: TokenStream = match view.wiring.is_tabled {
+            true => self.first_expires(view),
+            false => (0..view.wiring.timeouts.len()).map(|timeout| self.expires(view, timeout)).collect(),
+        };
+        let silences = self.silences_end(view);
+        if timeouts.is_empty() && silences.is_empty() {
+            return quote!();
+        }
+        let is_due = view.wiring.has_agenda().then(|| quote!(&&self.state.agenda.is_due(at)));
+        quote! { if quiet #is_due { #silences #timeouts } }
     }
 
     /// Further conditions of a step: connections are free, and the steps of the reaction are not used up.
@@ -365,6 +412,11 @@ impl Generator<'_> {
         let budget = view.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
         quote!(#free #budget)
     }
+}
+
+/// Returns `true` for a slot of the program whose tokens can go on.
+fn is_entered(view: ProgramView<'_>, node: NodeId) -> bool {
+    matches!(view.graph.nodes[node].kind, NodeKind::Boundary(PortKind::Slot)) && !view.links.sends[node].is_empty()
 }
 
 /// Code that looks at what may have happened, in the order of the program: at timers only if one of them may be due.
@@ -388,7 +440,7 @@ impl Raises {
     fn flush(&mut self) {
         let timed = std::mem::take(&mut self.timed);
         self.code.extend(match self.has_agenda && !timed.is_empty() {
-            true => quote! { if self.state.agenda.is_due(now) { #timed } },
+            true => quote! { if self.state.agenda.is_due(at) { #timed } },
             false => timed,
         });
     }

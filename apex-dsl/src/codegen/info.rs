@@ -1,6 +1,6 @@
 //! The table that describes a program.
 
-use super::{Generator, distinct::Distinct, threads::end_if_hung};
+use super::{Generator, distinct::Distinct, threads::end_if_hung, types::nanos};
 use crate::{
     analyse::Analysis,
     catalog::{first_sentence, linkless},
@@ -66,7 +66,8 @@ impl Generator<'_> {
             let kind = Literal::usize_unsuffixed(rows.kinds.number(self.kind_row(node)));
             let (c, place) = (analysis.characteristics[id], self.place_row(node.span, &mut rows.files));
             let (required, siblings) = (c.required, c.siblings);
-            rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, #required, #siblings)));
+            let every = node.modifiers.every.map(nanos).map(|period| quote!(.every(#period)));
+            rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, #required, #siblings)#every));
         }
         for c in &graph.connections {
             let (from, to) =

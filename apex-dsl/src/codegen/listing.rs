@@ -5,7 +5,7 @@ use super::{
     Generator,
     activity::{Carries, ProgramView},
     each_part,
-    wiring::{Flag, Port, Slot, Timeout},
+    wiring::{Flag, Port, Silence, Slot, Timeout},
 };
 use crate::{
     analyse::{Block, Run, Step},
@@ -151,6 +151,11 @@ impl Generator<'_> {
             let needs = if needs.is_empty() { String::new() } else { format!(", needs {}", numbers(needs.clone())) };
             lines.add(1, &format!("timeout {number} {name}: {} active for {after:?}{needs}", view.graph.path(*node)));
             self.list_ports(lines, view, *node, 2, |kind| kind == PortKind::Event);
+        }
+        for (number, Silence { guard, nodes, .. }) in view.wiring.silences.iter().enumerate() {
+            let nodes: Vec<String> = nodes.iter().map(|node| view.graph.path(*node)).collect();
+            let guard = view.analysis.guards[*guard].text(view.graph);
+            lines.add(1, &format!("silence {number} of {guard}: ⊥ after the time of {}", nodes.join(", ")));
         }
     }
 }

@@ -28,6 +28,7 @@ mod results;
 mod slots;
 mod stamps;
 mod state;
+mod stop;
 mod tables;
 mod test;
 mod text;

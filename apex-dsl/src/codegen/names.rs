@@ -88,13 +88,13 @@ impl Names {
 
 /// Names that the generated code itself uses, and those that stand for values in every module.
 #[rustfmt::skip]
-const OWN: [&str; 64] = [
-    "Err", "None", "Ok", "Some", "active", "agenda", "begins", "bits", "carries", "code", "counts",
+const OWN: [&str; 70] = [
+    "Err", "None", "Ok", "Some", "active", "agenda", "at", "begins", "bits", "carries", "code", "completes", "counts",
     "ctx", "dispatcher", "enabled", "ends", "event", "events", "exit", "first", "found", "gains",
-    "i", "inputs", "late", "left", "life", "list", "loses", "made", "missing", "next", "nodes",
+    "i", "inputs", "last", "late", "left", "life", "list", "loses", "made", "missing", "next", "nodes",
     "now", "observer", "outputs", "parcel", "part", "parts", "place", "program", "queue", "quiet",
-    "recorded", "result", "results", "round", "row", "self", "sent", "stamp", "stamps", "started",
-    "state", "step", "steps", "tap", "timeouts", "timers", "token", "tokens", "told", "value",
+    "recorded", "result", "results", "round", "row", "self", "sent", "silences", "slot", "stamp", "stamps", "started",
+    "state", "step", "steps", "tap", "time", "timeouts", "timers", "token", "tokens", "told", "value",
     "wake", "woken",
 ];
 /// Beginnings of names that the generated code itself uses.

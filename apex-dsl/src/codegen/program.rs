@@ -87,6 +87,7 @@ impl Generator<'_> {
         let recording = self.recording(graph);
         let (is_active, is_graph_active) = (self.is_active(view), self.is_graph_active(view));
         let waiting = self.waiting(view);
+        let stop = self.stop(graph, analysis, &quote!(self));
         let clusters: Vec<Vec<NodeId>> = analysis.clusters.iter().map(Cluster::schedule).collect();
         // A single thread is only mentioned if something is said about it.
         let groups: Vec<TokenStream> = graph.threads.iter().map(|thread| group_info(graph, &thread.group)).collect();
@@ -110,6 +111,7 @@ impl Generator<'_> {
                 #is_active
                 #is_graph_active
                 #waiting
+                #stop
             }
             #parameters
         }
@@ -151,7 +153,7 @@ impl Generator<'_> {
         let all = [nodes, state, inputs, outputs, events];
         let (types, makes, items) =
             (all.iter().map(|s| &s.ty), all.iter().map(|s| &s.make), all.iter().map(|s| &s.item));
-        let clusters = self.clusters(view);
+        let (clusters, stop) = (self.clusters(view), self.stop_nodes(graph, analysis));
         let (dispatcher, claims) = (self.dispatcher(view), self.claim_function(view));
         let witnesses = self.witnesses(graph);
         let inner = around_text();
@@ -167,6 +169,7 @@ impl Generator<'_> {
                 #clusters
                 #dispatcher
                 #claims
+                #stop
             }
             #default
             #witnesses

@@ -17,6 +17,7 @@ use crate::{
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{quote, quote_spanned};
+use syn::Ident;
 
 /// Returns `true` if a slot removes its token. Without a queue, the last slot that a token reaches does.
 fn takes(view: ProgramView<'_>, connection: ConnectionId) -> bool {
@@ -352,23 +353,43 @@ impl Generator<'_> {
         quote_spanned!(span=> #link::<<#node as ::apex_rt::Slot<#index>>::Token>::pass(token))
     }
 
-    /// Tokens that come from outside to a graph-level slot, and the moment of `start`.
+    /// Takes the token of a slot of the program, if there is one and it can go on.
     pub fn enter(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let (port, test, goes_on) = self.entering(view, node);
+        quote! { if self.inputs.#port.is_full() #test { #goes_on } }
+    }
+
+    /// Takes the tokens of several slots of the program, in the order in which they were put in.
+    pub fn enter_in_order(&self, view: ProgramView<'_>, nodes: &[NodeId]) -> TokenStream {
+        let (mut arrivals, mut arms) = (vec![], vec![]);
+        for (place, node) in nodes.iter().enumerate() {
+            let (port, test, goes_on) = self.entering(view, *node);
+            arrivals.push(quote!(self.inputs.#port.arrival().filter(|_| true #test)));
+            arms.push(quote! { #place => { #goes_on } });
+        }
+        quote! {
+            while let Some(slot) = ::apex_rt::first_arrival(&[#(#arrivals),*]) {
+                match slot { #(#arms)* _ => {} }
+            }
+        }
+    }
+
+    /// The port of a slot of the program, the conditions under which its token can go on, and the code that lets it.
+    fn entering(&self, view: ProgramView<'_>, node: NodeId) -> (Ident, TokenStream, TokenStream) {
         let graph = view.graph;
         let (name, port) = (self.name(PortId { node, port: 0 }), ident(&graph.nodes[node].name));
         let free: Vec<usize> = view.links.sends[node].iter().filter_map(|c| view.wiring.bits.free(*c)).collect();
         let test = self.allows(view, &free);
         let emit = self.emit(view, node, false);
         let serve = self.deliver(view, &view.links.sends[node]);
-        quote! {
-            if self.inputs.#port.is_full() #test {
-                let Self { state, inputs, .. } = self;
-                state.#name = inputs.#port.take();
-                #emit
-                #serve
-                quiet = false;
-            }
-        }
+        let goes_on = quote! {
+            let Self { state, inputs, .. } = self;
+            state.#name = inputs.#port.take();
+            #emit
+            #serve
+            quiet = false;
+        };
+        (port, test, goes_on)
     }
 
     /// `start`: the nodes that are active from the beginning, and the tokens of its events.

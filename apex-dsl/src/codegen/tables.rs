@@ -420,8 +420,8 @@ impl Generator<'_> {
         }
     }
 
-    /// All timeouts that are due expire.
-    pub fn all_expire(&self, view: ProgramView<'_>) -> TokenStream {
+    /// The first timeout that is due expires.
+    pub fn first_expires(&self, view: ProgramView<'_>) -> TokenStream {
         let timeouts = &view.wiring.timeouts;
         if timeouts.is_empty() {
             return quote!();
@@ -434,7 +434,7 @@ impl Generator<'_> {
             .then(|| quote!(&&(!row.gated || self.state.enabled.has(row.node))));
         quote! {
             for (timeout, row) in Self::TIMEOUTS.iter().enumerate() {
-                if self.state.timeouts[timeout].is_due(now) #free #gated #test {
+                if quiet && self.state.timeouts[timeout].is_due(at) #free #gated #test {
                     self.expire(timeout, ctx, observer);
                     quiet = false;
                 }

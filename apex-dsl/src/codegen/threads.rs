@@ -128,6 +128,7 @@ impl Program<'_> {
         let [inputs, _, events] = self.parts[number].port_structs(&part.graph);
         let mailboxes = mailboxes(&inputs.ty, &events.ty, &ports);
         let react = self.generator.recorded_react(self.graph, (number == 0).then_some(&ports), &call);
+        let stop = self.parts[number].stop(&part.graph, &part.analysis, &quote!(self.part));
         let visit = params.visit(&|node| (self.graph.group(node) == part.group).then(|| quote!(self.part.nodes)));
         let fields = self.ends(number).map(|(cell, sends)| {
             let ty = self.generator.token_type(self.graph, self.split.cells[cell].from);
@@ -146,6 +147,7 @@ impl Program<'_> {
                 #mailboxes
                 #[inline]
                 #react
+                #stop
             }
             impl<W: ::apex_rt::threads::Wake> ::apex_rt::threads::Group for #handle<'_, W> {
                 #[inline]
@@ -247,6 +249,11 @@ impl Program<'_> {
         let is_active = any(&|v| &v.is_active, quote!(is_active(node)));
         let is_graph_active = any(&|v| &v.is_graph_active, quote!(is_graph_active(graph)));
         let waiting = fields.iter().zip(all_items).filter(|(_, v)| !v.waiting.is_empty()).map(|(field, _)| field);
+        let stops = |number: &usize| {
+            let part = &parts[*number];
+            !self.parts[*number].stop_nodes(&part.graph, &part.analysis).is_empty()
+        };
+        let stopping = (0..count).filter(stops).map(|number| &fields[number]);
         let info = self.info(analysis);
         let name_of_reaction = self.generator.reaction();
         let react = quote! {
@@ -306,6 +313,7 @@ impl Program<'_> {
                 fn is_active(&self, node: usize) -> bool { #is_active }
                 fn is_graph_active(&self, graph: usize) -> bool { #is_graph_active }
                 fn waiting(&self, mut found: impl FnMut(usize)) { #(self.#waiting.waiting(&mut found);)* }
+                fn stop(&mut self) { #(self.#stopping.stop_nodes();)* }
             }
         }
     }

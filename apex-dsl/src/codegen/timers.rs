@@ -4,17 +4,20 @@ use super::{
     Generator,
     activity::ProgramView,
     clusters::inlined,
+    plan::is_buffer,
+    stamps,
     state::{Kind, StateField},
     types::{ident, nanos},
-    wiring::Flag,
+    wiring::{Entry, Flag, Silence},
 };
 use crate::{
-    analyse::{Analysis, is_source},
-    graph::{Graph, NodeId, Standard},
+    analyse::{Analysis, ClusterId, is_source, silence_parameter},
+    graph::{ConnectionId, Graph, NodeId, Standard},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::time::Duration;
+use syn::Ident;
 
 impl Generator<'_> {
     /// The `timeout` of a node, if it can come.
@@ -67,7 +70,120 @@ impl Generator<'_> {
             let of = of(&mut wiring.timeouts.iter().map(|timeout| timeout.node));
             kept.push(StateField::list(Kind::Timer, of, format_ident!("timeouts"), ty, make));
         }
+        if !wiring.silences.is_empty() {
+            let count = wiring.silences.len();
+            let (ty, make) =
+                (quote!([::apex_rt::Timeout; #count]), quote!([const { ::apex_rt::Timeout::new() }; #count]));
+            let of = wiring.silences.iter().map(|silence| view.analysis.guards[silence.guard].text(graph));
+            kept.push(StateField::list(Kind::Timer, of.collect(), format_ident!("silences"), ty, make));
+        }
         kept
+    }
+
+    /// Lists of everything that happens at a time, with their lengths.
+    fn timed(view: ProgramView<'_>) -> impl Iterator<Item = (Ident, usize)> {
+        let wiring = view.wiring;
+        let lists =
+            [("timers", wiring.timers.len()), ("timeouts", wiring.timeouts.len()), ("silences", wiring.silences.len())];
+        lists.into_iter().filter(|(_, count)| *count > 0).map(|(list, count)| (format_ident!("{list}"), count))
+    }
+
+    /// Returns `true` if something happens at a time, so that a late reaction has several instants.
+    pub fn has_instants(view: ProgramView<'_>) -> bool {
+        Self::timed(view).next().is_some()
+    }
+
+    /// The next instant of a reaction: the earliest time after the last instant at which something is due, else `now`.
+    pub fn next_instant(&self, view: ProgramView<'_>) -> TokenStream {
+        let each = Self::timed(view).map(|(list, count)| match view.wiring.has_agenda() {
+            true => quote! { for timed in &self.state.#list { at = timed.instant(last, at); } },
+            false => (0..count).map(|index| quote! { at = self.state.#list[#index].instant(last, at); }).collect(),
+        });
+        let each: TokenStream = each.collect();
+        let each = match view.wiring.has_agenda() {
+            true => quote! { if self.state.agenda.is_due(now) { #each } },
+            false => each,
+        };
+        quote! {
+            let last = self.state.time.last();
+            let mut at = now;
+            #each
+            self.state.time.begin(at);
+        }
+    }
+
+    /// Sources with `skip` leave out the firings that they have missed.
+    pub fn skips(&self, view: ProgramView<'_>) -> TokenStream {
+        let timers = view.wiring.timers.iter().enumerate();
+        let skipping = timers.filter(|(_, (node, _))| view.graph.nodes[*node].modifiers.skip);
+        let skips = skipping.map(|(timer, _)| quote! { self.state.timers[#timer].skip(now); });
+        let skips: TokenStream = skips.collect();
+        match view.wiring.has_agenda() && !skips.is_empty() {
+            true => quote! { if self.state.agenda.is_due(now) { #skips self.state.agenda.open(); } },
+            false => skips,
+        }
+    }
+
+    /// The silences of a cluster's own guards begin with its firing.
+    pub fn hear(&self, view: ProgramView<'_>, cluster: ClusterId) -> TokenStream {
+        let own = view.analysis.clusters[cluster].own_guards.iter();
+        let silences = own.filter_map(|guard| view.wiring.silence(*guard));
+        let starts: TokenStream = silences
+            .map(|index| {
+                let after = self.silence(view, &view.wiring.silences[index]);
+                quote! { state.silences[#index].start(ctx.now(), #after); }
+            })
+            .collect();
+        let open = (!starts.is_empty()).then(|| self.open_agenda(view));
+        quote! { #starts #open }
+    }
+
+    /// Duration of a silence: the shortest of its nodes.
+    fn silence(&self, view: ProgramView<'_>, silence: &Silence) -> TokenStream {
+        let times = silence.nodes.iter().filter_map(|&node| {
+            let parameter = silence_parameter(view.graph, self.catalog, node)?;
+            let place = self.node_place(view.graph, node);
+            Some(quote!(::apex_rt::Silence::duration(::apex_rt::ParamField::<#parameter>::field(&mut #place))))
+        });
+        times
+            .reduce(|shortest, next| quote!(#shortest.min(#next)))
+            .unwrap_or_else(|| self.bug(view.graph.nodes[NodeId::from(0)].span, "a silence has no node"))
+    }
+
+    /// Silences that have lasted too long: ⊥ takes the place of the tokens that did not come.
+    pub fn silences_end(&self, view: ProgramView<'_>) -> TokenStream {
+        let ends = view.wiring.silences.iter().enumerate().map(|(index, silence)| match &silence.entry {
+            Entry::Input { raises } => quote! {
+                if quiet && self.state.silences[#index].is_due(at) && !self.state.dispatcher.has(#raises) {
+                    self.state.dispatcher.raise(#raises);
+                    quiet = false;
+                }
+            },
+            Entry::Connection { connection, raises, occupies, free } => {
+                let (clear, stamp) = self.absent_on(view, *connection);
+                quote! {
+                    if quiet && self.state.silences[#index].is_due(at) #(&& self.state.dispatcher.has(#free))* {
+                        #clear
+                        #stamp
+                        self.state.dispatcher.clear(#occupies);
+                        self.state.dispatcher.raise(#raises);
+                        quiet = false;
+                    }
+                }
+            }
+        });
+        ends.collect()
+    }
+
+    /// Puts ⊥ on an asynchronous connection, with the time of the instant as its stamp.
+    fn absent_on(&self, view: ProgramView<'_>, connection: ConnectionId) -> (TokenStream, Option<TokenStream>) {
+        let from = view.graph.connections[connection].from;
+        let name = self.name(from);
+        let clear = match is_buffer(view.graph, self.catalog, from) {
+            true => quote! { self.state.#name.clear(); },
+            false => quote! { self.state.#name = None; },
+        };
+        (clear, stamps::of_connection(view, connection).map(|stamp| quote! { self.state.#stamp = at; }))
     }
 
     /// A timer changes.
@@ -100,44 +216,33 @@ impl Generator<'_> {
             let bits = timers.iter().map(|(_, bit)| Literal::usize_unsuffixed(*bit));
             return quote! {
                 for (timer, bit) in self.state.timers.iter().zip([#(#bits),*]) {
-                    if timer.is_due(now) { self.state.dispatcher.raise(bit); }
+                    if timer.is_due(at) { self.state.dispatcher.raise(bit); }
                 }
             };
         }
         let looks = timers.iter().enumerate().map(|(index, (_, bit))| {
-            quote! { if self.state.timers[#index].is_due(now) { self.state.dispatcher.raise(#bit); } }
+            quote! { if self.state.timers[#index].is_due(at) { self.state.dispatcher.raise(#bit); } }
         });
         looks.collect()
     }
 
     /// When a program wants to be called because of its timers.
     pub fn wishes(&self, view: ProgramView<'_>) -> TokenStream {
-        let wiring = view.wiring;
-        if !wiring.has_agenda() {
-            let wish = |list: &str, count: usize| -> TokenStream {
-                let list = format_ident!("{list}");
-                (0..count).map(|index| quote! { next = next.or(self.state.#list[#index].wish(now)); }).collect()
-            };
-            return [wish("timers", wiring.timers.len()), wish("timeouts", wiring.timeouts.len())]
-                .into_iter()
-                .collect();
+        if !view.wiring.has_agenda() {
+            let wishes = Self::timed(view).flat_map(|(list, count)| {
+                (0..count).map(move |index| quote! { next = next.or(self.state.#list[#index].wish(at)); })
+            });
+            return wishes.collect();
         }
-        let of_timers = (!wiring.timers.is_empty()).then(|| {
-            quote! { for timer in &self.state.timers { wish = wish.or(timer.wish(now)); } }
-        });
-        let of_timeouts = (!wiring.timeouts.is_empty()).then(|| {
-            quote! {
-                for timeout in &self.state.timeouts {
-                    wish = wish.or(timeout.wish(now));
-                    held_back |= timeout.is_due(now);
-                }
-            }
+        let wishes = Self::timed(view).map(|(list, _)| {
+            // What is due already, but held back, is looked at again.
+            let held_back = (list != "timers").then(|| quote! { held_back |= timed.is_due(at); });
+            quote! { for timed in &self.state.#list { wish = wish.or(timed.wish(at)); #held_back } }
         });
         quote! {
-            if self.state.agenda.is_due(now) {
+            if self.state.agenda.is_due(at) {
                 let (mut wish, mut held_back) = (::apex_rt::Next::Input, false);
-                #of_timers
-                #of_timeouts
+                #(#wishes)*
                 self.state.agenda.close(wish, held_back);
             }
             next = next.or(self.state.agenda.wish());
@@ -154,7 +259,9 @@ impl Generator<'_> {
             let is_enabled = self.is_set(Flag::Enabled(timeout.node));
             test.extend(quote!(&& self.#is_enabled));
         }
-        quote! { if self.state.timeouts[#index].is_due(now) #test { self.#expire(ctx, observer); quiet = false; } }
+        quote! {
+            if quiet && self.state.timeouts[#index].is_due(at) #test { self.#expire(ctx, observer); quiet = false; }
+        }
     }
 
     /// For each timeout the function that triggers its event, with the activity of the node.

@@ -96,6 +96,26 @@ pub struct Timeout {
     pub needs: Vec<usize>,
 }
 
+/// A guard that holds after a silence, too.
+#[derive(Debug)]
+pub struct Silence {
+    /// The guard, by its number in the analysis.
+    pub guard: usize,
+    pub entry: Entry,
+    /// The nodes that must be called then.
+    pub nodes: Vec<NodeId>,
+}
+
+/// Place of the token that did not come.
+#[derive(Debug)]
+pub enum Entry {
+    /// At an input of the program. `raises` is the condition that a token is there.
+    Input { raises: usize },
+    /// On an asynchronous connection. `raises` is the condition that a token is there. While one of the conditions
+    /// `free` does not hold, a token of this port is still in use.
+    Connection { connection: ConnectionId, raises: usize, occupies: usize, free: Vec<usize> },
+}
+
 /// All of it.
 #[derive(Debug)]
 pub struct Wiring {
@@ -112,6 +132,8 @@ pub struct Wiring {
     pub clusters: IdVec<ClusterId, String>,
     /// The timeouts, in the order of the nodes.
     pub timeouts: Vec<Timeout>,
+    /// The silences, in the order of their guards.
+    pub silences: Vec<Silence>,
     /// Slots and timeouts are so many that tables serve them.
     pub is_tabled: bool,
 }
@@ -169,8 +191,18 @@ impl Wiring {
             named(format!("fire_{first}"))
         });
         let clusters = clusters.collect();
+        let silences = analysis.silences.iter().filter_map(|silence| {
+            let (guard, nodes) = (silence.guard, silence.nodes.clone());
+            Some(Silence { guard, entry: entry(graph, analysis, &bits, guard)?, nodes })
+        });
+        let silences = silences.collect();
         let is_tabled = analysis.asynchronous.is_tabled;
-        Self { bits, ports, slots, timers, clusters, timeouts, is_tabled }
+        Self { bits, ports, slots, timers, clusters, timeouts, silences, is_tabled }
+    }
+
+    /// The number of the silence of a guard.
+    pub fn silence(&self, guard: usize) -> Option<usize> {
+        self.silences.binary_search_by_key(&guard, |silence| silence.guard).ok()
     }
 
     /// The number of a source's timer.
@@ -186,12 +218,27 @@ impl Wiring {
     /// The timers have an agenda: few of them are as fast looked at themselves.
     pub fn has_agenda(&self) -> bool {
         const FEWEST: usize = 3;
-        self.timers.len() + self.timeouts.len() >= FEWEST
+        self.timers.len() + self.timeouts.len() + self.silences.len() >= FEWEST
     }
 
     /// The rows of a node.
     pub fn of(&self, node: NodeId) -> &[Port] {
         self.ports.get(&node).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// Place at which the token of a guard is missed.
+fn entry(graph: &Graph, analysis: &Analysis, bits: &Bits, guard: usize) -> Option<Entry> {
+    match analysis.guards[guard] {
+        Guard::Input(_) => Some(Entry::Input { raises: bits.guard(guard)? }),
+        Guard::Token(connection) => {
+            let from = graph.connections[connection].from;
+            let of_port = analysis.links.sends[from.node].iter().filter(|c| graph.connections[**c].from == from);
+            let free = of_port.filter_map(|c| bits.free(*c)).collect();
+            let (raises, occupies) = (bits.token(connection)?, bits.free(connection)?);
+            Some(Entry::Connection { connection, raises, occupies, free })
+        }
+        Guard::Timer(_) | Guard::React | Guard::Events(_) => None,
     }
 }
 

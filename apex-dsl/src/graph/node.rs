@@ -256,6 +256,8 @@ pub struct Modifiers {
     pub group: Option<String>,
     /// `pipelined`
     pub pipelined: bool,
+    /// `skip`: a late source does not make up for the firings that it has missed.
+    pub skip: bool,
     /// `essential`
     pub essential: bool,
     /// `restart`: a new node replaces the node after a failure.

@@ -324,7 +324,7 @@ fn behind_instance(written: &[Token<'_>]) -> Option<Context> {
         ")" => Some(Context::Modifier),
         "delay" if open => Some(Context::Expression),
         word if TIMES.contains(&word) && open => Some(Context::Time),
-        "each" | "par" | "pipelined" | "essential" | "restart" if open => Some(Context::Modifier),
+        "each" | "par" | "pipelined" | "skip" | "essential" | "restart" if open => Some(Context::Modifier),
         "on" if open => Some(Context::Nothing),
         "=" | "+" | "-" | "*" | "/" if open => Some(Context::Expression),
         _ if behind_value && open => Some(Context::Modifier),

@@ -361,6 +361,7 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, origins: &Origins, diagno
             ModifierKind::Deadline(expr) => modifiers.deadline = time(expr),
             ModifierKind::On(group) => modifiers.group = Some(group.text.clone()),
             ModifierKind::Pipelined => modifiers.pipelined = true,
+            ModifierKind::Skip => modifiers.skip = true,
             ModifierKind::Essential => modifiers.essential = true,
             ModifierKind::Restart => modifiers.restart = true,
             ModifierKind::Each { .. } | ModifierKind::Delay(_) => {}

@@ -412,6 +412,7 @@ impl<'a> Builder<'a> {
                 ModifierKind::Timeout(_) => "timeout",
                 ModifierKind::Deadline(_) => "deadline",
                 ModifierKind::Pipelined => "pipelined",
+                ModifierKind::Skip => "skip",
                 ModifierKind::Essential => "essential",
                 ModifierKind::Restart => "restart",
                 ModifierKind::Each { .. } | ModifierKind::Delay(_) | ModifierKind::On(_) => continue,

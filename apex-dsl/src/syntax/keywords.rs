@@ -42,7 +42,7 @@ const fn keyword(text: &'static str, position: KeywordPosition, docs: &'static s
 }
 
 /// All keywords. A keyword with several positions has several entries.
-pub const KEYWORDS: [Keyword; 63] = [
+pub const KEYWORDS: [Keyword; 64] = [
     keyword(
         "use",
         KeywordPosition::Item,
@@ -147,6 +147,11 @@ pub const KEYWORDS: [Keyword; 63] = [
         KeywordPosition::Modifier,
         "The node releases its inputs as soon as it has fired, before the nodes downstream have.",
     ),
+    keyword(
+        "skip",
+        KeywordPosition::Modifier,
+        "A late source skips the firings that it has missed, but for the last one.",
+    ),
     keyword("essential", KeywordPosition::Modifier, "The node processes ⊥, too."),
     keyword("restart", KeywordPosition::Modifier, "After a failure, the node is replaced by a new one."),
     keyword("par", KeywordPosition::Inside, "`each par`: processes the elements in parallel, with the same result."),
@@ -218,8 +223,9 @@ mod tests {
     fn the_grammar_has_these_words() {
         let grammar = include_str!("afg.pest");
         let words = |line: &str| -> Vec<String> { line.split('"').skip(1).step_by(2).map(str::to_owned).collect() };
-        let is_word =
-            |name: &str| name.ends_with("_kw") || ["port_kind", "pipelined", "essential", "restart"].contains(&name);
+        let is_word = |name: &str| {
+            name.ends_with("_kw") || ["port_kind", "pipelined", "skip", "essential", "restart"].contains(&name)
+        };
         let rules = grammar.lines().filter_map(|line| line.split_once('=')).map(|(name, rule)| (name.trim(), rule));
         for (name, rule) in rules {
             if is_word(name) {

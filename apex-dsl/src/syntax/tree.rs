@@ -270,6 +270,8 @@ pub enum ModifierKind {
     Delay(Option<Expr>),
     /// `pipelined`
     Pipelined,
+    /// `skip`
+    Skip,
     /// `essential`
     Essential,
     /// `restart`

@@ -5,7 +5,7 @@ use super::{
     threads::{record_from_threads, recorded_threads, replay_on_threads},
 };
 use crate::{
-    Clock, Observer, Ports, Program, StdErr, UntilStopped,
+    Clock, Observer, Ports, Program, StdErr,
     instruments::{Instruments, Measured, Streams},
     run::{drive_ports, pace_of_threads, react},
 };
@@ -78,7 +78,7 @@ fn record<P: Program, C: Clock>(
     path: &Path,
     streams: &Streams,
 ) -> io::Result<u8> {
-    let clock = UntilStopped::ctrl_c_if_free(clock);
+    crate::end::on_signals();
     let (code, finished) = match pace_of_threads::<P, _>(&clock) {
         Some(pace) => {
             let observer = |group, tap| instruments::<P>(tap, streams, group);

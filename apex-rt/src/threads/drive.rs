@@ -7,8 +7,11 @@ use super::{
     watch::{Heartbeat, StopSignal, WatchdogObserver, Watched, watch},
 };
 use crate::{
-    CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock, ports::Ways,
-    remote::ServedRequests, run::react,
+    CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock,
+    end::{Driven, is_asked},
+    ports::Ways,
+    remote::ServedRequests,
+    run::{Lateness, react},
 };
 use std::{
     panic::resume_unwind,
@@ -236,6 +239,7 @@ impl Run {
         let observer = WatchdogObserver { observer, pulse, info: self.info };
         match self.time {
             Timing::Paced(pace) => {
+                let part = Driven::new(part);
                 let _stops = pace.stopped.map(Switch::listen);
                 let bell = ways.as_ref().map(Ways::bell);
                 let _listens = (bell.as_ref().map(|bell| bell.listen()), self.requests.shared.listen());
@@ -246,19 +250,26 @@ impl Run {
         }
     }
 
-    fn drive<G: Group, O: Observer>(&self, mut member: Member<G::Inputs, G::Events>, mut part: G, mut observer: O) {
+    fn drive<G: Group, O: Observer>(
+        &self,
+        mut member: Member<G::Inputs, G::Events>,
+        mut driven: Driven<G>,
+        mut observer: O,
+    ) {
+        let part = &mut driven.program;
         let (mut clock, mut short) = (member.pace.clock, false);
-        let is_watched = self.is_watched();
-        member.exchange(&mut part, &self.sleep);
+        let (is_watched, mut lateness) = (self.is_watched(), Lateness::default());
+        member.exchange(part, &self.sleep);
         while !self.is_over(member.pace) {
             self.sleep.begin(member.group);
             if is_watched && self.sleep.wakes_watch() {
                 self.off.stir();
             }
             let now = clock.now();
-            let next = react(&mut part, now, &mut observer, &mut || clock.now().since(now));
-            member.requests.serve(&mut part);
-            let came = member.exchange(&mut part, &self.sleep);
+            let next = react(part, now, &mut observer, &mut || clock.now().since(now));
+            lateness.look(next, now, &mut observer, || clock.now().since(now));
+            member.requests.serve(part);
+            let came = member.exchange(part, &self.sleep);
             match next {
                 Next::Exit(code) => self.end(code),
                 _ if came => {}
@@ -277,7 +288,7 @@ impl Run {
 
     /// Returns `true` if the program ends. Stops all groups if the switch is turned.
     fn is_over(&self, pace: Pace) -> bool {
-        if !self.sleep.is_stopped() && pace.stopped.is_some_and(Switch::is_set) {
+        if !self.sleep.is_stopped() && (is_asked() || pace.stopped.is_some_and(Switch::is_set)) {
             self.sleep.stop();
         }
         self.sleep.is_stopped()

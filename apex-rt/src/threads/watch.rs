@@ -104,8 +104,8 @@ pub trait Watched {
 }
 
 /// Runs the watchdog until it is ended; it sleeps while all threads do. Each hanging node is reported once to
-/// `observer`, and to the other groups in `hung`. If the program is set to end then, the process exits, because a
-/// hanging thread cannot be stopped.
+/// `observer`, and to the other groups in `hung`. If the program is set to end then, the other groups end, and after
+/// them the process, because a hanging thread cannot be stopped.
 pub fn watch<O: Observer>(
     info: &'static Info,
     pulses: &[Heartbeat],
@@ -136,7 +136,7 @@ pub fn watch<O: Observer>(
             thread.told = true;
             observer.hung(node - 1, running);
             if let Some(code) = info.end_if_hung {
-                std::process::exit(i32::from(code));
+                crate::end::exit(i32::from(code), 1);
             }
             for (group, cell) in hung.iter_mut().filter(|(group, _)| *group != thread.group) {
                 if cell.put(|parcel| parcel.token = Some(())) {

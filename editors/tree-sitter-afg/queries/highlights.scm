@@ -16,7 +16,7 @@
 ["on" "if" "entry" "exit" "resume"] @keyword
 ["replace" "feed" "wait" "expect" "never" "by" "within" "active" "recording"] @keyword
 ["vary" "minimise" "maximise" "at" "require" "seeds" "holdout"] @keyword
-["every" "after" "timeout" "deadline" "each" "par" "delay" "pipelined" "essential" "restart"] @keyword.modifier
+["every" "after" "timeout" "deadline" "each" "par" "delay" "pipelined" "skip" "essential" "restart"] @keyword.modifier
 
 (arrow) @operator
 (operator) @operator

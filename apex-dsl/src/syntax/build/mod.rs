@@ -398,6 +398,7 @@ impl<'a> Builder<'a> {
             Rule::on => ModifierKind::On(self.ident(&parts.next()?)),
             Rule::delay => ModifierKind::Delay(parts.next().map(|p| self.expr(p))),
             Rule::pipelined => ModifierKind::Pipelined,
+            Rule::skip => ModifierKind::Skip,
             Rule::essential => ModifierKind::Essential,
             Rule::restart => ModifierKind::Restart,
             _ => {

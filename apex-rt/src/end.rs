@@ -1,0 +1,93 @@
+//! The end of a process that drives programs: one path for all causes.
+//!
+//! Signals, a hanging node and the end of a program lead here. Each thread group leaves its loop after its present
+//! reaction and calls the `#[on_stop]` methods of its nodes ([`Program::stop`]). A group that hangs cannot: the process
+//! ends without it, after a time limit.
+
+use crate::{Program, Switch, switch::Listens};
+use std::{
+    sync::{Condvar, Mutex, MutexGuard, PoisonError},
+    time::Duration,
+};
+
+/// Time that thread groups have to end before the process does.
+const LIMIT: Duration = Duration::from_secs(1);
+
+/// Switch that ends all programs of the process.
+pub(crate) static ASKED: Switch = Switch::new();
+
+/// Number of thread groups that are driven.
+static DRIVEN: Mutex<usize> = Mutex::new(0);
+/// Notified when a thread group has ended.
+static ENDED: Condvar = Condvar::new();
+
+fn driven() -> MutexGuard<'static, usize> {
+    DRIVEN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Returns `true` if all programs of the process are to end.
+#[inline(always)]
+pub(crate) fn is_asked() -> bool {
+    ASKED.is_set()
+}
+
+/// A driven thread group or program. Its nodes stop when it is dropped, also while a panic unwinds.
+pub(crate) struct Driven<P: Program> {
+    /// The program.
+    pub program: P,
+    /// Unparks the thread when the process is to end.
+    _listens: Listens<'static>,
+}
+
+impl<P: Program> Driven<P> {
+    /// Begins to drive a program on this thread.
+    pub fn new(program: P) -> Self {
+        *driven() += 1;
+        Self { program, _listens: ASKED.listen() }
+    }
+}
+
+impl<P: Program> Drop for Driven<P> {
+    fn drop(&mut self) {
+        self.program.stop();
+        *driven() -= 1;
+        ENDED.notify_all();
+    }
+}
+
+/// Ends the process with `code` as soon as all thread groups but `hanging` ones have ended, after a time limit at the
+/// latest.
+pub(crate) fn exit(code: i32, hanging: usize) -> ! {
+    ASKED.set();
+    let waits = |driven: &mut usize| *driven > hanging;
+    drop(ENDED.wait_timeout_while(driven(), LIMIT, waits).unwrap_or_else(PoisonError::into_inner));
+    std::process::exit(code)
+}
+
+/// Lets the signals that end a process (SIGINT, SIGTERM, SIGHUP) end its programs, unless they have another handler.
+pub(crate) fn on_signals() {
+    #[cfg(feature = "ctrl-c")]
+    let _ = handle_signals();
+}
+
+/// Installs the handler of the signals.
+///
+/// # Errors
+/// The signals cannot be handled, or already have another handler.
+#[cfg(feature = "ctrl-c")]
+pub(crate) fn handle_signals() -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(signalled)
+}
+
+/// Exit code after a second signal, which is that of Ctrl-C in shells.
+#[cfg(feature = "ctrl-c")]
+const INTERRUPTED: i32 = 130;
+
+#[cfg(feature = "ctrl-c")]
+fn signalled() {
+    if is_asked() {
+        eprintln!("ended before all nodes have stopped: it was asked to stop a second time");
+        exit(INTERRUPTED, 0);
+    }
+    ASKED.set();
+}
