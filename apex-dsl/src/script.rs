@@ -91,6 +91,8 @@ pub enum Step {
         values: Vec<Value>,
         /// Period between the tokens.
         every: Option<Duration>,
+        /// Place in the source file.
+        span: Span,
     },
     /// The tokens of a channel of a recording for a port of the program, at their times.
     FeedRecorded {
@@ -100,10 +102,13 @@ pub enum Step {
         file: String,
         /// The channel.
         channel: String,
+        /// Place in the source file.
+        span: Span,
     },
     /// Lets time pass.
     Wait(Duration),
-    /// An observation that must be made until then; without a time it must have been made by now.
+    /// An observation that must be made until then; without a time it must have been made by now. A token that was
+    /// observed is not observed again.
     Expect(Seen, Option<Until>),
     /// An observation that must not be made from now on.
     Never(Seen),

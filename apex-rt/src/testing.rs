@@ -1,22 +1,19 @@
 //! Runtime of generated tests: a program in simulated time, tokens for its ports, and expectations.
 
+mod feed;
 mod study;
+mod timeline;
 
 pub use study::{Study, recorded, serve};
+pub use timeline::Timeline;
 
-use crate::{Next, Observer, Parameters, Program, Time};
-use core::{
-    fmt::{Debug, Display, Write as _},
-    ops::Deref,
-    time::Duration,
-};
+use crate::{Next, Parameters, Program, Time};
+use core::{fmt::Debug, ops::Deref, time::Duration};
+use feed::{Fed, Feed};
+use timeline::Sighting;
 
 /// Time between two reactions of a program that has sources without a period.
 const STEP: Duration = Duration::from_millis(1);
-/// Number of moments in the message of a failed test.
-const SHOWN: usize = 20;
-/// Number of characters of a token in that message: a laser scan has thousands.
-const LONGEST: usize = 120;
 
 /// Tokens at a place that a test observes, in one reaction.
 #[derive(Debug)]
@@ -33,11 +30,6 @@ impl<T> Probe<T> {
     /// Adds a token.
     pub fn saw(&mut self, token: T) {
         self.tokens.push(token);
-    }
-
-    /// Returns `true` if `test` holds for one of the tokens.
-    pub fn any(&self, test: impl Fn(&T) -> bool) -> bool {
-        self.tokens.iter().any(test)
     }
 
     /// Takes all tokens out.
@@ -79,105 +71,8 @@ impl<T> ByType for &Shown<'_, T> {
     }
 }
 
-/// Events of one point in time.
-#[derive(Debug, Default, Clone, PartialEq)]
-struct Moment {
-    fired: Vec<&'static str>,
-    notes: Vec<String>,
-}
-
-/// Events of a test until now, for the message of a failure.
-#[derive(Debug)]
-pub struct Timeline {
-    names: Vec<&'static str>,
-    now: Moment,
-    moments: Vec<(Time, Moment)>,
-    /// Last values of the goals of a study, NaN before the first one. A study needs no list of events.
-    goals: Option<Vec<f64>>,
-}
-
-impl Timeline {
-    /// Takes the value of a goal of a study.
-    pub fn goal(&mut self, number: usize, value: f64) {
-        if let Some(goal) = self.goals.as_mut().and_then(|goals| goals.get_mut(number)) {
-            *goal = value;
-        }
-    }
-
-    /// The list of what happens now; none in a study.
-    fn listed(&mut self) -> Option<&mut Moment> {
-        self.goals.is_none().then_some(&mut self.now)
-    }
-
-    /// Adds a token at a place that the test observes.
-    pub fn token(&mut self, port: &str, token: &str) {
-        match token.char_indices().nth(LONGEST) {
-            Some((end, _)) => self.now.notes.push(format!("{port}: {} …", &token[..end])),
-            None => self.now.notes.push(format!("{port}: {token}")),
-        }
-    }
-
-    fn end(&mut self, time: Time) {
-        let moment = core::mem::take(&mut self.now);
-        if moment != Moment::default() {
-            self.moments.push((time, moment));
-        }
-    }
-
-    fn text(&self) -> String {
-        let mut text = String::new();
-        let left_out = self.moments.len().saturating_sub(SHOWN);
-        if left_out > 0 {
-            let _ = writeln!(text, "  … {left_out} earlier moments");
-        }
-        for (time, moment) in &self.moments[left_out..] {
-            let fired = match moment.fired.as_slice() {
-                [] => None,
-                names => Some(format!("{} fired", names.join(", "))),
-            };
-            let what: Vec<String> = fired.into_iter().chain(moment.notes.iter().cloned()).collect();
-            let _ = writeln!(text, "  {time}  {}", what.join("; "));
-        }
-        if text.is_empty() { "  nothing\n".to_owned() } else { text }
-    }
-}
-
-impl Observer for Timeline {
-    fn fired(&mut self, node: usize) {
-        let name = self.names[node];
-        if let Some(now) = self.listed().filter(|now| !now.fired.contains(&name)) {
-            now.fired.push(name);
-        }
-    }
-    fn activity(&mut self, node: usize, active: bool) {
-        let name = self.names[node];
-        if let Some(now) = self.listed() {
-            now.notes.push(format!("{name} is {}", if active { "active" } else { "no longer active" }));
-        }
-    }
-    fn failed(&mut self, node: usize, error: &impl Display) {
-        let name = self.names[node];
-        if let Some(now) = self.listed() {
-            now.notes.push(format!("{name} failed: {error}"));
-        }
-    }
-    fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
-        let name = self.names[node];
-        if let Some(now) = self.listed() {
-            now.notes.push(format!("{name} refused {value:?} for {parameter}"));
-        }
-    }
-    fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
-        let names = nodes.iter().zip(counts).filter(|(_, count)| **count > 0).map(|(node, _)| self.names[*node]);
-        let names: Vec<&str> = names.collect();
-        self.now.notes.push(format!("endless cycle of {}", names.join(", ")));
-    }
-}
-
-/// Function that puts the next token of a test in, and returns the time of the one after it.
-type Feed<P> = Box<dyn FnMut(&mut P, Time) -> Option<Time>>;
-/// Condition that a test checks.
-type Seen<P> = fn(&P) -> bool;
+/// Condition on the state of a program.
+type Holds<P> = fn(&P) -> bool;
 
 /// Time limit of an expectation.
 #[derive(Debug, Clone, Copy)]
@@ -188,162 +83,339 @@ pub enum Until {
     Within(Duration),
 }
 
-/// A running test.
+impl Until {
+    /// The limit in the message of a failure.
+    fn text(limit: Option<Self>) -> String {
+        match limit {
+            Some(Self::By(time)) => format!(" by {}", Time::ZERO + time),
+            Some(Self::Within(time)) => format!(" within {time:?}"),
+            None => String::new(),
+        }
+    }
+}
+
+/// Subject of a `never` statement.
+enum Forbidden<P> {
+    /// Tokens that satisfy the check with this number.
+    Tokens(usize),
+    /// A state.
+    State(Holds<P>),
+}
+
+/// Part of the past and future that an expectation looks at.
+#[derive(Debug, Clone, Copy)]
+struct Window {
+    start: Time,
+    end: Time,
+    /// Number of reactions before the window.
+    before: u64,
+}
+
+/// A running test. An *instant* is all that happens at one time: the reaction that is due then, and one more for each
+/// token that is fed, in the order of feeding.
 pub struct Test<P> {
     name: &'static str,
     program: P,
     now: Time,
-    feeds: Vec<(Time, Feed<P>)>,
-    nevers: Vec<(Seen<P>, &'static str, &'static str)>,
+    /// Time of the next reaction that the program asked for.
+    wake: Option<Time>,
+    /// Time at which a token came to `exit` or `abort`.
+    ended: Option<Time>,
+    feeds: Vec<Feed<P>>,
+    /// Number of `feed` statements until now.
+    feed_count: usize,
+    nevers: Vec<(Forbidden<P>, &'static str, &'static str)>,
     timeline: Timeline,
     drain: fn(&mut P, &mut Timeline),
-    /// Time of the last token of the feeds that end.
-    last: Time,
+    /// Number of reactions.
+    reactions: u64,
+    /// Number of reactions before the last `feed`.
+    fed: u64,
+    /// Tokens that later expectations wait for, in the order of their arrival.
+    sightings: Vec<Sighting>,
+    /// Number of tokens up to the last one that was expected, by probe.
+    expected: Vec<u64>,
+    /// Time of the last token of all lists.
+    last_of_lists: Time,
+    /// Time of the last token of all recordings.
+    last_of_recordings: Time,
 }
 
 impl<P: Program + Parameters + 'static> Test<P> {
     /// Returns the test `name` of `program`; `drain` empties its probes.
     pub fn new(name: &'static str, mut program: P, drain: fn(&mut P, &mut Timeline)) -> Self {
         study::set(&mut program);
-        let names = P::INFO.nodes.iter().map(|n| n.name).collect();
-        let timeline = Timeline { names, now: Moment::default(), moments: vec![], goals: None };
-        let (now, last) = (Time::ZERO, Time::ZERO);
-        Self { name, program, now, feeds: vec![], nevers: vec![], timeline, drain, last }
+        let timeline = Timeline::new(P::INFO.nodes.iter().map(|n| n.name).collect());
+        Self {
+            name,
+            program,
+            now: Time::ZERO,
+            wake: Some(Time::ZERO),
+            ended: None,
+            feeds: vec![],
+            feed_count: 0,
+            nevers: vec![],
+            timeline,
+            drain,
+            reactions: 0,
+            fed: 0,
+            sightings: vec![],
+            expected: vec![],
+            last_of_lists: Time::ZERO,
+            last_of_recordings: Time::ZERO,
+        }
     }
 
     /// Returns one run of the study `name` of `program`, with this number of goals; `drain` empties its probes.
     pub fn of_study(name: &'static str, program: P, drain: fn(&mut P, &mut Timeline), goals: usize) -> Self {
         let mut test = Self::new(name, program, drain);
-        test.timeline.goals = Some(vec![f64::NAN; goals]);
+        test.timeline.score(goals);
         test
     }
 
-    /// Runs until all feeds that end have ended, and returns the last values of the goals.
-    pub fn goals(mut self) -> Vec<f64> {
-        self.run(self.last.max(self.now), None);
-        self.timeline.goals.unwrap_or_default()
+    /// Runs until all lists have been fed, and ends the test. A recording may be longer than the test.
+    ///
+    /// # Panics
+    /// A token that was due has never been put in.
+    pub fn finish(mut self) {
+        self.end(self.last_of_lists);
     }
 
-    /// Feeds `tokens` from now on, one every `period`. A single token with a period is repeated. A token that finds no
-    /// room is put in as soon as there is some.
+    /// Runs until all feeds that end have ended, and returns the last values of the goals.
+    ///
+    /// # Panics
+    /// A token that was due has never been put in.
+    pub fn goals(mut self) -> Vec<f64> {
+        self.end(self.last_of_lists.max(self.last_of_recordings));
+        self.timeline.goals()
+    }
+
+    /// Feeds `tokens` to `port` from now on, one every `period`. A single token with a period is repeated. A token that
+    /// finds no room is put in as soon as there is some.
     pub fn feed<T: Clone + 'static>(
         &mut self,
+        (port, place): (&'static str, &'static str),
         tokens: impl IntoIterator<Item = T>,
         period: Option<Duration>,
         put: fn(&mut P, T) -> Result<(), T>,
     ) {
         let tokens: Vec<T> = tokens.into_iter().collect();
-        if let (Some(period), Some(others)) = (period, tokens.len().checked_sub(1)) {
+        let Some(others) = tokens.len().checked_sub(1) else { return };
+        if let Some(period) = period {
             let others = u32::try_from(others).unwrap_or(u32::MAX);
-            self.last = self.last.max(self.now + period.saturating_mul(others));
+            self.last_of_lists = self.last_of_lists.max(self.now + period.saturating_mul(others));
         }
-        let mut at = 0;
+        let (mut at, repeats) = (0, others == 0);
         let feed = move |program: &mut P, due: Time| {
             if put(program, tokens[at].clone()).is_err() {
-                return Some(due);
+                return Fed::NoRoom;
             }
-            let repeats = tokens.len() == 1;
             at = if repeats { 0 } else { at + 1 };
-            period.filter(|_| repeats || at < tokens.len()).map(|period| due + period)
+            let next = period.filter(|_| repeats || at < tokens.len()).map(|period| due + period);
+            next.map_or(Fed::Last, Fed::Next)
         };
-        self.feeds.push((self.now, Box::new(feed)));
+        let feed = Feed::new(self.feed_count, (port, place), self.now, feed);
+        self.add(if repeats && period.is_some() { feed.open() } else { feed });
     }
 
-    /// Feeds each of `tokens` at its time after now. A token that finds no room is put in as soon as there is some.
+    /// Feeds each of `tokens` to `port` at its time after now. A token that finds no room is put in as soon as there is
+    /// some.
     pub fn feed_at<T: Clone + 'static>(
         &mut self,
+        (port, place): (&'static str, &'static str),
         tokens: impl Deref<Target = [(Duration, T)]> + 'static,
         put: fn(&mut P, T) -> Result<(), T>,
     ) {
         let (start, mut at) = (self.now, 0);
         let Some((first, _)) = tokens.first() else { return };
         if let Some((last, _)) = tokens.last() {
-            self.last = self.last.max(start + *last);
+            self.last_of_recordings = self.last_of_recordings.max(start + *last);
         }
         let first = start + *first;
-        let feed = move |program: &mut P, due: Time| {
+        let feed = move |program: &mut P, _due: Time| {
             if put(program, tokens[at].1.clone()).is_err() {
-                return Some(due);
+                return Fed::NoRoom;
             }
             at += 1;
-            tokens.get(at).map(|(time, _)| start + *time)
+            tokens.get(at).map_or(Fed::Last, |(time, _)| Fed::Next(start + *time))
         };
-        self.feeds.push((first, Box::new(feed)));
+        self.add(Feed::new(self.feed_count, (port, place), first, feed).open());
+    }
+
+    fn add(&mut self, feed: Feed<P>) {
+        self.feeds.push(feed);
+        self.feed_count += 1;
+        self.fed = self.reactions;
     }
 
     /// Lets `time` pass.
     pub fn wait(&mut self, time: Duration) {
         let until = self.now + time;
-        self.run(until, None);
+        self.run(until, |_| false);
         self.now = until;
     }
 
-    /// Runs until `seen` holds.
+    /// Runs until a token satisfies check `check`, unless one already has that no expectation before has used. Tokens
+    /// of the same probe up to this one are then used.
     ///
     /// # Panics
     /// If that does not happen in time. The message has all events until then.
-    pub fn expect(&mut self, seen: Seen<P>, until: Option<Until>, text: &'static str, place: &'static str) {
-        let end = match until {
-            Some(Until::By(time)) => Time::ZERO + time,
-            Some(Until::Within(time)) => self.now + time,
-            None => self.now,
-        };
-        if !self.run(end, Some(seen)) {
-            let limit = match until {
-                Some(Until::By(_)) => format!(" by {end}"),
-                Some(Until::Within(time)) => format!(" within {time:?}"),
-                None => String::new(),
-            };
-            self.fail(&format!("expected `{text}`{limit}"), end, place);
+    pub fn expect(&mut self, check: usize, until: Option<Until>, text: &'static str, place: &'static str) {
+        let window = self.window(until);
+        if !self.run(window.end, |test| test.sighting(check, window).is_some()) {
+            let hint = self.hint(check, window);
+            self.unexpected(text, until, window, &hint, place);
+        }
+        if let Some(Sighting { probe, token, .. }) = self.sighting(check, window) {
+            self.expected.resize(self.expected.len().max(probe + 1), 0);
+            self.expected[probe] = token + 1;
+        }
+        // Checks are numbered in the order of the statements.
+        self.sightings.retain(|sighting| sighting.check > check);
+    }
+
+    /// Runs until the state `holds`.
+    ///
+    /// # Panics
+    /// If that does not happen in time. The message has all events until then.
+    pub fn expect_state(&mut self, holds: Holds<P>, until: Option<Until>, text: &'static str, place: &'static str) {
+        let window = self.window(until);
+        let is_past = window.end < self.now;
+        if !self.run(window.end, |test| !is_past && holds(&test.program)) {
+            let hint = if is_past { ", which is past: a state is looked at now" } else { "" };
+            self.unexpected(text, until, window, hint, place);
         }
     }
 
-    /// Declares that `seen` must not hold from now on.
-    pub fn never(&mut self, seen: Seen<P>, text: &'static str, place: &'static str) {
-        self.nevers.push((seen, text, place));
+    /// Declares that no token must satisfy check `check` from now on.
+    pub fn never(&mut self, check: usize, text: &'static str, place: &'static str) {
+        self.nevers.push((Forbidden::Tokens(check), text, place));
     }
 
-    /// Runs until `stop` holds, or up to `end`. Returns `true` if `stop` holds.
-    fn run(&mut self, end: Time, stop: Option<Seen<P>>) -> bool {
-        loop {
-            let next = self.react();
-            let met = stop.is_some_and(|stop| stop(&self.program));
-            if let Some((_, text, place)) = self.nevers.iter().find(|(seen, ..)| seen(&self.program)).copied() {
-                self.close();
-                self.fail(&format!("`{text}` happened, but never should"), self.now, place);
+    /// Declares that the state must not hold from now on.
+    pub fn never_state(&mut self, holds: Holds<P>, text: &'static str, place: &'static str) {
+        self.nevers.push((Forbidden::State(holds), text, place));
+    }
+
+    /// The window of an expectation with this limit. One that counts from the previous step begins at this instant, but
+    /// after the reactions before a token was fed: these are not its effect.
+    fn window(&self, until: Option<Until>) -> Window {
+        let all = Window { start: Time::ZERO, end: self.now, before: 0 };
+        match until {
+            Some(Until::By(time)) => Window { end: Time::ZERO + time, ..all },
+            Some(Until::Within(time)) => Window { start: self.now, end: self.now + time, before: self.fed },
+            None => all,
+        }
+    }
+
+    /// The first token in `window` that satisfies the check and was not expected before.
+    fn sighting(&self, check: usize, window: Window) -> Option<Sighting> {
+        let fits = |seen: &&Sighting| {
+            seen.check == check
+                && seen.time >= window.start
+                && seen.time <= window.end
+                && seen.reaction >= window.before
+                && !self.is_used(seen)
+        };
+        self.sightings.iter().find(fits).copied()
+    }
+
+    fn is_used(&self, seen: &Sighting) -> bool {
+        self.expected.get(seen.probe).is_some_and(|expected| seen.token < *expected)
+    }
+
+    /// The reason why a token that came is not an expected one, for the message of a failure.
+    fn hint(&self, check: usize, window: Window) -> String {
+        match self.sightings.iter().rfind(|seen| seen.check == check) {
+            Some(seen) if self.is_used(seen) => {
+                format!(": the one at {} does not count, because an earlier `expect` has used it", seen.time)
             }
-            self.close();
-            if met {
+            Some(seen) if seen.time > window.end => format!(": it came at {}", seen.time),
+            Some(seen) => format!(": it came before, at {}", seen.time),
+            None => String::new(),
+        }
+    }
+
+    fn unexpected(&self, text: &str, until: Option<Until>, window: Window, hint: &str, place: &str) -> ! {
+        let what = format!("expected `{text}`{}{hint}", Until::text(until));
+        self.fail(&what, window.end.max(self.now), place)
+    }
+
+    /// Runs instant by instant until `stop` holds, or up to `end`. Returns `true` if `stop` holds.
+    fn run(&mut self, end: Time, stop: impl Fn(&Self) -> bool) -> bool {
+        loop {
+            self.settle();
+            if stop(self) {
                 return true;
             }
-            let due = self.feeds.iter().map(|(due, _)| *due).filter(|due| *due > self.now);
-            let wake = match next {
-                Next::Now => Some(self.now + STEP),
-                Next::At(time) => Some(time),
-                Next::Input | Next::Exit(_) => None,
-            };
-            match due.chain(wake).min().filter(|time| *time <= end && *time > self.now) {
+            let due = self.feeds.iter().map(|feed| feed.due);
+            match due.chain(self.wake).filter(|time| *time <= end && *time > self.now).min() {
                 Some(time) => self.now = time,
                 None => return false,
             }
         }
     }
 
-    /// Executes one reaction, after feeding the tokens that are due.
-    fn react(&mut self) -> Next {
-        for (due, feed) in core::mem::take(&mut self.feeds) {
-            let mut feed = feed;
-            let next = if due <= self.now { feed(&mut self.program, due) } else { Some(due) };
-            if let Some(next) = next {
-                self.feeds.push((next, feed));
-            }
+    /// Lets all happen that is due now. Each token that is fed has a reaction of its own, so that tokens come in the
+    /// order of feeding, and one that found no room comes as soon as there is some.
+    fn settle(&mut self) {
+        if self.wake.is_some_and(|time| time <= self.now) {
+            self.react();
         }
-        self.program.react_with(self.now, &mut self.timeline)
+        while self.put() {
+            self.react();
+        }
     }
 
-    fn close(&mut self) {
+    /// Puts the first token in that is due and finds room. Returns `false` if there is none, or if the program has
+    /// ended.
+    fn put(&mut self) -> bool {
+        if self.ended.is_some() {
+            return false;
+        }
+        self.feeds.sort_by_key(Feed::order);
+        let due = self.feeds.iter_mut().take_while(|feed| feed.due <= self.now).enumerate();
+        for (number, feed) in due {
+            match feed.put(&mut self.program) {
+                Fed::NoRoom => continue,
+                Fed::Next(_) => {}
+                Fed::Last => drop(self.feeds.remove(number)),
+            }
+            return true;
+        }
+        false
+    }
+
+    /// Executes one reaction, and looks at what it did.
+    fn react(&mut self) {
+        let next = self.program.react_with(self.now, &mut self.timeline);
+        self.ended = matches!(next, Next::Exit(_)).then_some(self.now);
+        self.wake = match next {
+            Next::Now => Some(self.now + STEP),
+            Next::At(time) => Some(time).filter(|time| *time > self.now),
+            Next::Input | Next::Exit(_) => None,
+        };
+        self.timeline.begin(self.now, self.reactions);
+        self.reactions += 1;
         (self.drain)(&mut self.program, &mut self.timeline);
-        self.timeline.end(self.now);
+        let seen = self.timeline.end();
+        let happened = |(what, ..): &&(Forbidden<P>, _, _)| match what {
+            Forbidden::Tokens(check) => seen.iter().any(|sighting| sighting.check == *check),
+            Forbidden::State(holds) => holds(&self.program),
+        };
+        if let Some((_, text, place)) = self.nevers.iter().find(happened) {
+            self.fail(&format!("`{text}` happened, but never should"), self.now, place);
+        }
+        self.sightings.extend(seen);
+    }
+
+    /// Runs up to `time`, and checks that each token that was due has been put in.
+    fn end(&mut self, time: Time) {
+        self.run(time.max(self.now), |_| false);
+        let mut left = self.feeds.iter().filter_map(|feed| Some((feed.left(self.now, self.ended)?, feed.place)));
+        if let Some((what, place)) = left.next() {
+            self.fail(&what, self.now, place);
+        }
     }
 
     fn fail(&self, what: &str, time: Time, place: &str) -> ! {
@@ -352,19 +424,5 @@ impl<P: Program + Parameters + 'static> Test<P> {
             self.name,
             self.timeline.text().trim_end()
         );
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_tokens_are_cut() {
-        let mut timeline = Timeline { names: vec![], now: Moment::default(), moments: vec![], goals: None };
-        timeline.token("name", &"é".repeat(LONGEST));
-        timeline.token("scan", &"é".repeat(10_000));
-        let shown = "é".repeat(LONGEST);
-        assert_eq!(timeline.now.notes, [format!("name: {shown}"), format!("scan: {shown} …")]);
     }
 }

@@ -22,6 +22,7 @@ texts! {
     exclusive "texts/exclusive.afg"
     filled "texts/filled.afg"
     fusion "texts/fusion.afg"
+    both "texts/both.afg"
     gate "texts/gate.afg"
     help "texts/help.afg"
     hours "texts/hours.afg"

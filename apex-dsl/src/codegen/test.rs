@@ -57,16 +57,12 @@ impl Generator<'_> {
                 fn #test() { #module_name::run() }
             };
         }
-        let drains = graph.nodes.ids().filter(|n| graph.nodes[*n].kind.is_probe()).map(|node| {
-            let (field, name) = (self.probe(node), graph.nodes[node].name.trim_start_matches("probe "));
-            let ports = self.ports_of(graph, node);
-            quote! {
-                for token in #ports.outputs.#field.take() {
-                    timeline.token(#name, &(&::apex_rt::testing::Shown(&token)).shown());
-                }
-            }
-        });
-        let steps = script.steps.iter().map(|step| self.step(graph, step, false));
+        let drains = self.drains(
+            graph,
+            script,
+            |_, name| quote!(timeline.token(#name, &(&::apex_rt::testing::Shown(token)).shown());),
+        );
+        let steps = script.steps.iter().enumerate().map(|(number, step)| self.step(graph, number, step, false));
         // Beside the function its name hides others, in the module it does not.
         let run = quote! {
             pub fn run() {
@@ -74,6 +70,7 @@ impl Generator<'_> {
                 let program = #program_name::new();
                 let mut test = ::apex_rt::testing::Test::new(#name, program, |program, timeline| { #(#drains)* });
                 #(#steps)*
+                test.finish();
             }
         };
         let module = module(&module_name, &graph.name, quote! { #program #run });
@@ -90,16 +87,15 @@ impl Generator<'_> {
     /// The function that serves the runs of a study.
     fn study(&self, graph: &Graph, script: &Script, study: &Study) -> TokenStream {
         let (name, program, count) = (&script.name, ident(&graph.name), study.goals.len());
-        let drains = graph.nodes.ids().filter(|n| graph.nodes[*n].kind.is_probe()).map(|node| {
-            let (field, ports) = (self.probe(node), self.ports_of(graph, node));
+        let drains = self.drains(graph, script, |node, _| {
             let goals = study.goals.iter().enumerate().filter(|(_, goal)| goal.probe == node);
             let goals = goals.map(|(i, goal)| match goal.ty.name() {
                 "Duration" => quote!(timeline.goal(#i, token.as_secs_f64());),
-                _ => quote!(timeline.goal(#i, token as f64);),
+                _ => quote!(timeline.goal(#i, *token as f64);),
             });
-            quote! { for token in #ports.outputs.#field.take() { #(#goals)* } }
+            quote!(#(#goals)*)
         });
-        let steps = script.steps.iter().map(|step| self.step(graph, step, true));
+        let steps = script.steps.iter().enumerate().map(|(number, step)| self.step(graph, number, step, true));
         let vary = study.vary.iter().map(|varied| {
             let (targets, integer) = (&varied.targets, varied.integer);
             quote! { (&[#(#targets),*], #integer) }
@@ -128,9 +124,39 @@ impl Generator<'_> {
         }
     }
 
-    fn step(&self, graph: &Graph, step: &Step, repeats: bool) -> TokenStream {
+    /// Code that takes the tokens out of each probe, and compares them with what the statements expect or forbid; a
+    /// check has the number of its statement. `more` is done with each token besides.
+    fn drains(&self, graph: &Graph, script: &Script, more: impl Fn(NodeId, &str) -> TokenStream) -> Vec<TokenStream> {
+        let probes = graph.nodes.ids().filter(|n| graph.nodes[*n].kind.is_probe()).enumerate();
+        let drain = |(number, node): (usize, NodeId)| {
+            let (field, name) = (self.probe(node), graph.nodes[node].name.trim_start_matches("probe "));
+            let checks = script.steps.iter().enumerate().filter_map(|(check, step)| match step {
+                Step::Expect(seen, _) | Step::Never(seen) => match &seen.what {
+                    What::Token(of, None) if *of == node => Some(quote!(timeline.meets(#check);)),
+                    What::Token(of, Some(condition)) if *of == node => {
+                        let condition = holds(condition, &graph.nodes[node].ports[0].ty);
+                        Some(quote!(if #condition { timeline.meets(#check); }))
+                    }
+                    What::Token(..) | What::Active(_) => None,
+                },
+                Step::Feed { .. } | Step::FeedRecorded { .. } | Step::Wait(_) => None,
+            });
+            let (ports, more) = (self.ports_of(graph, node), more(node, name));
+            quote! {
+                for token in #ports.outputs.#field.take() {
+                    let token = &token;
+                    timeline.arrives(#number);
+                    #(#checks)*
+                    #more
+                }
+            }
+        };
+        probes.map(drain).collect()
+    }
+
+    fn step(&self, graph: &Graph, number: usize, step: &Step, repeats: bool) -> TokenStream {
         match step {
-            Step::Feed { port, values, every } => {
+            Step::Feed { port, values, every, span } => {
                 let (name, ty) = (ident(&graph.nodes[*port].name), &graph.nodes[*port].ports[0].ty);
                 let values = values.iter().map(|value| constant(value, ty));
                 let token = self.token_type(graph, PortId { node: *port, port: 0 });
@@ -142,15 +168,23 @@ impl Generator<'_> {
                     None => quote!(None),
                 };
                 let ports = self.ports_of(graph, *port);
-                quote! { test.feed::<#token>([#(#values),*], #every, |program, token| #ports.inputs.#name.put(token)); }
+                let (shown, place) = (&graph.nodes[*port].name, self.position(*span));
+                quote! {
+                    test.feed::<#token>(
+                        (#shown, #place), [#(#values),*], #every, |program, token| #ports.inputs.#name.put(token),
+                    );
+                }
             }
-            Step::FeedRecorded { port, file, channel } => self.feed_recorded(graph, *port, file, channel, repeats),
+            Step::FeedRecorded { port, file, channel, span } => {
+                let place = self.position(*span);
+                self.feed_recorded(graph, *port, &place, file, channel, repeats)
+            }
             Step::Wait(time) => {
                 let time = duration(*time);
                 quote! { test.wait(#time); }
             }
             Step::Expect(seen, until) => {
-                let (test, text, place) = self.seen(graph, seen);
+                let (text, place) = (&seen.text, self.position(seen.span));
                 let until = match until {
                     Some(Until::By(time)) => {
                         let time = duration(*time);
@@ -162,17 +196,31 @@ impl Generator<'_> {
                     }
                     None => quote!(None),
                 };
-                quote! { test.expect(|program| #test, #until, #text, #place); }
+                match state(seen) {
+                    Some(state) => quote! { test.expect_state(|program| #state, #until, #text, #place); },
+                    None => quote! { test.expect(#number, #until, #text, #place); },
+                }
             }
             Step::Never(seen) => {
-                let (test, text, place) = self.seen(graph, seen);
-                quote! { test.never(|program| #test, #text, #place); }
+                let (text, place) = (&seen.text, self.position(seen.span));
+                match state(seen) {
+                    Some(state) => quote! { test.never_state(|program| #state, #text, #place); },
+                    None => quote! { test.never(#number, #text, #place); },
+                }
             }
         }
     }
 
     /// Feeds a recording. A script that is repeated, also with other recordings, reads each only once.
-    fn feed_recorded(&self, graph: &Graph, port: NodeId, file: &str, channel: &str, repeats: bool) -> TokenStream {
+    fn feed_recorded(
+        &self,
+        graph: &Graph,
+        port: NodeId,
+        place: &str,
+        file: &str,
+        channel: &str,
+        repeats: bool,
+    ) -> TokenStream {
         if self.channels.is_none() {
             let message = format!("`recording(\"{file}\", …)` in a test needs the feature `record` of `apex-rt`");
             return quote! { ::core::compile_error!(#message); };
@@ -188,32 +236,25 @@ impl Generator<'_> {
             }
             false => read(quote!(#file)),
         };
+        let shown = &graph.nodes[port].name;
         quote! {
             let tokens = #tokens;
-            test.feed_at(tokens, |program, token| #ports.inputs.#name.put(token));
+            test.feed_at((#shown, #place), tokens, |program, token| #ports.inputs.#name.put(token));
         }
     }
+}
 
-    fn seen<'s>(&self, graph: &Graph, seen: &'s Seen) -> (TokenStream, &'s str, String) {
-        let test = match &seen.what {
-            What::Active(Subject::Node(node)) => {
-                let node = node.index();
-                quote!(::apex_rt::Program::is_active(program, #node))
-            }
-            What::Active(Subject::Scope(scope)) => {
-                let graph = scope.index() - 1;
-                quote!(::apex_rt::Program::is_graph_active(program, #graph))
-            }
-            What::Token(node, None) => {
-                let (field, ports) = (self.probe(*node), self.ports_of(graph, *node));
-                quote!(#ports.outputs.#field.any(|_| true))
-            }
-            What::Token(node, Some(condition)) => {
-                let (field, ports) = (self.probe(*node), self.ports_of(graph, *node));
-                let condition = holds(condition, &graph.nodes[*node].ports[0].ty);
-                quote!(#ports.outputs.#field.any(|token| #condition))
-            }
-        };
-        (test, &seen.text, self.position(seen.span))
+/// The state that is observed, as an expression; `None` if tokens are.
+fn state(seen: &Seen) -> Option<TokenStream> {
+    match &seen.what {
+        What::Active(Subject::Node(node)) => {
+            let node = node.index();
+            Some(quote!(::apex_rt::Program::is_active(program, #node)))
+        }
+        What::Active(Subject::Scope(scope)) => {
+            let graph = scope.index() - 1;
+            Some(quote!(::apex_rt::Program::is_graph_active(program, #graph)))
+        }
+        What::Token(..) => None,
     }
 }

@@ -145,7 +145,8 @@ impl Writer<'_> {
             }
             TestStep::Feed(port, value, every) => self.feed(port, value.as_ref(), every.as_ref()),
             TestStep::FeedRecorded(port, file, channel) => {
-                Some(Step::FeedRecorded { port: self.way_in(port)?, file: file.clone(), channel: channel.clone() })
+                let (file, channel, span) = (file.clone(), channel.clone(), port.span);
+                Some(Step::FeedRecorded { port: self.way_in(port)?, file, channel, span })
             }
         }
     }
@@ -194,7 +195,7 @@ impl Writer<'_> {
                 values.into_iter().map(|(value, expr)| self.fit(port, &ty, value, expr)).collect::<Option<_>>()?
             }
         };
-        Some(Step::Feed { port: node, values, every })
+        Some(Step::Feed { port: node, values, every, span: port.span })
     }
 
     /// A token for a port; reports one that does not fit the type of the port.
