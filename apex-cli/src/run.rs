@@ -252,7 +252,7 @@ impl Wanted<'_> {
         let realtime = threads.any(|thread| !thread.cores.is_empty() || thread.priority.is_some());
         let wanted = [
             ("params", params),
-            ("ctrl-c", params),
+            ("ctrl-c", true),
             ("profile", self.profile.is_some()),
             ("realtime", realtime),
             (made::RECORD, records),
