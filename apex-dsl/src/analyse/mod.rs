@@ -25,6 +25,7 @@ mod demand_driven;
 mod iteration;
 mod live;
 mod order;
+mod periods;
 mod rates;
 mod schedule;
 mod silences;
