@@ -165,7 +165,8 @@ impl Profile {
             }
             let name = |node: usize| self.info.nodes[node].name;
             let thread = self.info.groups.get(group).map_or(String::new(), |group| format!(" of `{}`", group.name));
-            let most = slowest.map(|(own, node)| format!(", {:.1?} of it in `{}`", Duration::from_nanos(own), name(node)));
+            let most =
+                slowest.map(|(own, node)| format!(", {:.1?} of it in `{}`", Duration::from_nanos(own), name(node)));
             Some(format!(
                 "a reaction{thread} took {longest:.1?}{}, but `{}` fires every {every:?}: move slow nodes to a thread group of their own (`on slow`)",
                 most.unwrap_or_default(),

@@ -31,8 +31,7 @@ impl Analysis {
             self.clusters[cluster].guards.iter().filter_map(timer)
         };
         let all = self.clusters.ids().flat_map(timers);
-        let mut paces: BTreeMap<NodeId, (Duration, NodeId)> =
-            all.map(|(node, every)| (node, (every, node))).collect();
+        let mut paces: BTreeMap<NodeId, (Duration, NodeId)> = all.map(|(node, every)| (node, (every, node))).collect();
         // Joins connect further ones: until nothing changes.
         loop {
             let mut changed = false;

@@ -24,7 +24,8 @@ pub fn check_periods(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagn
         let (node, slowest, [own, real]) =
             (&graph.nodes[throttled.node], &graph.nodes[throttled.slowest], throttled.periods);
         let name = graph.path(throttled.slowest);
-        let message = format!("`{}` fires every {real:?} instead of every {own:?}: it is joined with `{name}`", node.name);
+        let message =
+            format!("`{}` fires every {real:?} instead of every {own:?}: it is joined with `{name}`", node.name);
         let warning = Diagnostic::warning("throttled", node.span, message)
             .also(slowest.span, format!("every {real:?}"))
             .note(format!(

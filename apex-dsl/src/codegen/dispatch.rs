@@ -385,8 +385,8 @@ impl Generator<'_> {
         raises.finish()
     }
 
-    /// What happens if nothing else is left to do at an instant: what came in time counts before a timeout or a
-    /// silence. The first of them happens, as others may then be void.
+    /// Code for one timeout or silence, if nothing else is left to do at an instant: what came in time counts before
+    /// them. Only the first of them happens, as others may then be void.
     fn expires_first(&self, view: ProgramView<'_>) -> TokenStream {
         let timeouts: TokenStream = match view.wiring.is_tabled {
             true => self.first_expires(view),
