@@ -33,6 +33,8 @@ mod queue;
 pub mod record;
 #[cfg(feature = "std")]
 mod remote;
+#[cfg(feature = "std")]
+mod requests;
 mod run;
 #[cfg(feature = "std")]
 mod stop;

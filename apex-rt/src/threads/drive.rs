@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock, ports::Ways,
-    remote::ServedRequests, run::react,
+    requests::ServedRequests, run::react,
 };
 use std::{
     panic::resume_unwind,
