@@ -263,10 +263,14 @@ enum Command {
         /// file is kept, and the new one gets a number.
         #[arg(long, value_name = "FILE", conflicts_with = "profile")]
         record: Option<PathBuf>,
-        /// Open a socket at this address, for `apex studio --connect` on this machine or another one. Everyone who can
-        /// connect can set parameters.
+        /// Open a socket at this address, for `apex studio --connect` on this machine or another one. If other machines
+        /// reach it, viewers may only look, unless --stream-access says otherwise. With the environment variable
+        /// APEX_STUDIO_TOKEN, only viewers with the same value are admitted.
         #[arg(long, value_name = "HOST:PORT")]
         stream: Option<String>,
+        /// Rights of viewers: to look (`read`), or also to set parameters (`write`).
+        #[arg(long, value_enum, requires = "stream")]
+        stream_access: Option<run::StreamAccess>,
         #[command(flatten)]
         how: Building,
         /// Arguments for the program.
@@ -308,7 +312,12 @@ enum Command {
         /// Address of the page. Other machines reach it only if it is not a loopback address.
         #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:7410")]
         listen: std::net::SocketAddr,
-        /// Only look: the page can neither set parameters nor halt the robot.
+        /// Origin under which a proxy shows the page, such as `https://robot.example`: the proxy encrypts, and passes
+        /// requests on to the address of the page. May be given several times.
+        #[arg(long, value_name = "ORIGIN", value_parser = apex_studio::origin)]
+        origin: Vec<String>,
+        /// Only look: the page can neither set parameters nor halt the robot, asks it for no tokens or times, and
+        /// changes no text.
         #[arg(long)]
         read_only: bool,
         #[command(flatten)]
@@ -399,11 +408,12 @@ fn main() -> ExitCode {
             speed,
             params,
             listen,
+            origin,
             read_only,
             how,
             args,
         } => {
-            let page = studio::Page { listen, read_only, speed };
+            let page = studio::Page { listen, origins: origin, read_only, speed };
             match file {
                 Some(file) if connect.is_empty() => {
                     let is_study = file.is_dir();
@@ -414,11 +424,12 @@ fn main() -> ExitCode {
                 file => studio::connect(connect, file, &page),
             }
         }
-        Command::Run { file, robot, params, save_params, watch, profile, record, stream, how, args } => {
+        Command::Run { file, robot, params, save_params, watch, profile, record, stream, stream_access, how, args } => {
             let params = run::Params { load: params, save: save_params };
             let (robot, profile) = (robot.as_deref(), profile.as_deref());
             let recording = record.as_deref().map_or(run::Recording::Stated, run::Recording::Made);
-            let (args, stream) = (&args[..], stream.as_deref().map_or(run::Stream::None, run::Stream::At));
+            let at = |address| run::Stream::At(address, stream_access);
+            let (args, stream) = (&args[..], stream.as_deref().map_or(run::Stream::None, at));
             let (file, params, simulated, how) = (&file, &params, false, how.how());
             let wanted = run::Wanted { file, robot, params, profile, recording, args, watch, stream, simulated, how };
             if watch { watch::run(&wanted) } else { run::run(&wanted) }

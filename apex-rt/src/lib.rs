@@ -35,6 +35,8 @@ mod queue;
 pub mod record;
 #[cfg(feature = "std")]
 mod remote;
+#[cfg(feature = "std")]
+mod requests;
 mod run;
 #[cfg(feature = "std")]
 mod stop;

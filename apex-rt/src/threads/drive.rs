@@ -10,7 +10,7 @@ use crate::{
     CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock,
     end::{Driven, is_asked},
     ports::Ways,
-    remote::ServedRequests,
+    requests::ServedRequests,
     run::{Lateness, react},
 };
 use std::{
