@@ -4,9 +4,14 @@
 //! reaction and calls the `#[on_stop]` methods of its nodes ([`Program::stop`]). A group that hangs cannot: the process
 //! ends without it, after a time limit.
 
-use crate::{Program, Switch, switch::Listens};
+use crate::{
+    Next, Observer, Program, Switch, Time,
+    run::react,
+    switch::Listens,
+    watchdog::{self, Health},
+};
 use std::{
-    sync::{Condvar, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
     time::Duration,
 };
 
@@ -35,21 +40,38 @@ pub(crate) fn is_asked() -> bool {
 pub(crate) struct Driven<P: Program> {
     /// The program.
     pub program: P,
+    /// Counts for a watchdog outside of the process.
+    health: Option<Arc<Health>>,
     /// Unparks the thread when the process is to end.
     _listens: Listens<'static>,
 }
 
 impl<P: Program> Driven<P> {
-    /// Begins to drive a program on this thread.
-    pub fn new(program: P) -> Self {
+    /// Begins to drive a program on this thread. In `real` time a watchdog outside of the process is fed.
+    pub fn new(program: P, real: bool) -> Self {
         *driven() += 1;
-        Self { program, _listens: ASKED.listen() }
+        let health = if real { watchdog::register() } else { None };
+        Self { program, health, _listens: ASKED.listen() }
+    }
+
+    /// Executes a reaction, and tells the observer before and after it. `elapsed` returns the duration of the reaction
+    /// so far.
+    #[inline]
+    pub fn react<O: Observer>(&mut self, now: Time, observer: &mut O, elapsed: &mut dyn FnMut() -> Duration) -> Next {
+        let health = self.health.as_deref();
+        health.inspect(|health| health.begin());
+        let (next, is_late) = react(&mut self.program, now, observer, elapsed);
+        health.inspect(|health| health.end(is_late));
+        next
     }
 }
 
 impl<P: Program> Drop for Driven<P> {
     fn drop(&mut self) {
         self.program.stop();
+        if self.health.take().is_some() {
+            watchdog::leave();
+        }
         *driven() -= 1;
         ENDED.notify_all();
     }

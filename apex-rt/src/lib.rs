@@ -54,6 +54,8 @@ pub mod threads;
 mod time;
 mod timer;
 mod token;
+#[cfg(feature = "std")]
+mod watchdog;
 
 pub use apex_attributes::{Outputs, Units, node};
 

@@ -125,6 +125,8 @@ fn other_process() {
         "BreaksFar" => run(BreaksFar::new(), clock),
         "BreaksAlone" => run(BreaksAlone::new(), clock),
         "Hangs" => run(Hangs::new(), clock),
+        "HangsAlone" => run(HangsAlone::new(), clock),
+        "MissesDeadlines" => run(MissesDeadlines::new(), clock),
         other => panic!("there is no program `{other}`"),
     }
 }
@@ -170,4 +172,74 @@ fn all_groups_but_a_hanging_one_stop() {
     let begun = std::time::Instant::now();
     assert_eq!(end_of("Hangs", &["near", "far"], None), (vec!["near".into()], Some(1)));
     assert!(begun.elapsed() < Duration::from_secs(30), "it does not wait for what hangs");
+}
+
+graph! {
+    use apex_nodes::flow::tick;
+    use crate::ends::{Base, hangs, slow};
+
+    /// Hangs after half a second, and nothing watches inside of the process.
+    robot HangsAlone {
+        node near = Base(name = "near") every 10ms;
+        node end  = hangs() after 500ms;
+    }
+
+    /// Misses its deadline at the end.
+    robot MissesDeadlines {
+        node near = Base(name = "near") every 10ms;
+        node slow = slow() after 500ms every 20ms deadline 5ms;
+    }
+}
+
+/// Takes longer than its deadline.
+#[node]
+pub fn slow() {
+    thread::sleep(Duration::from_millis(10));
+}
+
+/// Runs `program` in another process with a watchdog that waits for 200 ms, and returns what that is told: until it is
+/// told nothing for a second, or that the program ends.
+#[cfg(target_os = "linux")]
+fn told(program: &str, interrupted: bool) -> Vec<String> {
+    use std::os::unix::net::UnixDatagram;
+    let path = std::env::temp_dir().join(format!("apex-watchdog-{program}-{}", std::process::id()));
+    let _ = std::fs::remove_file(&path);
+    let socket = UnixDatagram::bind(&path).expect("a folder for temporary files");
+    socket.set_read_timeout(Some(Duration::from_secs(30))).expect("a time");
+    let name = path.to_str().expect("UTF-8");
+    let (child, _lines) =
+        again("ends::other_process", &[(PROGRAM, program), ("NOTIFY_SOCKET", name), ("WATCHDOG_USEC", "200000")]);
+    let (mut told, mut buffer) = (vec![], [0; 64]);
+    while let Ok(length) = socket.recv(&mut buffer) {
+        let text = String::from_utf8_lossy(&buffer[..length]).into_owned();
+        if told.len() == 3 {
+            socket.set_read_timeout(Some(Duration::from_secs(1))).expect("a time");
+            if interrupted {
+                send(&child, "TERM");
+            }
+        }
+        let ends = text == "STOPPING=1";
+        told.push(text);
+        if ends {
+            break;
+        }
+    }
+    let _ = std::fs::remove_file(&path);
+    told
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_watchdog_is_fed_while_all_groups_are_well() {
+    let well = told("Steady", true);
+    assert_eq!(
+        (well.first().map(String::as_str), well.last().map(String::as_str)),
+        (Some("READY=1"), Some("STOPPING=1"))
+    );
+    assert!(well[1..well.len() - 1].iter().all(|text| text == "WATCHDOG=1"), "{well:?}");
+    // It is not fed any more, although the process lives.
+    for program in ["HangsAlone", "MissesDeadlines"] {
+        let told = told(program, false);
+        assert!(told.len() > 3 && told[1..].iter().all(|text| text == "WATCHDOG=1"), "{program}: {told:?}");
+    }
 }
