@@ -1,5 +1,5 @@
-//! `seam.afg`: what stands across the seam of a full turn is seen as anywhere else. The scanner turns on the spot by whole
-//! beams, so that the seam passes over everything around it.
+//! `seam.afg`: what stands across the seam of a full turn is seen as anywhere else. The scanner turns on the spot by
+//! whole beams, so that the seam passes over everything around it.
 
 use apex_macros::graph;
 use apex_nodes::scan::{Point2, Pose2, Scan};

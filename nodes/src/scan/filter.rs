@@ -2,8 +2,8 @@ use super::{Point2, Scan, Segment, Segments};
 use apex_rt::{Out, node};
 use heapless::Vec;
 
-/// Marks invalid ranges as not measured (NaN): zero, minus infinity, outside the limits of the scanner, or less than the
-/// minimum of this node. A range beyond the maximum of this node becomes infinity, as nothing is within range, and
+/// Marks invalid ranges as not measured (NaN): zero, minus infinity, outside the limits of the scanner, or less than
+/// the minimum of this node. A range beyond the maximum of this node becomes infinity, as nothing is within range, and
 /// infinity stays.
 ///
 /// Beams keep their index, so that their angles stay right.
@@ -70,8 +70,8 @@ fn length(scan: &Scan, segment: &Segment) -> f32 {
     if is_around { ends.max(segment.size()) } else { ends }
 }
 
-/// Passes a scan in which enough beams have measured something, or that nothing is within range (infinity); ⊥ otherwise.
-/// So a covered or broken scanner is not taken for free space, and the robot may drive in the open.
+/// Passes a scan in which enough beams have measured something, or that nothing is within range (infinity); ⊥
+/// otherwise. So a covered or broken scanner is not taken for free space, and the robot may drive in the open.
 ///
 /// Some scanners report infinity when they are covered. Where walls are always within range, `min_seen` detects that.
 #[node]
@@ -105,9 +105,9 @@ const MAX_WINDOW: usize = 15;
 
 /// Replaces each measured range by the median of the measured ranges in a window of beams around it.
 ///
-/// Removes single wrong beams and keeps edges. Beams without a measurement, and those that see nothing within range, stay
-/// as they are. With an even number of ranges in the window, the lower of the two middle ones is taken, so that every
-/// range is a measured one. The window crosses the seam of a full turn.
+/// Removes single wrong beams and keeps edges. Beams without a measurement, and those that see nothing within range,
+/// stay as they are. With an even number of ranges in the window, the lower of the two middle ones is taken, so that
+/// every range is a measured one. The window crosses the seam of a full turn.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MedianFilter {

@@ -28,7 +28,8 @@ impl Scan {
         self.ranges.get(beam).copied().filter(|&r| self.is_measured(r))
     }
 
-    /// Range of a beam as far as it is known, in m: infinity if nothing is within range, and NaN if nothing was measured.
+    /// Range of a beam as far as it is known, in m: infinity if nothing is within range, and NaN if nothing was
+    /// measured.
     #[inline]
     pub fn sight(&self, beam: usize) -> f32 {
         let range = self.ranges.get(beam).copied().unwrap_or(f32::NAN);
@@ -42,8 +43,8 @@ impl Scan {
         self.ranges.len() > 2 && (self.ranges.len() as f32 * step - TAU).abs() <= 1.5 * step
     }
 
-    /// Index of a beam that is counted on beyond either end of the scan: across the seam of a full turn, or `None` outside
-    /// the field of view.
+    /// Index of a beam that is counted on beyond either end of the scan: across the seam of a full turn, or `None`
+    /// outside the field of view.
     pub fn beam_around(&self, beam: isize) -> Option<usize> {
         let count = self.ranges.len() as isize;
         let is_inside = (0..count).contains(&beam);

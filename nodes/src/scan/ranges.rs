@@ -3,9 +3,9 @@ use core::{
     ops::{Deref, DerefMut},
 };
 
-/// Maximum number of beams of a [`Scan`](super::Scan): with the feature `std` as many as [`Segment`](super::Segment) can
-/// number, as scans then grow on the heap; without it the room of each scan, which holds a full turn at 0.25° (1440 beams)
-/// and common 270° scanners (1081 beams).
+/// Maximum number of beams of a [`Scan`](super::Scan): with the feature `std` as many as [`Segment`](super::Segment)
+/// can number, as scans then grow on the heap; without it the room of each scan, which holds a full turn at 0.25° (1440
+/// beams) and common 270° scanners (1081 beams).
 pub const MAX_BEAMS: usize = if cfg!(feature = "std") { u16::MAX as usize } else { 1536 };
 
 /// List with a value for each beam.
@@ -16,9 +16,9 @@ pub(super) type PerBeam<T> = heapless::Vec<T, MAX_BEAMS>;
 
 /// Ranges of a scan, in m, by beam: at most [`MAX_BEAMS`].
 ///
-/// With the feature `std` they grow on the heap, as paths and maps do: room for the scanners with the most beams in every
-/// scan would make programs and their stacks several times larger. A scan that is written again uses its memory again.
-/// Without `std` they have a fixed capacity, so that a microcontroller needs no heap.
+/// With the feature `std` they grow on the heap, as paths and maps do: room for the scanners with the most beams in
+/// every scan would make programs and their stacks several times larger. A scan that is written again uses its memory
+/// again. Without `std` they have a fixed capacity, so that a microcontroller needs no heap.
 #[derive(Debug, PartialEq, Default)]
 pub struct Ranges(PerBeam<f32>);
 

@@ -95,8 +95,8 @@ impl fmt::Display for TooManySegments {
 
 impl core::error::Error for TooManySegments {}
 
-/// Splits a scan into segments where neighbouring ranges jump (thesis 6.6.1). What stands across the seam of a full turn,
-/// between its last and its first beam, is one segment, which is the last one.
+/// Splits a scan into segments where neighbouring ranges jump (thesis 6.6.1). What stands across the seam of a full
+/// turn, between its last and its first beam, is one segment, which is the last one.
 ///
 /// Fails on a scan of more than [`MAX_SEGMENTS`] segments.
 #[node]
