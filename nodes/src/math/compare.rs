@@ -25,7 +25,8 @@ pub fn not(a: &bool) -> bool {
     !*a
 }
 
-/// Threshold with hysteresis: `true` from `high` on, `false` again below `low`. Starts as `false`. NaN does not change it.
+/// Threshold with hysteresis: `true` from `high` on, `false` again below `low`. Starts as `false`. NaN does not change
+/// it.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Hysteresis<T> {

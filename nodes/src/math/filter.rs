@@ -36,8 +36,8 @@ impl<T: Float> MovingAverage<T> {
     }
 }
 
-/// Exponential smoothing: `y ← y + weight · (x − y)`. The first output is the first value. An output that is not finite,
-/// because a value is NaN or infinite, is not remembered: the next one is computed from the last finite one.
+/// Exponential smoothing: `y ← y + weight · (x − y)`. The first output is the first value. An output that is not
+/// finite, because a value is NaN or infinite, is not remembered: the next one is computed from the last finite one.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LowPass {
@@ -77,8 +77,8 @@ pub struct RateLimit {
     /// First output, in units of the value.
     #[param(default = 0.0)]
     initial: f64,
-    /// Longest time between two values that counts. A value that comes later changes the output by no more than one that
-    /// comes after this time.
+    /// Longest time between two values that counts. A value that comes later changes the output by no more than one
+    /// that comes after this time.
     #[param(unit = "s", default = 0.2, range = 0.0..=3600.0)]
     max_pause: f64,
     last: Option<(Time, f64)>,

@@ -11,8 +11,8 @@ const TURN: f32 = 0.1;
 
 /// Follows a path with an omnidirectional robot until it is at the goal (thesis 4.3.6, eqs. 4.2 to 4.5).
 ///
-/// The robot passes the points of the path in their order. It rounds corners, and turns back at a sharp one, of more than
-/// 100°, once it is within `tolerance` of it. So a path may cross itself and lead back the way it came.
+/// The robot passes the points of the path in their order. It rounds corners, and turns back at a sharp one, of more
+/// than 100°, once it is within `tolerance` of it. So a path may cross itself and lead back the way it came.
 ///
 /// A new path replaces the current one. `pose` is in the frame of the path; it is ⊥ while no pose is known. `scan` is
 /// in the frame of the robot; before the first one, no obstacle is known. The node sends twists while it has a path,
@@ -180,8 +180,8 @@ impl PathFollower {
         self.motion.heading.reset();
     }
 
-    /// Returns `true` on the last piece of the path before a sharp corner or the goal, where the robot drives straight to
-    /// it.
+    /// Returns `true` on the last piece of the path before a sharp corner or the goal, where the robot drives straight
+    /// to it.
     fn is_arriving(&self, projection: &Projection) -> bool {
         projection.to_stop <= 2.0 * self.tolerance
     }

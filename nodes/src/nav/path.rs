@@ -108,7 +108,8 @@ impl Path {
         before.dot(after) < SHARP * before.norm() * after.norm()
     }
 
-    /// Total turning of the path within `reach` m after a projection and before its stop, in rad, regardless of the side.
+    /// Total turning of the path within `reach` m after a projection and before its stop, in rad, regardless of the
+    /// side.
     pub fn turning(&self, projection: &Projection, reach: f32) -> f32 {
         let mut passed = 0.0;
         let mut turning = 0.0;
