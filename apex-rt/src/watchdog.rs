@@ -1,6 +1,6 @@
 //! Watchdogs outside of the process: systemd (`sd_notify`) and a device such as `/dev/watchdog`. They are fed as long as
-//! every thread group is well: none is in the same reaction for too long, and the last reaction of each met its
-//! deadlines. A robot whose program hangs is then restarted by something that does not depend on the program.
+//! every thread group is well: none is in the same reaction for too long, and all reactions meet their deadlines. A
+//! robot whose program hangs is then restarted by something that does not depend on the program.
 //!
 //! The control threads only count: a thread of its own looks at the counts and feeds.
 
@@ -34,7 +34,7 @@ const PAUSE: Duration = Duration::from_secs(1);
 pub(crate) struct Health {
     /// Number of reactions that have begun and ended: odd within a reaction.
     beats: AtomicUsize,
-    /// `true` if the last reaction missed a deadline.
+    /// `true` if a reaction missed a deadline since the last look.
     is_late: AtomicBool,
 }
 
@@ -46,7 +46,9 @@ impl Health {
 
     /// Counts the end of a reaction, which may have missed a deadline.
     pub fn end(&self, is_late: bool) {
-        self.is_late.store(is_late, Ordering::Relaxed);
+        if is_late {
+            self.is_late.store(true, Ordering::Relaxed);
+        }
         self.beats.fetch_add(1, Ordering::Release);
     }
 }
@@ -107,13 +109,14 @@ fn feed(pause: Duration) {
     }
 }
 
-/// Returns `true` if a group is not in the reaction in which it was at the last look, and met its deadlines.
+/// Returns `true` if a group is not in the reaction in which it was at the last look, and has met its deadlines since.
 fn is_well((health, seen): &mut (Weak<Health>, usize)) -> bool {
     let Some(health) = health.upgrade() else { return true };
     let beats = health.beats.load(Ordering::Acquire);
     let hangs = beats % 2 == 1 && beats == *seen;
     *seen = beats;
-    !hangs && !health.is_late.load(Ordering::Relaxed)
+    let is_late = health.is_late.swap(false, Ordering::Relaxed);
+    !hangs && !is_late
 }
 
 /// The watchdogs of the environment.

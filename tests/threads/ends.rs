@@ -218,9 +218,9 @@ fn told(program: &str, interrupted: bool) -> Vec<String> {
                 send(&child, "TERM");
             }
         }
-        let ends = text == "STOPPING=1";
         told.push(text);
-        if ends {
+        // If it were fed for ever, this would not end.
+        if told.len() > 200 || told.last().is_some_and(|text| text == "STOPPING=1") {
             break;
         }
     }
@@ -240,6 +240,9 @@ fn a_watchdog_is_fed_while_all_groups_are_well() {
     // It is not fed any more, although the process lives.
     for program in ["HangsAlone", "MissesDeadlines"] {
         let told = told(program, false);
-        assert!(told.len() > 3 && told[1..].iter().all(|text| text == "WATCHDOG=1"), "{program}: {told:?}");
+        assert!(
+            (4..100).contains(&told.len()) && told[1..].iter().all(|text| text == "WATCHDOG=1"),
+            "{program}: {told:?}"
+        );
     }
 }
