@@ -1,5 +1,5 @@
 use super::{FollowingLaw, Path, Pid, Projection, Twist, path::nearest_on, twist::Halt};
-use crate::scan::{Point2, Pose2, Scan};
+use crate::scan::{FarFromOrigin, Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
 use libm::remainderf;
@@ -22,7 +22,8 @@ const TURN: f32 = 0.1;
 /// * is `off_path`: farther than `max_offset` from the path,
 /// * is deactivated: the node is no longer active.
 ///
-/// Obstacles around the goal do not count as standing on the path, as a goal may be close to a wall.
+/// Stops and fails while the pose is more than 100 km from the origin. Obstacles around the goal do not count as
+/// standing on the path, as a goal may be close to a wall.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PathFollower {
@@ -135,10 +136,23 @@ impl PathFollower {
         reached: Event<()>,
         #[failure] blocked: Event<()>,
         #[failure] off_path: Event<()>,
-    ) -> Option<Twist> {
+    ) -> Result<Option<Twist>, FarFromOrigin> {
         if let Some(path) = path {
             self.begin(path);
         }
+        if !self.path.points.is_empty() && pose.is_some_and(Pose2::is_far) {
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, pose, scan, [reached, blocked, off_path]))
+    }
+
+    fn step(
+        &mut self,
+        ctx: &Ctx,
+        pose: Option<&Pose2>,
+        scan: Option<&Scan>,
+        [reached, blocked, off_path]: [Event<()>; 3],
+    ) -> Option<Twist> {
         let Some(goal) = self.path.goal() else { return self.halt.rest() };
         let pose = pose?;
         let projection = self.path.project(pose.position(), self.progress.segment, self.tolerance);
@@ -341,7 +355,7 @@ mod tests {
             let ctx = Ctx::new(Time::from_millis(20 * self.step));
             self.step += 1;
             let (a, b, c) = (apex_rt::event(&mut reached), apex_rt::event(&mut blocked), apex_rt::event(&mut off_path));
-            let twist = self.node.process(&ctx, Some(&self.pose), path, scan, a, b, c);
+            let twist = self.node.process(&ctx, Some(&self.pose), path, scan, a, b, c).unwrap_or(None);
             let ends = [(reached, End::Reached), (blocked, End::Blocked), (off_path, End::OffPath)];
             let end = ends.into_iter().find_map(|(event, end)| event.map(|()| end));
             (twist, end)
@@ -468,6 +482,20 @@ mod tests {
         robot.node.give_up();
         assert_eq!(robot.react(None, None), (None, None));
         assert_eq!(robot.react(Some(&Path::default()), None), (None, None));
+    }
+
+    #[test]
+    fn far_from_the_origin_it_stops_and_says_so() {
+        let way = path(&[(0.0, 0.0), (3.0, 0.0)], 0.0);
+        let mut node = follower();
+        let mut ask = |x: f32, path| {
+            let (mut a, mut b, mut c) = (None, None, None);
+            let [a, b, c] = [&mut a, &mut b, &mut c].map(apex_rt::event);
+            node.process(&Ctx::new(Time::ZERO), Some(&Pose2::new(x, 0.0, 0.0)), path, None, a, b, c)
+        };
+        assert_eq!(ask(5e6, None), Ok(None), "it has no path");
+        assert!(ask(0.0, Some(&way)).is_ok_and(|twist| twist.is_some()));
+        assert_eq!(ask(5e6, None), Err(FarFromOrigin));
     }
 
     /// A hall of 8 m by 6 m with posts in it, and the same with all obstacles grown by 20 cm.

@@ -2,7 +2,7 @@
 //! A node that is interrupted sends a twist of zero, then ⊥.
 
 use super::{Twist, twist::Halt};
-use crate::scan::{Point2, Pose2, Scan};
+use crate::scan::{FarFromOrigin, Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
 use libm::{remainderf, sqrtf};
@@ -21,7 +21,8 @@ fn braking_speed(distance: f32, speed: f32, deceleration: f32) -> f32 {
 /// Moves a robot by a distance in a direction, relative to its pose at activation, and keeps its heading (thesis
 /// 8.1.1).
 ///
-/// `pose` is in any fixed frame, such as that of odometry. `done` comes with a twist of zero.
+/// `pose` is in any fixed frame, such as that of odometry. `done` comes with a twist of zero. Stops and fails if the
+/// pose is more than 100 km from the origin.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MoveRobot {
@@ -43,7 +44,14 @@ pub struct MoveRobot {
 
 #[node]
 impl MoveRobot {
-    fn process(&mut self, ctx: &Ctx, pose: &Pose2, done: Event<()>) -> Option<Twist> {
+    fn process(&mut self, ctx: &Ctx, pose: &Pose2, done: Event<()>) -> Result<Option<Twist>, FarFromOrigin> {
+        if ctx.active() && pose.is_far() {
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, pose, done))
+    }
+
+    fn step(&mut self, ctx: &Ctx, pose: &Pose2, done: Event<()>) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();
         }
@@ -213,7 +221,7 @@ mod tests {
             let start = Pose2::new(1.0, 2.0, 0.3);
             let (mut pose, mut last, mut done) = (start, 0.0, None);
             for step in 0..2000 {
-                let twist = node.process(&active(step), &pose, apex_rt::event(&mut done)).expect("it is active");
+                let twist = node.step(&active(step), &pose, apex_rt::event(&mut done)).expect("it is active");
                 let speed = twist.velocity().norm();
                 assert!(done.is_some() || (speed <= 0.5 + 1e-5 && (speed - last).abs() < 0.04), "{speed} after {last}");
                 if done.is_some() {
@@ -234,7 +242,7 @@ mod tests {
         let ctx = Ctx::new(Time::ZERO);
         let (pose, mut scan) = (Pose2::default(), Scan::default());
         scan.ranges.push(1.0).expect("there is room");
-        assert_eq!(MoveRobot::construct((1.0, 0.0, 0.5, 0.5)).process(&ctx, &pose, Event::unconnected()), None);
+        assert_eq!(MoveRobot::construct((1.0, 0.0, 0.5, 0.5)).step(&ctx, &pose, Event::unconnected()), None);
         let mut ahead = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5));
         assert_eq!(ahead.process(&ctx, &scan, Event::unconnected()), None);
         let mut position = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
@@ -245,7 +253,7 @@ mod tests {
     fn a_motion_that_is_interrupted_ends_with_a_twist_of_zero() {
         let (rest, pose) = (Ctx::new(Time::ZERO), Pose2::default());
         let mut node = MoveRobot::construct((1.0, 0.0, 0.5, 0.5));
-        let mut twist = |ctx: &Ctx| node.process(ctx, &pose, Event::unconnected());
+        let mut twist = |ctx: &Ctx| node.step(ctx, &pose, Event::unconnected());
         assert!(twist(&active(0)).is_some_and(|twist| twist.x > 0.0));
         assert_eq!([twist(&rest), twist(&rest)], [Some(Twist::ZERO), None]);
     }

@@ -21,7 +21,7 @@ mod wheel;
 pub use confirm::ConfirmContainer;
 pub use container::{Container, ContainerSearch, best_container};
 pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};
-pub use geometry::{Point2, Pose2};
+pub use geometry::{FarFromOrigin, Point2, Pose2};
 pub use hide::HideBox;
 pub use laser::Scan;
 pub use mount::{MergeScans, MountScan, OtherBeams};

@@ -2,7 +2,7 @@ use super::vehicle::{Articulated, backing_twist};
 use crate::{
     math::normalize_angle,
     nav::{Twist, twist::Halt},
-    scan::Pose2,
+    scan::{FarFromOrigin, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
 use heapless::Deque;
@@ -46,8 +46,21 @@ pub struct BackUp {
 
 #[node]
 impl BackUp {
-    fn process(&mut self, ctx: &Ctx, base: &Pose2, trailer: &Pose2, done: Event<()>) -> Option<Twist> {
-        let is_usable = base.is_finite() && trailer.is_finite();
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        base: &Pose2,
+        trailer: &Pose2,
+        done: Event<()>,
+    ) -> Result<Option<Twist>, FarFromOrigin> {
+        if ctx.active() && (base.is_far() || trailer.is_far()) {
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, base, trailer, done))
+    }
+
+    fn step(&mut self, ctx: &Ctx, base: &Pose2, trailer: &Pose2, done: Event<()>) -> Option<Twist> {
+        let is_usable = base.is_usable() && trailer.is_usable();
         let bend = normalize_angle(&(base.theta - trailer.theta));
         if is_usable {
             let last = self.last.replace(*base).unwrap_or(*base);
@@ -122,7 +135,7 @@ mod tests {
             for step in 0..2000 {
                 let ctx = Ctx::new(Time::from_millis(20 * step)).of_node(true);
                 let trailer = Articulated::PATSY.trailer(&base, heading);
-                let twist = node.process(&ctx, &base, &trailer, apex_rt::event(&mut done)).expect("it is active");
+                let twist = node.step(&ctx, &base, &trailer, apex_rt::event(&mut done)).expect("it is active");
                 if done.is_some() {
                     break;
                 }
@@ -145,7 +158,7 @@ mod tests {
             let (ctx, axis) =
                 (Ctx::new(Time::from_millis(20 * step)).of_node(is_back), vehicle.trailer(&base, heading));
             let mut done = None;
-            let sent = node.process(&ctx, &base, &axis, apex_rt::event(&mut done));
+            let sent = node.step(&ctx, &base, &axis, apex_rt::event(&mut done));
             if done.is_some() {
                 break;
             }
@@ -166,8 +179,8 @@ mod tests {
     fn it_rests_without_activity_and_stops_without_a_pose() {
         let (mut node, at) = (BackUp::construct((1.0, 0.2, 0.6, Articulated::PATSY)), Pose2::default());
         let idle = Ctx::new(Time::ZERO);
-        assert_eq!(node.process(&idle, &at, &at, Event::unconnected()), None);
+        assert_eq!(node.step(&idle, &at, &at, Event::unconnected()), None);
         let nan = Pose2::new(f32::NAN, 0.0, 0.0);
-        assert_eq!(node.process(&idle.of_node(true), &nan, &at, Event::unconnected()), Some(Twist::ZERO));
+        assert_eq!(node.step(&idle.of_node(true), &nan, &at, Event::unconnected()), Some(Twist::ZERO));
     }
 }

@@ -5,7 +5,7 @@ use super::{
 use crate::{
     math::normalize_angle,
     nav::{Twist, twist::Halt},
-    scan::{Point2, Pose2},
+    scan::{FarFromOrigin, Point2, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
 use libm::sinf;
@@ -97,12 +97,25 @@ impl PlannedApproach {
         container: Option<&Pose2>,
         reached: Event<()>,
         #[failure] missed: Event<()>,
+    ) -> Result<Option<Twist>, FarFromOrigin> {
+        if ctx.active() && [Some(base), Some(trailer), container].into_iter().flatten().any(Pose2::is_far) {
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, [base, trailer], container, [reached, missed]))
+    }
+
+    fn step(
+        &mut self,
+        ctx: &Ctx,
+        [base, trailer]: [&Pose2; 2],
+        container: Option<&Pose2>,
+        [reached, missed]: [Event<()>; 2],
     ) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();
         }
         self.container = container.filter(|pose| pose.is_finite()).copied().or(self.container);
-        let Some(container) = self.container.filter(|_| base.is_finite() && trailer.is_finite()) else {
+        let Some(container) = self.container.filter(|_| base.is_usable() && trailer.is_usable()) else {
             return self.halt.rest();
         };
         let vehicle = &self.vehicle;
@@ -279,10 +292,11 @@ mod tests {
         let ahead = Pose2::new(0.0, 0.0, 0.0);
         for start in [ahead, Pose2::new(0.0, 0.2, 0.0), Pose2::new(-1.0, -0.5, 0.1)] {
             a.forget();
-            let (end, reached, _) = drive(|p, t, r, m| a.process(&active(), p, t, Some(&CONTAINER), r, m), start);
+            let (end, reached, _) = drive(|p, t, r, m| a.step(&active(), [p, t], Some(&CONTAINER), [r, m]), start);
             assert!(reached && (end.x - 4.0 - Articulated::PATSY.axis()).abs() < 0.06, "{end:?}");
         }
-        let (end, reached, _) = drive(|p, t, r, m| b.process(&active(), p, t, Some(&CONTAINER), r, m), ahead);
+        let (end, reached, _) =
+            drive(|p, t, r, m| b.process(&active(), p, t, Some(&CONTAINER), r, m).unwrap_or(None), ahead);
         assert!(reached && end.y.abs() < 0.06, "{end:?}");
     }
 
@@ -293,7 +307,7 @@ mod tests {
             node.forget();
             // The container is seen once.
             let mut container = Some(&CONTAINER);
-            let (end, reached, _) = drive(|p, t, r, m| node.process(&active(), p, t, container.take(), r, m), start);
+            let (end, reached, _) = drive(|p, t, r, m| node.step(&active(), [p, t], container.take(), [r, m]), start);
             assert!(reached && end.y.abs() < 0.03 && end.theta.abs() < 0.03, "{end:?} from {start:?}");
         }
     }
@@ -306,7 +320,7 @@ mod tests {
             |p, t, r, m| {
                 firing += 1;
                 let container = if firing < 40 { CONTAINER } else { moved };
-                node.process(&active(), p, t, Some(&container), r, m)
+                node.step(&active(), [p, t], Some(&container), [r, m])
             },
             Pose2::new(0.0, 0.0, 0.0),
         );
@@ -319,16 +333,16 @@ mod tests {
         let (mut node, at) = (planned(), Pose2::default());
         node.free_width = 0.3;
         let mut missed = None;
-        let twist = node.process(&active(), &at, &at, Some(&CONTAINER), nothing(), apex_rt::event(&mut missed));
+        let twist = node.step(&active(), [&at, &at], Some(&CONTAINER), [nothing(), apex_rt::event(&mut missed)]);
         assert_eq!((twist, missed.is_some()), (Some(Twist::ZERO), true));
         let nan = Pose2::new(f32::NAN, 0.0, 0.0);
         let (mut a, mut b) = (planned(), reactive());
-        assert_eq!(a.process(&active(), &nan, &at, Some(&CONTAINER), nothing(), nothing()), None);
-        assert_eq!(b.process(&active(), &at, &at, Some(&nan), nothing(), nothing()), None);
+        assert_eq!(a.step(&active(), [&nan, &at], Some(&CONTAINER), [nothing(), nothing()]), None);
+        assert_eq!(b.process(&active(), &at, &at, Some(&nan), nothing(), nothing()), Ok(None));
         let inactive = Ctx::new(Time::ZERO);
-        assert_eq!(a.process(&inactive, &at, &at, Some(&CONTAINER), nothing(), nothing()), None);
-        assert!(a.process(&active(), &at, &at, Some(&CONTAINER), nothing(), nothing()).is_some());
-        let halted = a.process(&inactive, &at, &at, None, nothing(), nothing());
+        assert_eq!(a.step(&inactive, [&at, &at], Some(&CONTAINER), [nothing(), nothing()]), None);
+        assert!(a.step(&active(), [&at, &at], Some(&CONTAINER), [nothing(), nothing()]).is_some());
+        let halted = a.step(&inactive, [&at, &at], None, [nothing(), nothing()]);
         assert_eq!(halted, Some(Twist::ZERO), "it stops when it is interrupted");
     }
 }

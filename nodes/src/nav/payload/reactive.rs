@@ -1,7 +1,7 @@
 use super::vehicle::{Arrival, Articulated, arrival};
 use crate::{
     nav::{Twist, twist::Halt},
-    scan::{Point2, Pose2},
+    scan::{FarFromOrigin, Point2, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
 use libm::{atan2f, fmaxf, fminf, sqrtf, tanf};
@@ -67,12 +67,25 @@ impl ReactiveApproach {
         container: Option<&Pose2>,
         reached: Event<()>,
         #[failure] missed: Event<()>,
+    ) -> Result<Option<Twist>, FarFromOrigin> {
+        if ctx.active() && [Some(base), Some(trailer), container].into_iter().flatten().any(Pose2::is_far) {
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, [base, trailer], container, [reached, missed]))
+    }
+
+    fn step(
+        &mut self,
+        ctx: &Ctx,
+        [base, trailer]: [&Pose2; 2],
+        container: Option<&Pose2>,
+        [reached, missed]: [Event<()>; 2],
     ) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();
         }
         self.container = container.filter(|pose| pose.is_finite()).copied().or(self.container);
-        let Some(container) = self.container.filter(|_| base.is_finite() && trailer.is_finite()) else {
+        let Some(container) = self.container.filter(|_| base.is_usable() && trailer.is_usable()) else {
             return self.halt.rest();
         };
         let vehicle = &self.vehicle;
