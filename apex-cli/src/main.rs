@@ -19,6 +19,7 @@ mod nodes;
 mod project;
 mod replace;
 mod run;
+mod sbom;
 mod studio;
 mod test;
 mod texts;
@@ -210,6 +211,21 @@ enum Command {
         #[command(flatten)]
         how: Building,
     },
+    /// List the crates of which a program consists: a bill of materials, or the notices of their licences.
+    #[command(
+        after_help = "The list is in the format CycloneDX (JSON) and has names, versions, licences, checksums and what needs what; crates for tests\nare left out. With the same `Cargo.lock` it is the same. --notices writes what has to be handed on with a program.\n\nExample:\n  apex sbom -o robot.cdx.json\n  apex sbom --notices -o NOTICES"
+    )]
+    Sbom {
+        /// Folder of the package or workspace.
+        #[arg(default_value = ".", hide_default_value = true)]
+        folder: PathBuf,
+        /// Write the licences and copyright of the crates of others, instead of the bill.
+        #[arg(long)]
+        notices: bool,
+        /// Output file; by default standard output.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
     /// Run the tests of a source file in simulated time.
     #[command(
         after_help = "If the package compiles the file with `graph!(\"…\")`, the tests are those that `cargo test` runs, too. Otherwise a package\nis generated for them in the target folder. In both cases, crates that `cargo build` has built are reused.\nExit code 0: all passed, 1: one failed (or the file has errors), 2: they could not be built.\n\nExample:\n  apex test robot.afg\n  apex test robot.afg wall"
@@ -337,11 +353,15 @@ struct Building {
     /// Print only errors of the build, without the progress of cargo.
     #[arg(short, long)]
     quiet: bool,
+    /// Leave the paths of this machine out of the program, for one that is handed on. All crates are compiled for that
+    /// once more, beside those that `cargo build` has built.
+    #[arg(long)]
+    trim_paths: bool,
 }
 
 impl Building {
     fn how(&self) -> build::How {
-        build::How::new(self.release, self.quiet)
+        build::How { trims: self.trim_paths, ..build::How::new(self.release, self.quiet) }
     }
 }
 
@@ -379,6 +399,7 @@ fn main() -> ExitCode {
         Command::Lsp => lsp::run(),
         Command::New { folder, template, path } => new::run(&folder, template, path.as_deref()),
         Command::Nodes { words, package, markdown } => nodes::run(&package, &words, markdown),
+        Command::Sbom { folder, notices, output } => sbom::run(&folder, notices, output.as_deref()),
         Command::Test { file, filter, how } => test::run(&file, filter.as_deref(), how.how()),
         Command::Replay { recording, file, robot, params, how } => {
             let params = run::Params { load: params, save: None };

@@ -230,6 +230,20 @@ fn a_flood_of_values_is_dropped_and_its_sender_is_told() {
 }
 
 #[test]
+fn questions_for_all_parameters_take_no_room_from_others() {
+    // Nothing serves them.
+    let (_studio, address) = slow("questions");
+    let (mut viewer, mut other) = (Viewer::connect(&address).unwrap(), Viewer::connect(&address).unwrap());
+    for _ in 0..5000 {
+        viewer.tell(&Command::Params);
+    }
+    viewer.until(|report| matches!(report, Report::Alive(_)));
+    other.tell(&Command::Set { name: "times.factor".to_owned(), value: "4".to_owned() });
+    let told = other.until(|report| matches!(report, Report::Alive(_)));
+    assert!(!told.iter().any(|report| matches!(report, Report::Param { .. })), "{told:?}");
+}
+
+#[test]
 fn viewers_that_say_nothing_make_room_for_others() {
     let (_studio, address) = slow("idle");
     let mut talking = Viewer::connect(&address).unwrap();

@@ -269,4 +269,58 @@ mod tests {
         }
         assert!(is_argument("gain = 1, boom", "1").is_err() && is_argument("", "1").is_err());
     }
+
+    /// A package with a robot, in a folder that has another file beside it.
+    fn package(name: &str) -> (PathBuf, Text) {
+        let folder = std::env::temp_dir().join(format!("apex-text-{}-{name}", std::process::id()));
+        fs::create_dir_all(folder.join("robot/src")).unwrap();
+        let manifest = "[package]\nname = \"robot\"\nversion = \"0.0.0\"\n[workspace]\n";
+        let robot = "graph G {\n    in  x: u8;\n    out y: u8;\n    node pulse = Pulse();\n    x -> y;\n}\n";
+        for (file, text) in [
+            ("robot/Cargo.toml", manifest),
+            ("robot/src/lib.rs", ""),
+            ("robot/robot.afg", robot),
+            ("outside.afg", robot),
+            ("robot/secret.txt", "secret"),
+        ] {
+            fs::write(folder.join(file), text).unwrap();
+        }
+        let text = Text::new(Some(folder.join("robot/robot.afg")), None, false);
+        (folder, text)
+    }
+
+    #[test]
+    fn a_robot_names_no_files_outside_of_its_package() {
+        let (folder, text) = package("outside");
+        std::os::unix::fs::symlink(folder.join("outside.afg"), folder.join("robot/link.afg")).unwrap();
+        let outside = folder.join("outside.afg").display().to_string();
+        let change = |file: &str| {
+            text.write_param(&ParamChange { file, line: 4, node: "pulse", param: "gain", unit: None, value: "2.5" })
+        };
+        for file in [outside.as_str(), "outside.afg", "../outside.afg", "link.afg", "/etc/passwd", "secret.txt", ""] {
+            assert_eq!(text.texts(&[file.to_owned()]), [""], "{file}");
+            assert!(change(file).is_err_and(|error| error.contains("in the package of the robot")), "{file}");
+            assert!(text.path(file).is_none() && text.write_text(file, "x").is_err(), "{file}");
+        }
+        assert!(!fs::read_to_string(&outside).unwrap().contains("gain"));
+        assert!(change("robot.afg").is_ok_and(|place| place.ends_with("robot.afg:4")));
+        assert!(text.texts(&["robot.afg".to_owned()])[0].contains("Pulse(gain = 2.5)"));
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_picture_is_drawn_once_for_each_text() {
+        let (folder, text) = package("drawn");
+        assert!(text.picture("G").is_some_and(|picture| picture.name == "G"));
+        // What is there already is not drawn again, and that is what all pages get.
+        text.pictures.lock().unwrap().by_name.get_mut("G").unwrap().as_mut().unwrap().name = "known".to_owned();
+        assert!(text.picture("G").is_some_and(|picture| picture.name == "known"));
+        fs::write(
+            folder.join("robot/robot.afg"),
+            "graph G {\n    in  longer: u8;\n    out y: u8;\n    longer -> y;\n}\n",
+        )
+        .unwrap();
+        assert!(text.picture("G").is_some_and(|picture| picture.name == "G"));
+        fs::remove_dir_all(folder).unwrap();
+    }
 }

@@ -38,6 +38,9 @@ pub struct Asking {
     params: RemoteParams,
     shared: Arc<Shared>,
     sets: Vec<Setting>,
+    /// `true` if all parameters are to be read once more after those that are being read: one that was asked for before
+    /// a viewer came may have changed.
+    again: bool,
     /// Numbers of the parameters that are to be read, and those that are being read.
     wanted: VecDeque<usize>,
     reads: Vec<(&'static str, Asked<Option<Given>>)>,
@@ -60,7 +63,7 @@ pub enum Told {
 impl Asking {
     pub fn new(params: RemoteParams, shared: Arc<Shared>) -> Self {
         let (sets, wanted, reads) = (Vec::new(), VecDeque::new(), Vec::new());
-        Self { params, shared, sets, wanted, reads, notes: Notes::default() }
+        Self { params, shared, sets, again: false, wanted, reads, notes: Notes::default() }
     }
 
     /// Forgets everything.
@@ -72,12 +75,15 @@ impl Asking {
 
     /// Asks the program for the values of all parameters.
     pub fn read_all(&mut self) {
-        // Those that have not been asked for yet are asked for once more, for a viewer that knows of no answer.
-        self.wanted = (0..self.params.all().len()).collect();
+        self.again = true;
         self.ask();
     }
 
     fn ask(&mut self) {
+        // However often viewers ask, each parameter is read once at a time: there is room for that.
+        if self.wanted.is_empty() && self.reads.is_empty() && core::mem::take(&mut self.again) {
+            self.wanted = (0..self.params.all().len()).collect();
+        }
         while let Some(at) = self.wanted.front() {
             let name = self.params.all()[*at].name;
             let asked = self.params.post(name, |access| {
