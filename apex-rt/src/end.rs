@@ -81,9 +81,15 @@ impl<P: Program> Drop for Driven<P> {
 /// latest.
 pub(crate) fn exit(code: i32, hanging: usize) -> ! {
     ASKED.set();
-    let waits = |driven: &mut usize| *driven > hanging;
-    drop(ENDED.wait_timeout_while(driven(), LIMIT, waits).unwrap_or_else(PoisonError::into_inner));
+    have_ended(hanging, LIMIT);
     std::process::exit(code)
+}
+
+/// Waits until all thread groups but `hanging` ones have ended. Returns `false` if they did not within `limit`.
+fn have_ended(hanging: usize, limit: Duration) -> bool {
+    let waits = |driven: &mut usize| *driven > hanging;
+    let waited = ENDED.wait_timeout_while(driven(), limit, waits).unwrap_or_else(PoisonError::into_inner);
+    !waited.1.timed_out()
 }
 
 /// Lets the signals that end a process (SIGINT, SIGTERM, SIGHUP) end its programs, unless they have another handler.
@@ -101,7 +107,11 @@ pub(crate) fn handle_signals() -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(signalled)
 }
 
-/// Exit code after a second signal, which is that of Ctrl-C in shells.
+/// Time that a node may take to return after a signal.
+#[cfg(feature = "ctrl-c")]
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// Exit code after a second signal, and if a node hangs: that of Ctrl-C in shells.
 #[cfg(feature = "ctrl-c")]
 const INTERRUPTED: i32 = 130;
 
@@ -112,4 +122,14 @@ fn signalled() {
         exit(INTERRUPTED, 0);
     }
     ASKED.set();
+    // The handler has to be free for a second signal.
+    let waits = std::thread::Builder::new().name("apex-end".to_owned()).spawn(|| {
+        if !have_ended(0, PATIENCE) {
+            eprintln!("ended before all nodes have stopped: one of them hangs");
+            exit(INTERRUPTED, *driven());
+        }
+    });
+    if let Err(error) = waits {
+        eprintln!("a node that hangs will not be noticed: {error}");
+    }
 }

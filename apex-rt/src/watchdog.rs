@@ -1,5 +1,5 @@
-//! Watchdogs outside of the process: systemd (`sd_notify`) and a device such as `/dev/watchdog`. They are fed as long as
-//! every thread group is well: none is in the same reaction for too long, and all reactions meet their deadlines. A
+//! Watchdogs outside of the process: systemd (`sd_notify`) and a device such as `/dev/watchdog`. They are fed as long
+//! as every thread group is well: none is in the same reaction for too long, and all reactions meet their deadlines. A
 //! robot whose program hangs is then restarted by something that does not depend on the program.
 //!
 //! The control threads only count: a thread of its own looks at the counts and feeds.

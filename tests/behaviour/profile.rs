@@ -76,5 +76,5 @@ fn a_reaction_that_is_longer_than_a_period_is_a_warning() {
     fs::remove_file(&path).expect("it is ours");
     let warnings = profile.into_inner().expect("nobody panics").warnings();
     let [warning] = warnings.as_slice() else { panic!("{warnings:?}") };
-    assert!(warning.contains("in `slow_pass_1`, but `often` fires every 1ms"), "{warning}");
+    assert!(warning.contains("of it in `slow_pass_2`, but `often` fires every 1ms"), "{warning}");
 }

@@ -100,6 +100,11 @@ graph! {
         node end = breaks() after 100ms;
     }
 
+    /// Nothing watches inside of the process.
+    robot HangsFar = Steady {
+        node end = hangs() after 100ms on other;
+    }
+
     robot Hangs = Steady {
         thread other { hang = 100ms }
         node end = hangs() after 100ms on other;
@@ -125,6 +130,7 @@ fn other_process() {
         "BreaksFar" => run(BreaksFar::new(), clock),
         "BreaksAlone" => run(BreaksAlone::new(), clock),
         "Hangs" => run(Hangs::new(), clock),
+        "HangsFar" => run(HangsFar::new(), clock),
         "HangsAlone" => run(HangsAlone::new(), clock),
         "MissesDeadlines" => run(MissesDeadlines::new(), clock),
         other => panic!("there is no program `{other}`"),
@@ -171,6 +177,7 @@ fn all_groups_stop_however_a_program_ends_by_itself() {
 fn all_groups_but_a_hanging_one_stop() {
     let begun = std::time::Instant::now();
     assert_eq!(end_of("Hangs", &["near", "far"], None), (vec!["near".into()], Some(1)));
+    assert_eq!(end_of("HangsFar", &["near", "far"], Some("TERM")), (vec!["near".into()], Some(130)));
     assert!(begun.elapsed() < Duration::from_secs(30), "it does not wait for what hangs");
 }
 
