@@ -297,6 +297,12 @@ impl Live {
         self.pulse.silence(self.about.as_ref().map_or(&[], |about| &about.groups), Instant::now())
     }
 
+    /// Lets the last message have come at this time.
+    #[cfg(test)]
+    pub fn hear(&mut self, at: Instant) {
+        self.pulse.hear(at);
+    }
+
     fn step(&mut self, what: What) {
         self.steps.push(Step { now: self.now, reaction: self.reactions, what });
     }

@@ -191,5 +191,10 @@ mod tests {
             ]
         );
         assert_eq!(lines(&live, &rates, 3).len(), 3);
+        // A robot that stands still, or a cable that is out.
+        live.note(Report::Alive(vec![(20, false)]));
+        assert!(lines(&live, &rates, 24)[0].starts_with("Rover   running   "));
+        live.hear(std::time::Instant::now() - Duration::from_secs(4));
+        assert!(lines(&live, &rates, 24)[0].starts_with("Rover   no news for 4 s   "));
     }
 }

@@ -289,6 +289,7 @@ mod tests {
         (folder, text)
     }
 
+    #[cfg(unix)]
     #[test]
     fn a_robot_names_no_files_outside_of_its_package() {
         let (folder, text) = package("outside");
