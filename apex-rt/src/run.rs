@@ -203,11 +203,13 @@ const TOLD_FROM: Duration = Duration::from_secs(1);
 
 impl Lateness {
     /// Looks at a reaction that began at `now`. `elapsed` returns its duration.
+    #[inline]
     pub fn look<O: Observer>(&mut self, next: Next, now: Time, observer: &mut O, elapsed: impl FnOnce() -> Duration) {
         match next {
             Next::At(due) if due <= now => {
                 let behind = now.since(due);
-                if behind >= TOLD_FROM && !core::mem::replace(&mut self.is_told, true) {
+                if behind >= TOLD_FROM && !self.is_told {
+                    self.is_told = true;
                     observer.behind(behind, elapsed());
                 }
             }
@@ -414,7 +416,7 @@ fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
             }
             Next::Input => None,
         };
-        if is_asked() || !outside.wait(&mut clock, until) {
+        if !outside.wait(&mut clock, until) || is_asked() {
             return 0;
         }
     }
