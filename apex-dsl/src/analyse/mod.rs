@@ -48,6 +48,7 @@ pub use clocks::{Clock, is_mandatory};
 pub use clusters::{Cluster, ClusterId, Guard};
 pub use delivery::{Delivery, at_start, ordered};
 pub use order::{Loops, circles, events_on_circles};
+pub use periods::throttled_periods;
 pub use rates::has_rates;
 pub use schedule::{Block, Run, Step};
 pub use silences::{Silence, parameter as silence_parameter};

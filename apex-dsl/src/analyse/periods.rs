@@ -3,10 +3,12 @@
 //! A source begins its next iteration when all nodes downstream have finished the one before (R4). So a source that is
 //! joined with a slower one fires as often as that one, and so do all sources that such joins connect.
 
-use super::{Analysis, Cluster, ClusterId, Guard};
+use super::{Analysis, Cluster, ClusterId, Guard, analyse};
 use crate::{
+    catalog::Catalog,
     graph::{Graph, NodeId},
     index::IdVec,
+    report::Diagnostics,
 };
 use std::{collections::BTreeMap, time::Duration};
 
@@ -71,4 +73,13 @@ impl Analysis {
         });
         slower.collect()
     }
+}
+
+/// Real periods of the sources of a checked graph that fire less often than their `every` says.
+pub fn throttled_periods(graph: &Graph, catalog: &Catalog) -> BTreeMap<NodeId, Duration> {
+    if graph.nodes.iter().filter(|node| node.modifiers.every.is_some()).count() < 2 {
+        return BTreeMap::new();
+    }
+    let Some(analysis) = analyse(graph, catalog, &mut Diagnostics::default()) else { return BTreeMap::new() };
+    analysis.throttled(graph).into_iter().map(|throttled| (throttled.node, throttled.periods[1])).collect()
 }
