@@ -1,6 +1,7 @@
 //! Programs on real threads: no token is lost, they end cleanly, and waiting threads sleep.
 
 use crate::groups::{Enough, Hangs, Match, Panics, Strict, There, Warned};
+use apex_macros::graph;
 use apex_rt::{prelude::*, threads};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
@@ -192,4 +193,51 @@ fn the_main_group_takes_the_threads_down_when_driven_by_run() {
     let start = Instant::now();
     apex_rt::run(Match::new(), WallClock::new());
     assert!(start.elapsed() < Duration::from_secs(60));
+}
+
+/// Takes much longer than its period.
+#[node]
+pub fn takes_long() {
+    thread::sleep(Duration::from_millis(20));
+}
+
+graph! {
+    use crate::real::takes_long;
+
+    graph Overloaded {
+        node slow = takes_long() every 1ms;
+    }
+}
+
+/// Observer that counts reactions and what is said of them; the program ends when it is behind.
+struct Behind<'a> {
+    ends: &'static apex_rt::Switch,
+    reactions: &'a std::cell::Cell<u32>,
+    told: &'a std::cell::Cell<u32>,
+}
+
+impl Observer for Behind<'_> {
+    fn after_reaction(&mut self, _next: Next) {
+        self.reactions.set(self.reactions.get() + 1);
+    }
+    fn behind(&mut self, behind: Duration, reaction: Duration) {
+        assert!(behind >= Duration::from_secs(1) && reaction >= Duration::from_millis(20), "{behind:?} {reaction:?}");
+        self.told.set(self.told.get() + 1);
+        let ends = self.ends;
+        // From outside, while it is still behind.
+        thread::spawn(move || {
+            thread::sleep(Duration::from_millis(200));
+            ends.set();
+        });
+    }
+}
+
+#[test]
+fn a_program_that_is_too_slow_says_so_once_and_can_be_ended() {
+    static ENDS: apex_rt::Switch = apex_rt::Switch::new();
+    let (reactions, told) = Default::default();
+    let clock = apex_rt::UntilStopped::new(WallClock::new(), &ENDS);
+    apex_rt::drive_with(Overloaded::new(), clock, Behind { ends: &ENDS, reactions: &reactions, told: &told });
+    // One instant in a reaction, however late it is.
+    assert!(told.get() == 1 && reactions.get() > 40, "{} {}", told.get(), reactions.get());
 }
