@@ -128,6 +128,9 @@ impl<'a> Builder<'a> {
             WireEnd::Pin(_) => wire.to,
         };
         let (from, to) = (*places.get(&wire.from)?, *places.get(&to)?);
+        if !(self.is_on_side(wire.from, from, true) && self.is_on_side(wire.to, to, false)) {
+            return None;
+        }
         let sends = |place: WireEnd| match place {
             WireEnd::Port(end) => self.graph.port(end).kind,
             WireEnd::Pin(pin) => self.graph.pins[pin].kind,
@@ -138,6 +141,15 @@ impl<'a> Builder<'a> {
             _ => Flow::Hybrid,
         };
         Some(Line { from, to, active: wire.active, flow, label: String::new() })
+    }
+
+    /// Returns `true` if a wire that leaves (or enters) a pin at this place is in the frame of the place. A wire from
+    /// an event of a nested graph to its own slot is outside of the graph, one from a slot to an event inside.
+    fn is_on_side(&self, end: WireEnd, place: Anchor, leaves: bool) -> bool {
+        let WireEnd::Pin(pin) = end else { return true };
+        let is_result = matches!(self.graph.pins[pin].kind, PortKind::Output | PortKind::Event);
+        let is_inside = matches!(place, Anchor::Own(_));
+        (is_result != is_inside) == leaves
     }
 
     /// A nested graph with its pins.

@@ -30,6 +30,7 @@ texts! {
     lamp "texts/lamp.afg"
     merging "texts/merging.afg"
     mission "texts/mission.afg"
+    race "texts/race.afg"
     retry "texts/retry.afg"
     stop "texts/stop.afg"
     structs "texts/structs.afg"

@@ -1,6 +1,6 @@
 //! Nodes that depend on activity (thesis 7.1.2). All other nodes only pass it on.
 
-use apex_rt::{Ctx, Event, node};
+use apex_rt::{Ctx, Event, Time, node};
 use core::marker::PhantomData;
 
 /// Forwards a value while the node is active; ⊥ otherwise. If an active connection (`=>`) starts at the output,
@@ -54,29 +54,51 @@ impl<T> Wait<T> {
     fn activate(&mut self, _value: &T) {}
 }
 
-/// Action that another program, a driver or a person carries out. It is active from `begin` until it is
-/// done or has failed. Only activity counts: an order without activity is ignored, and so is a result that comes when
-/// the action is not active, for example after it was cancelled.
+/// Action that another program, a driver or a person carries out. It is active from `begin` until it is done or has
+/// failed. Only activity counts: an order without activity is ignored, also while another one is under way, and so is a
+/// result that comes when the action is not active, for example after it was cancelled.
+///
+/// An order that is called off (by `cancel` or a `timeout`) may still be answered, when the next order is already under
+/// way. Orders have numbers (`number`, from 1 on): a result with a number, at `succeeded` or `failed_order`, counts
+/// only for the order of that number. A result without a number, at `succeed` or `fail`, is taken for that of the order
+/// that was called off if that one has no result yet, and the next order began less than `late` ago.
 #[node]
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Action<T> {
+    /// Time after the beginning of an order in which a result without a number belongs to the order that was called off
+    /// before: less than an order takes. 0 if an order that is called off is never answered.
+    #[param(unit = "s", default = 1.0, range = 0.0..=3600.0)]
+    late: f32,
+    /// Number of the last order, and the time when it began.
+    order: u64,
+    begun: Time,
+    is_under_way: bool,
+    /// Number of orders that were called off and have no result yet.
+    owed: u32,
+    /// `true` if a result was dropped since the last order began.
+    has_dropped: bool,
     _goal: PhantomData<fn() -> T>,
 }
 
 #[node]
 impl<T: Clone> Action<T> {
-    /// Begins: `started` takes the goal to the one who carries it out.
+    /// Begins: `started` takes the goal to the one who carries it out, and `number` the number of the order.
     #[slot]
-    fn begin(&mut self, goal: &T, ctx: &Ctx, started: Event<T>) {
-        if ctx.active() {
+    fn begin(&mut self, goal: &T, ctx: &Ctx, started: Event<T>, number: Event<u64>) {
+        if ctx.active() && !self.is_under_way {
+            self.order += 1;
+            self.begun = ctx.now();
+            self.is_under_way = true;
+            self.has_dropped = false;
             started.emit(goal.clone());
+            number.emit(self.order);
         }
     }
 
     /// Reports success, which triggers `done`.
     #[slot]
     fn succeed(&mut self, ctx: &Ctx, done: Event<()>) {
-        if ctx.active() {
+        if self.ends(ctx) {
             done.emit(());
         }
     }
@@ -84,14 +106,71 @@ impl<T: Clone> Action<T> {
     /// Reports failure, which triggers `gave_up`.
     #[slot]
     fn fail(&mut self, ctx: &Ctx, #[failure] gave_up: Event<()>) {
-        if ctx.active() {
+        if self.ends(ctx) {
             gave_up.emit(());
         }
+    }
+
+    /// Reports success of the order with this number, which triggers `done`.
+    #[slot]
+    fn succeeded(&mut self, order: &u64, ctx: &Ctx, done: Event<()>) {
+        if self.ends_order(*order, ctx) {
+            done.emit(());
+        }
+    }
+
+    /// Reports failure of the order with this number, which triggers `gave_up`.
+    #[slot]
+    fn failed_order(&mut self, order: &u64, ctx: &Ctx, #[failure] gave_up: Event<()>) {
+        if self.ends_order(*order, ctx) {
+            gave_up.emit(());
+        }
+    }
+
+    /// Notes that the order was called off, unless it has ended.
+    #[on_deactivate]
+    fn call_off(&mut self) {
+        if core::mem::take(&mut self.is_under_way) {
+            // What was dropped may have been the result of this order.
+            self.owed += u32::from(!self.has_dropped);
+        }
+    }
+
+    /// Takes a result without a number, and returns `true` if it ends the order.
+    fn ends(&mut self, ctx: &Ctx) -> bool {
+        let is_late = !ctx.active() || self.is_under_way && ctx.now().since(self.begun).as_secs_f32() < self.late;
+        if is_late && self.owed > 0 {
+            self.owed -= 1;
+            self.has_dropped = self.is_under_way;
+            return false;
+        }
+        self.end(ctx)
+    }
+
+    /// Takes a result with a number, and returns `true` if it ends the order.
+    fn ends_order(&mut self, order: u64, ctx: &Ctx) -> bool {
+        if order != self.order {
+            self.owed = self.owed.saturating_sub(1);
+            return false;
+        }
+        self.end(ctx)
+    }
+
+    /// Ends the order if the node is active. What is still owed will not come any more.
+    fn end(&mut self, ctx: &Ctx) -> bool {
+        if ctx.active() {
+            self.is_under_way = false;
+            self.owed = 0;
+        }
+        ctx.active()
     }
 }
 
 /// Counts failures of something that is tried several times: the first ones trigger `again`, the last one `give_up`,
 /// and the count begins again. Activity that arrives with a failure leaves with the event.
+///
+/// A job that may be interrupted goes through `begin`, so that it begins with all attempts each time:
+/// `begin => tries.begin; [tries.begun, tries.again] => action.begin; action.gave_up => tries.failed`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Attempts {
@@ -103,6 +182,14 @@ pub struct Attempts {
 
 #[node]
 impl Attempts {
+    /// Begins a job with all attempts, whatever became of the last one: triggers `begun`, with which the activity
+    /// leaves.
+    #[slot]
+    fn begin(&mut self, begun: Event<()>) {
+        self.failures = 0;
+        begun.emit(());
+    }
+
     /// Notes a failure.
     #[slot]
     fn failed(&mut self, again: Event<()>, #[failure] give_up: Event<()>) {
@@ -125,7 +212,7 @@ impl Attempts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use apex_rt::Time;
+    use apex_rt::Construct;
 
     #[test]
     fn the_gate_is_open_while_it_is_active() {
@@ -136,18 +223,124 @@ mod tests {
         assert_eq!(node.process(&ctx.of_node(true), &2), Some(2));
     }
 
+    /// An action with the times and activity that its slots see.
+    struct Test(Action<u32>, i64);
+
+    impl Test {
+        fn new(late: f32) -> Self {
+            Self(Action::construct((late,)), 0)
+        }
+
+        fn ctx(&self, active: bool) -> Ctx {
+            Ctx::new(Time::from_millis(self.1)).of_node(active)
+        }
+
+        /// Number of the order that began.
+        fn begin(&mut self, active: bool) -> Option<u64> {
+            let (ctx, mut started, mut number) = (self.ctx(active), None, None);
+            self.0.begin(&7, &ctx, apex_rt::event(&mut started), apex_rt::event(&mut number));
+            assert_eq!(started.is_some(), number.is_some());
+            number
+        }
+
+        fn succeed(&mut self, active: bool) -> bool {
+            let (ctx, mut done) = (self.ctx(active), None);
+            self.0.succeed(&ctx, apex_rt::event(&mut done));
+            if done.is_some() {
+                // The activity leaves with the event.
+                self.0.call_off();
+            }
+            done.is_some()
+        }
+    }
+
     #[test]
     fn an_action_reports_only_while_it_is_active() {
-        let (mut node, mut started, mut done) = (Action::default(), None, None);
-        let ctx = Ctx::new(Time::ZERO);
-        node.begin(&6, &ctx, apex_rt::event(&mut started));
-        assert_eq!(started, None);
-        node.begin(&7, &ctx.of_node(true), apex_rt::event(&mut started));
-        node.succeed(&ctx, apex_rt::event(&mut done));
-        assert_eq!((started, done), (Some(7), None));
-        node.succeed(&ctx.of_node(true), apex_rt::event(&mut done));
-        node.fail(&ctx, apex_rt::event(&mut None));
-        assert_eq!(done, Some(()));
+        let mut test = Test::new(1.0);
+        assert_eq!(test.begin(false), None);
+        assert_eq!(test.begin(true), Some(1));
+        assert_eq!(test.begin(true), None, "the first order is under way");
+        assert!(!test.succeed(false) && test.succeed(true));
+        assert_eq!(test.begin(true), Some(2));
+        let (ctx, mut gave_up) = (test.ctx(true), None);
+        test.0.fail(&ctx, apex_rt::event(&mut gave_up));
+        assert!(gave_up.is_some());
+    }
+
+    #[test]
+    fn a_late_result_does_not_end_the_next_order() {
+        let mut test = Test::new(1.0);
+        test.begin(true);
+        test.0.call_off();
+        test.begin(true);
+        test.1 = 500;
+        assert!(!test.succeed(true), "it is that of the first order");
+        assert!(test.succeed(true), "it is that of the second one");
+        // A result while no order is under way is that of the last one.
+        test.begin(true);
+        test.0.call_off();
+        assert!(!test.succeed(false));
+        test.begin(true);
+        assert!(test.succeed(true));
+    }
+
+    #[test]
+    fn an_order_that_is_never_answered_does_not_cost_others_their_result() {
+        let mut test = Test::new(1.0);
+        test.begin(true);
+        test.0.call_off();
+        test.begin(true);
+        test.1 = 1000;
+        assert!(test.succeed(true), "a result of the first order would have come earlier");
+        // Orders that are answered at once, after one that was lost: at most one result is taken for that of another.
+        test.begin(true);
+        test.0.call_off();
+        test.begin(true);
+        assert!(!test.succeed(true));
+        test.0.call_off();
+        test.begin(true);
+        assert!(test.succeed(true));
+        let mut test = Test::new(0.0);
+        test.begin(true);
+        test.0.call_off();
+        test.begin(true);
+        assert!(test.succeed(true));
+    }
+
+    #[test]
+    fn a_result_with_a_number_counts_for_that_order() {
+        let mut test = Test::new(1.0);
+        let succeed = |test: &mut Test, order: u64| {
+            let (ctx, mut done) = (test.ctx(true), None);
+            test.0.succeeded(&order, &ctx, apex_rt::event(&mut done));
+            done.is_some()
+        };
+        test.begin(true);
+        test.0.call_off();
+        test.begin(true);
+        assert!(!succeed(&mut test, 1) && succeed(&mut test, 2));
+        test.begin(true);
+        test.0.call_off();
+        test.begin(true);
+        let (ctx, mut gave_up) = (test.ctx(true), None);
+        test.0.failed_order(&4, &ctx, apex_rt::event(&mut gave_up));
+        assert!(gave_up.is_some(), "though the third order has no result");
+    }
+
+    #[test]
+    fn an_order_that_is_resumed_can_end() {
+        let mut test = Test::new(1.0);
+        test.begin(true);
+        test.0.call_off();
+        // `resume` gives the activity back.
+        assert!(test.succeed(true));
+    }
+
+    /// Notes a failure; returns `true` if it was the last one.
+    fn fails_next(node: &mut Attempts) -> bool {
+        let (mut again, mut give_up) = (None, None);
+        node.failed(apex_rt::event(&mut again), apex_rt::event(&mut give_up));
+        give_up.is_some()
     }
 
     #[test]
@@ -159,6 +352,11 @@ mod tests {
             (again.is_some(), give_up.is_some())
         };
         assert_eq!([fails(), fails(), fails()], [(true, false), (false, true), (true, false)]);
+        node.succeeded();
+        assert!(!fails_next(&mut node));
+        let mut begun = None;
+        node.begin(apex_rt::event(&mut begun));
+        assert!(begun.is_some() && !fails_next(&mut node));
         node.succeeded();
         let (mut again, mut give_up) = (None, None);
         node.failed(apex_rt::event(&mut again), apex_rt::event(&mut give_up));

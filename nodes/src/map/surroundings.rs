@@ -2,15 +2,15 @@ use super::{Cell, Grid, Occupancy, Raster};
 use crate::scan::{Point2, Pose2};
 use apex_rt::{Ctx, Out, Time, node};
 
-/// Maximum number of remembered cells. Further ones are not remembered.
+/// Maximum number of remembered cells.
 const MOST: usize = 2000;
 
 /// Marks in a map of a building what a camera has seen around the robot, and remembers it.
 ///
 /// `surroundings` is a window such as the map of `HazardMap`, in the frame of `odometry`. `pose` is the pose of the
 /// robot in the frame of `map`, ⊥ while it is not known. Occupied cells in view are remembered until they are seen to
-/// be free, or for `memory`. Those of the last window are marked around the robot too, as a node such as `SweepStop`
-/// stops before them.
+/// be free, or for `memory`; at most 2000, of which a new one replaces the one that was seen the longest ago. Those of
+/// the last window are marked around the robot too, as a node such as `SweepStop` stops before them.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MarkSurroundings {
@@ -100,10 +100,22 @@ impl MarkSurroundings {
             let Some(cell) = raster.cell(pose.to_outer(place)) else { continue };
             match known.binary_search_by_key(&cell, |(cell, _)| *cell) {
                 Ok(place) => known[place].1 = now,
-                Err(place) if known.len() < MOST => known.insert(place, (cell, now)),
-                Err(_) => {}
+                Err(place) => insert(known, place, (cell, now)),
             }
         }
+    }
+}
+
+/// Inserts a cell at its place; if there is no room, instead of the cell that was seen the longest ago, unless all were
+/// seen now.
+fn insert(known: &mut Vec<(Cell, Time)>, place: usize, new: (Cell, Time)) {
+    if known.len() < MOST {
+        return known.insert(place, new);
+    }
+    let oldest = known.iter().enumerate().min_by_key(|(_, (_, at))| *at).map(|(i, (_, at))| (i, *at));
+    if let Some((oldest, _)) = oldest.filter(|(_, at)| *at < new.1) {
+        known.remove(oldest);
+        known.insert(place - usize::from(oldest < place), new);
     }
 }
 
@@ -165,6 +177,30 @@ mod tests {
         assert_eq!(look(&mut node, 9000, None).0, 2);
         node.forget();
         assert_eq!(look(&mut node, 9100, None).0, 0);
+    }
+
+    #[test]
+    fn a_full_memory_keeps_what_was_seen_last() {
+        let mut known = Vec::new();
+        let cell = |i: usize| Cell::new(i % 97, i / 97);
+        let mut see = |i: usize| {
+            let new = (cell(i), Time::from_millis(i as i64 / 100));
+            match known.binary_search_by_key(&new.0, |(cell, _)| *cell) {
+                Ok(_) => panic!("each cell is new"),
+                Err(place) => insert(&mut known, place, new),
+            }
+        };
+        (0..2 * MOST).rev().for_each(&mut see);
+        assert_eq!(known.len(), MOST);
+        assert!(known.iter().all(|(_, at)| *at >= Time::from_millis(MOST as i64 / 100)));
+        let mut known = Vec::new();
+        for i in 0..3 * MOST {
+            let new = (cell(i), Time::from_millis(i as i64 / 100));
+            let place = known.binary_search_by_key(&new.0, |(cell, _)| *cell).expect_err("each cell is new");
+            insert(&mut known, place, new);
+        }
+        assert!(known.len() == MOST && known.is_sorted_by_key(|(cell, _)| *cell));
+        assert!(known.iter().all(|(_, at)| *at >= Time::from_millis(2 * MOST as i64 / 100)));
     }
 
     #[test]

@@ -79,7 +79,7 @@ pub struct RateLimit {
     initial: f64,
     /// Longest time between two values that counts. A value that comes later changes the output by no more than one
     /// that comes after this time.
-    #[param(unit = "s", default = 0.2, range = 0.0..=3600.0)]
+    #[param(unit = "s", default = 0.1, range = 0.0..=3600.0)]
     max_pause: f64,
     last: Option<(Time, f64)>,
 }

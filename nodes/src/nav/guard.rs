@@ -2,8 +2,9 @@ use super::Twist;
 use crate::scan::Pose2;
 use apex_rt::{Ctx, Time, node};
 
-/// Stops a robot whose odometry does not change while the robot is commanded to move: the odometry is frozen, or the
-/// wheels do not turn. Such a robot would no longer know its position.
+/// Stops a robot whose odometry does not change while the robot is commanded to drive or to turn: the odometry is
+/// frozen, or the wheels do not turn. Such a robot would no longer know its position. It is also stopped, at once,
+/// without odometry, and by odometry that is not a number.
 ///
 /// After a pause the robot may move again for a short time. It goes on if the odometry changes.
 #[node]
@@ -18,6 +19,9 @@ pub struct OdometryGuard {
     /// Commanded speed up to which the robot counts as standing.
     #[param(unit = "m/s", default = 0.05, range = 0.0..=10.0)]
     min_speed: f32,
+    /// Commanded angular velocity up to which the robot counts as not turning.
+    #[param(unit = "rad/s", default = 0.1, range = 0.0..=20.0)]
+    min_rotation: f32,
     /// Last odometry, and the time since which it has not changed while the robot was commanded to move.
     frozen: Option<(Pose2, Time)>,
 }
@@ -26,8 +30,8 @@ pub struct OdometryGuard {
 impl OdometryGuard {
     /// Stops the robot at once if there is no odometry.
     fn process(&mut self, ctx: &Ctx, twist: &Twist, odometry: Option<&Pose2>) -> Twist {
-        let Some(odometry) = odometry else { return Twist::ZERO };
-        let is_moving = twist.velocity().norm() > self.min_speed;
+        let Some(odometry) = odometry.filter(|pose| pose.is_finite()) else { return Twist::ZERO };
+        let is_moving = twist.velocity().norm() > self.min_speed || twist.omega.abs() > self.min_rotation;
         let since = match self.frozen {
             Some((last, since)) if last == *odometry => since,
             _ => ctx.now(),
@@ -51,7 +55,7 @@ mod tests {
 
     /// For each of these positions, 100 ms apart: `true` if the robot may move.
     fn moves(places: impl IntoIterator<Item = f32>, twist: Twist) -> Vec<bool> {
-        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05));
+        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05, 0.1));
         let step = |(i, x): (usize, f32)| {
             let ctx = Ctx::new(Time::from_millis(100 * i as i64));
             node.process(&ctx, &twist, Some(&Pose2::new(x, 0.0, 0.0))) == twist
@@ -63,14 +67,17 @@ mod tests {
     fn a_robot_that_moves_or_stands_is_left_alone() {
         assert!(moves((0..50).map(|i| 0.1 * i as f32), AHEAD).iter().all(|m| *m));
         assert!(moves([1.0; 50], Twist::ZERO).iter().all(|m| *m));
-        assert!(moves([1.0; 50], Twist::new(0.0, 0.0, 1.0)).iter().all(|m| *m), "a turn needs no room");
+        assert!(moves([1.0; 50], Twist::new(0.02, 0.0, 0.05)).iter().all(|m| *m), "slower than wheels measure");
     }
 
     #[test]
     fn frozen_odometry_stops_it_until_it_tries_again() {
-        let seen = moves([1.0; 40], AHEAD);
-        assert_eq!(seen.iter().position(|m| !m), Some(5));
-        assert!(seen[5..15].iter().all(|m| !m) && seen[15..20].iter().all(|m| *m), "{seen:?}");
+        for twist in [AHEAD, Twist::new(0.0, 0.0, 1.0), Twist::new(0.0, 0.0, -0.2)] {
+            let seen = moves([1.0; 40], twist);
+            assert_eq!(seen.iter().position(|m| !m), Some(5), "{twist:?}");
+            assert!(seen[5..15].iter().all(|m| !m) && seen[15..20].iter().all(|m| *m), "{twist:?}: {seen:?}");
+        }
+        assert!(moves([f32::NAN; 40], AHEAD).iter().all(|m| !m), "it does not know where it is");
     }
 
     #[test]
@@ -78,7 +85,7 @@ mod tests {
         let places = [1.0; 8].into_iter().chain((0..10).map(|i| 2.0 + 0.1 * i as f32));
         let seen = moves(places, AHEAD);
         assert!(!seen[7] && seen[8..].iter().all(|m| *m), "{seen:?}");
-        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05));
+        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05, 0.1));
         assert_eq!(node.process(&Ctx::new(Time::ZERO), &AHEAD, None), Twist::ZERO);
     }
 }

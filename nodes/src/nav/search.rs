@@ -62,7 +62,7 @@ impl fmt::Display for NoPath {
             Self::Unreachable => "nothing leads from the start to the goal",
             Self::OtherRaster => "the costs lie on another raster than the map",
             Self::FarFromOrigin => {
-                "the start or the goal is more than 100 km from the origin of the map: shift the origin to the place of work"
+                "the start or the goal is more than 100 km from the origin of the map: shift the origin"
             }
         })
     }

@@ -212,8 +212,8 @@ mod tests {
         assert!([0.0, -1e5].into_iter().all(|x| at(x).is_usable() && !at(x).is_far()));
         assert!([1.1e5, -5e6, f32::MAX].into_iter().all(|x| !at(x).is_usable() && at(x).is_far()));
         assert!([f32::NAN, f32::INFINITY].into_iter().all(|x| !at(x).is_usable() && !at(x).is_far()));
-        // One centimetre is a step up to there.
-        assert!((1e5_f32 + 0.01) - 1e5 > 0.0 && (1.4e5_f32 + 0.005) - 1.4e5 == 0.0);
+        let step = |x: f32| x.next_up() - x;
+        assert!(step(1e5) < 0.01 && step(1.4e5) > 0.01, "the border is where the steps are a centimetre");
     }
 
     #[test]

@@ -1,0 +1,3 @@
+//! `actions.afg`: the tests of the source file.
+
+apex_macros::graph!("actions.afg");
