@@ -7,6 +7,7 @@ mod full;
 mod python;
 mod round;
 mod threads;
+mod types;
 
 use apex_rt::{
     Program, StdErr,

@@ -4,6 +4,7 @@ use super::{
     report::{Compared, Difference},
     sink::OWN,
     source::{CUT, FileMessage, Source},
+    types::{TypeChange, TypeMatch, compare},
     waits::{ReplayBarrier, WaitOutcome},
 };
 use crate::{
@@ -34,6 +35,13 @@ pub enum ReplayError {
         /// Name of the program that was to replay it.
         wanted: &'static str,
     },
+    /// The program takes tokens of other types than the recorded ones.
+    OtherTypes {
+        /// The file.
+        path: PathBuf,
+        /// The channels.
+        changed: Vec<TypeChange>,
+    },
     /// The recording does not have a complete reaction.
     Nothing {
         /// The file.
@@ -61,6 +69,13 @@ impl fmt::Display for ReplayError {
             }
             Self::OtherProgram { path, recorded, wanted } => {
                 write!(f, "`{}` is a recording of `{recorded}`, not of `{wanted}`", path.display())
+            }
+            Self::OtherTypes { path, changed } => {
+                write!(f, "`{}` cannot be replayed: types have changed since", path.display())?;
+                for change in changed {
+                    write!(f, "\n  {change}")?;
+                }
+                write!(f, "\n  replay it with the program as it was, or record it again")
             }
             Self::Nothing { path, why } => {
                 write!(f, "nothing in `{}` can be replayed: it has no complete reaction", path.display())?;
@@ -200,29 +215,39 @@ impl Replay {
                 return Err(at(io::Error::new(io::ErrorKind::UnexpectedEof, what)));
             }
         }
-        replay.match_channels();
-        Ok(replay)
+        match replay.match_channels() {
+            changed if changed.is_empty() => Ok(replay),
+            changed => Err(ReplayError::OtherTypes { path: path.to_owned(), changed }),
+        }
     }
 
-    /// Matches the channels of the program with those of the file.
-    fn match_channels(&mut self) {
-        let known = |c: &Channel| {
-            let same = |f: &super::source::FileChannel| {
-                f.name == c.name && c.schema.is_some_and(|s| s.name == f.schema && s.encoding == f.encoding)
-            };
-            self.source.channels.values().any(same)
-        };
-        let mut missing = vec![];
+    /// Matches the channels of the program with those of the file. Returns the inputs whose types have changed.
+    fn match_channels(&mut self) -> Vec<TypeChange> {
+        let (mut missing, mut changed) = (vec![], vec![]);
         let group = self.group.as_ref().map(|group| group.number);
-        for channel in self.channels.iter().filter(|c| group.is_none_or(|group| c.group == group)) {
-            match (channel.role, known(channel)) {
-                (Role::Source, true) => self.recorded[channel.node] = true,
-                (Role::Chosen, true) => {
-                    self.report.compared.push(Compared::new(channel.name));
+        let own = |c: &&Channel| c.role != Role::Port && group.is_none_or(|group| c.group == group);
+        for channel in self.channels.iter().filter(own) {
+            let Some(recorded) = self.source.channels.values().find(|f| f.name == channel.name) else {
+                missing.push(channel);
+                continue;
+            };
+            match channel.schema.map(|schema| compare(recorded, schema, channel.shape)) {
+                Some(TypeMatch::Same) => {}
+                Some(TypeMatch::Undescribed) => self.report.undescribed.push(channel.name),
+                Some(TypeMatch::Changed(change)) if channel.role == Role::Chosen => {
+                    self.report.changed.push(change);
                     continue;
                 }
-                (Role::Port, _) | (_, true) => {}
-                (_, false) => missing.push(channel),
+                Some(TypeMatch::Changed(change)) => changed.push(change),
+                None => {
+                    missing.push(channel);
+                    continue;
+                }
+            }
+            match channel.role {
+                Role::Source => self.recorded[channel.node] = true,
+                Role::Chosen => self.report.compared.push(Compared::new(channel.name)),
+                Role::Mailbox | Role::Event | Role::Port => {}
             }
         }
         for channel in missing {
@@ -236,6 +261,7 @@ impl Replay {
         let names: Vec<&str> = names.collect();
         let gone = self.source.channels.values().filter(|f| !names.contains(&f.name.as_str()));
         self.report.gone = gone.map(|f| f.name.clone()).collect();
+        changed
     }
 
     /// Reads all inputs of the next reaction, up to the beginning of the one after it. Returns the time of the
@@ -432,7 +458,7 @@ impl Replay {
         let token = codec.and_then(|codec| (codec.read)(&bytes));
         match token {
             Some(_) => self.last[channel] = Some(bytes),
-            None => self.report.unreadable += 1,
+            None => *self.report.unreadable.entry(self.channels[channel].name).or_default() += 1,
         }
         token
     }

@@ -63,6 +63,9 @@ pub const PROGRAM: &str = "apex/program";
 /// Key of the thread groups that ran in parallel, in the metadata on the program.
 pub const THREADS: &str = "threads";
 
+/// Encoding of the schemas of types that are not messages.
+const SHAPE: &str = "apex";
+
 /// Length of the header of each frame, in bytes: channel, call, time, length.
 const HEADER: usize = 2 + 4 + 8 + 4;
 
@@ -224,11 +227,12 @@ fn open(file: File, about: BTreeMap<String, String>, channels: &[Channel]) -> mc
         .library(concat!("apex ", env!("CARGO_PKG_VERSION")));
     let mut writer = options.create(BufWriter::new(file))?;
     writer.write_metadata(&Metadata { name: PROGRAM.to_owned(), metadata: about })?;
-    let own = OWN.iter().map(|(name, schema)| (*name, Some(*schema)));
-    for (index, (name, schema)) in own.chain(channels.iter().map(|c| (c.name, c.schema))).enumerate() {
-        let Some(schema) = schema else { continue };
-        let encoding = if schema.encoding == "cdr" { "ros2msg" } else { "" };
-        let id = writer.add_schema(schema.name, encoding, schema.complete_definition().as_bytes())?;
+    let own = OWN.iter().map(|(name, schema)| (*name, Some((*schema, schema.complete_definition()))));
+    let others = channels.iter().map(|c| (c.name, c.schema.map(|schema| (schema, (c.shape)()))));
+    for (index, (name, schema)) in own.chain(others).enumerate() {
+        let Some((schema, shape)) = schema else { continue };
+        let encoding = if schema.encoding == "cdr" { "ros2msg" } else { SHAPE };
+        let id = writer.add_schema(schema.name, encoding, shape.as_bytes())?;
         writer.add_channel_with_id(index as u16, id, name, schema.encoding, &BTreeMap::new())?;
     }
     writer.flush()?;

@@ -52,6 +52,9 @@ pub struct FileChannel {
     pub name: String,
     /// Name of its schema.
     pub schema: String,
+    /// Shape of its tokens: the definition of their message, or the description of their type; `None` if the recording
+    /// has none.
+    pub shape: Option<String>,
     /// Encoding of its messages.
     pub encoding: String,
 }
@@ -77,7 +80,8 @@ pub struct Source {
     counts: BTreeMap<u16, u64>,
     /// Records of the current chunk, with the position in them.
     chunk: io::Cursor<Vec<u8>>,
-    schemas: BTreeMap<u16, String>,
+    /// Name and shape of each schema.
+    schemas: BTreeMap<u16, (String, Option<String>)>,
     /// Channels that were read, by their number.
     pub channels: BTreeMap<u16, FileChannel>,
     /// Name of the recorded program, once it was read.
@@ -320,12 +324,15 @@ impl Source {
 
     fn record(&mut self, record: Record<'static>) -> Result<Option<FileMessage>, Stop> {
         match record {
-            Record::Schema { header, .. } => {
-                self.schemas.insert(header.id, header.name);
+            Record::Schema { header, data } => {
+                // Earlier versions wrote nothing for types that are not messages.
+                let text = || String::from_utf8_lossy(&data).into_owned();
+                let shape = (!header.encoding.is_empty()).then(text);
+                self.schemas.insert(header.id, (header.name, shape));
             }
             Record::Channel(channel) => {
-                let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
-                let found = FileChannel { name: channel.topic, schema, encoding: channel.message_encoding };
+                let (schema, shape) = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+                let found = FileChannel { name: channel.topic, schema, shape, encoding: channel.message_encoding };
                 self.channels.insert(channel.id, found);
             }
             Record::Metadata(metadata) if metadata.name == PROGRAM => {
