@@ -4,6 +4,7 @@ mod cut;
 mod damage;
 mod feed;
 mod full;
+mod limits;
 mod python;
 mod round;
 mod threads;

@@ -6,6 +6,8 @@
 //! between them. All of this is recorded, and also the tokens of selected ports, for comparison.
 
 pub mod cdr;
+mod file;
+mod limits;
 mod message;
 mod recorder;
 mod replay;
@@ -20,6 +22,7 @@ mod tokens;
 mod types;
 mod waits;
 
+pub use limits::RecordOptions;
 #[doc(hidden)]
 pub use message::{ByMessage, ByNothing, BySerde, Kind};
 pub use message::{Codec, Message, Schema};

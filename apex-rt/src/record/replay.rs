@@ -152,6 +152,8 @@ pub struct Replay {
     group: Option<Side>,
     /// Number of checks of cells between groups in this reaction.
     looks: u32,
+    /// `true` before the first recorded reaction, in a recording that begins in the middle of a run.
+    leads_in: bool,
     /// `true` if this group waited for a token of another one that has ended where the recording is cut off: this one
     /// ends, too.
     over: bool,
@@ -199,6 +201,7 @@ impl Replay {
             bytes: vec![],
             group,
             looks: 0,
+            leads_in: false,
             over: false,
             channels,
         };
@@ -215,10 +218,41 @@ impl Replay {
                 return Err(at(io::Error::new(io::ErrorKind::UnexpectedEof, what)));
             }
         }
-        match replay.match_channels() {
-            changed if changed.is_empty() => Ok(replay),
-            changed => Err(ReplayError::OtherTypes { path: path.to_owned(), changed }),
+        let changed = replay.match_channels();
+        if !changed.is_empty() {
+            return Err(ReplayError::OtherTypes { path: path.to_owned(), changed });
         }
+        replay.leads_in = matches!(replay.source.files, Some((2.., _)));
+        if replay.leads_in {
+            replay.find_first_tokens(path).map_err(at)?;
+        }
+        Ok(replay)
+    }
+
+    /// Finds the first token of each recorded source, which it sends until the recording begins.
+    fn find_first_tokens(&mut self, path: &Path) -> io::Result<()> {
+        let is_wanted =
+            |(channel, token): (&Channel, &Option<Vec<u8>>)| channel.role == Role::Source && token.is_none();
+        let mut source = Source::open(path)?;
+        while self.channels.iter().zip(&self.last).any(is_wanted) {
+            let Some(message) = source.next()? else { break };
+            if let Some(Meaning::Token(channel)) = self.meaning(message.channel) {
+                self.last[channel].get_or_insert(message.data);
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the time of the first recorded reaction, if the program has to be led there: the recording begins in the
+    /// middle of a run.
+    pub(super) fn leads_in(&self) -> Option<Time> {
+        self.next.filter(|_| self.leads_in)
+    }
+
+    /// Ends the reactions before the first recorded one.
+    pub(super) fn end_lead_in(&mut self) {
+        self.leads_in = false;
+        self.reaction = Reaction::new(self.channels.len());
     }
 
     /// Matches the channels of the program with those of the file. Returns the inputs whose types have changed.
@@ -305,7 +339,12 @@ impl Replay {
     fn follow(&mut self, number: u32, time: Time) {
         let (last, before) = mem::replace(&mut self.read, (number, time));
         // Older recordings do not number reactions.
-        let ahead = if number == 0 { 1 } else { number.wrapping_sub(last) };
+        let ahead = match (number, self.source.files) {
+            (0, _) => 1,
+            // The first reaction in a later file of the recording.
+            (_, Some((2.., _))) if last == 0 => 1,
+            _ => number.wrapping_sub(last),
+        };
         if time < before || !(1..=u32::MAX / 2).contains(&ahead) {
             self.source.damaged(&format!("the reaction at {time} is out of order after the one at {before}"));
             return;
@@ -381,6 +420,7 @@ impl Replay {
             }
         }
         self.report.cut = self.source.cut.take();
+        self.report.file = self.source.files.map_or(1, |(first, _)| first);
         self.report.dropped = mem::take(&mut self.source.dropped);
         mem::take(&mut self.report)
     }
@@ -466,7 +506,7 @@ impl Replay {
     pub(super) fn take_or_last<T>(&mut self, channel: usize, codec: Option<Codec<T>>) -> Option<T> {
         self.take(channel, codec).or_else(|| {
             let token = codec.and_then(|codec| (codec.read)(self.last[channel].as_ref()?))?;
-            self.report.repeated += 1;
+            self.report.repeated += u64::from(!self.leads_in);
             Some(token)
         })
     }
@@ -481,7 +521,7 @@ impl Replay {
     }
 
     pub(super) fn compare<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
-        let Some(codec) = codec.filter(|_| !self.over) else { return };
+        let Some(codec) = codec.filter(|_| !self.over && !self.leads_in) else { return };
         let mut bytes = mem::take(&mut self.bytes);
         bytes.clear();
         (codec.write)(token, &mut bytes);

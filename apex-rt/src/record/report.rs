@@ -10,6 +10,9 @@ pub struct Report {
     pub reactions: u64,
     /// Time of the last one.
     pub last: Option<Time>,
+    /// Number of the file with which the replay began, in a recording that is divided: before a later one than the
+    /// first there were reactions.
+    pub file: u64,
     /// Number of reactions that are missing between others.
     pub skipped: u64,
     /// Results of comparison, by port.
@@ -101,6 +104,7 @@ impl Report {
             }
             all.params.extend(report.params);
             if group == 0 {
+                all.file = report.file;
                 all.gone = report.gone;
             }
         }
@@ -113,6 +117,10 @@ impl Report {
 
 impl Display for Report {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.file > 1 {
+            let number = self.file;
+            writeln!(f, "the recording begins with file {number} of a run: the program was in another state than now")?;
+        }
         if let Some(cut) = &self.cut {
             write!(f, "the recording is incomplete: {cut}; only the part before that is compared")?;
             match self.last {

@@ -25,8 +25,12 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
         codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
     let cannot_read = |error| format!("cannot read `{}`: {error}", path.display());
     let mut source = Source::open(path).map_err(cannot_read)?;
-    let (mut tokens, mut compared) = (vec![], None);
+    let (mut tokens, mut compared, mut start) = (vec![], None, 0);
     while let Some(message) = source.next().map_err(cannot_read)? {
+        // A later file of a recording that is divided begins in the middle of its run.
+        if start == 0 && matches!(source.files, Some((2.., _))) {
+            start = message.time;
+        }
         let Some(found) = source.channels.get(&message.channel).filter(|c| c.name == channel) else { continue };
         if compared != Some(message.channel) {
             check(path, found, codec)?;
@@ -37,7 +41,7 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
             let (ty, file) = (codec.schema.name, path.display());
             format!("a token of `{channel}` in `{file}` is not one of `{ty}`: bytes are missing or left over")
         })?;
-        tokens.push((Duration::from_nanos(message.time), token));
+        tokens.push((Duration::from_nanos(message.time.saturating_sub(start)), token));
     }
     if let Some(cut) = source.cut {
         return Err(format!("`{}` is incomplete: {cut}", path.display()));
