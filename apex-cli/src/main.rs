@@ -279,6 +279,8 @@ enum Command {
         /// file is kept, and the new one gets a number.
         #[arg(long, value_name = "FILE", conflicts_with = "profile")]
         record: Option<PathBuf>,
+        #[command(flatten)]
+        limits: run::Limits,
         /// Open a socket at this address, for `apex studio --connect` on this machine or another one. If other machines
         /// reach it, viewers may only look, unless --stream-access says otherwise. With the environment variable
         /// APEX_STUDIO_TOKEN, only viewers with the same value are admitted.
@@ -410,6 +412,7 @@ fn main() -> ExitCode {
                 params: &params,
                 profile: None,
                 recording,
+                limits: run::Limits::default(),
                 args: &[],
                 watch: false,
                 stream: run::Stream::None,
@@ -445,14 +448,28 @@ fn main() -> ExitCode {
                 file => studio::connect(connect, file, &page),
             }
         }
-        Command::Run { file, robot, params, save_params, watch, profile, record, stream, stream_access, how, args } => {
+        Command::Run {
+            file,
+            robot,
+            params,
+            save_params,
+            watch,
+            profile,
+            record,
+            limits,
+            stream,
+            stream_access,
+            how,
+            args,
+        } => {
             let params = run::Params { load: params, save: save_params };
             let (robot, profile) = (robot.as_deref(), profile.as_deref());
             let recording = record.as_deref().map_or(run::Recording::Stated, run::Recording::Made);
             let at = |address| run::Stream::At(address, stream_access);
             let (args, stream) = (&args[..], stream.as_deref().map_or(run::Stream::None, at));
             let (file, params, simulated, how) = (&file, &params, false, how.how());
-            let wanted = run::Wanted { file, robot, params, profile, recording, args, watch, stream, simulated, how };
+            let wanted =
+                run::Wanted { file, robot, params, profile, recording, limits, args, watch, stream, simulated, how };
             if watch { watch::run(&wanted) } else { run::run(&wanted) }
         }
     };

@@ -11,6 +11,7 @@ use apex_dsl::{
     program::Program,
     report::nearest,
     syntax::MAX_BYTES,
+    units,
 };
 use apex_host::{Workspace, read_text};
 use std::{
@@ -20,6 +21,7 @@ use std::{
     io::{self, Read as _},
     path::{Path, PathBuf},
     process::{Command, ExitCode, ExitStatus},
+    time::Duration,
 };
 
 /// Files with the parameters of the program.
@@ -73,6 +75,10 @@ const PROFILE: &str = "APEX_PROFILE";
 /// Environment variables with the recording that is made or repeated, for every program (`apex_rt::drive`).
 const RECORD: &str = "APEX_RECORD";
 const REPLAY: &str = "APEX_REPLAY";
+/// Environment variables with the limits of the recording.
+const RECORD_LIMIT: &str = "APEX_RECORD_LIMIT";
+const RECORD_AGE: &str = "APEX_RECORD_AGE";
+const RECORD_COMPRESS: &str = "APEX_RECORD_COMPRESS";
 
 /// Environment variables with the socket for viewers, for every program (`apex_rt::drive`).
 const STREAM: &str = "APEX_STUDIO";
@@ -109,6 +115,56 @@ pub enum Recording<'a> {
     Made(&'a Path),
     /// Repeats the run in this file.
     Repeated(&'a Path),
+}
+
+/// Limits of a recording. They take precedence over those of the `record` statement, if its file is recorded.
+#[derive(Clone, Copy, Default, clap::Args)]
+pub struct Limits {
+    /// Keep at most this many bytes of the recording: it is divided into numbered files, and the oldest are removed.
+    #[arg(long = "record-limit", value_name = "SIZE", value_parser = size)]
+    limit: Option<u64>,
+    /// Remove what is older than this from the recording, which is divided into numbered files.
+    #[arg(long = "record-age", value_name = "TIME", value_parser = age)]
+    age: Option<Duration>,
+    /// Compress the recording.
+    #[arg(long = "record-compress")]
+    compress: bool,
+}
+
+impl Limits {
+    /// Sets the environment variables of a program.
+    fn pass(self, command: &mut Command) {
+        let age = self.age.map(|age| format!("{}s", age.as_secs_f64()));
+        let limit = self.limit.map(|bytes| bytes.to_string());
+        let compress = self.compress.then(|| "1".to_owned());
+        for (name, value) in [(RECORD_LIMIT, limit), (RECORD_AGE, age), (RECORD_COMPRESS, compress)] {
+            match value {
+                Some(value) => command.env(name, value),
+                None => command.env_remove(name),
+            };
+        }
+    }
+}
+
+/// Reads a size: `1GB`.
+fn size(text: &str) -> Result<u64, String> {
+    let (digits, unit) = with_unit(text);
+    units::bytes(digits, unit)
+        .filter(|bytes| *bytes >= units::LEAST_RECORDING)
+        .ok_or_else(|| "a size is at least 16MB, for example `1GB`".to_owned())
+}
+
+/// Reads a time: `10min`.
+fn age(text: &str) -> Result<Duration, String> {
+    let (digits, unit) = with_unit(text);
+    units::time(digits, unit)
+        .filter(|age| *age >= units::YOUNGEST_RECORDING)
+        .ok_or_else(|| "a time is at least 8s, for example `10min`".to_owned())
+}
+
+/// A number, and the unit behind it.
+fn with_unit(text: &str) -> (&str, &str) {
+    text.split_at(text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len()))
 }
 
 /// First bytes of an MCAP file.
@@ -154,6 +210,8 @@ pub struct Wanted<'a> {
     pub profile: Option<&'a Path>,
     /// Recording or replay.
     pub recording: Recording<'a>,
+    /// Limits of the recording.
+    pub limits: Limits,
     /// Arguments for the program.
     pub args: &'a [String],
     /// `true` to build again after every change and keep changed parameters.
@@ -207,6 +265,7 @@ impl Wanted<'_> {
             Recording::Made(path) => drop(command.env(RECORD, here(path))),
             Recording::Repeated(path) => drop(command.env(REPLAY, here(path))),
         }
+        self.limits.pass(&mut command);
         command.env_remove(STREAM).env_remove(STREAM_WAITS);
         match self.stream {
             Stream::None => {}
@@ -321,13 +380,21 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
     let command = wanted.command(&program);
     let Recording::Made(path) = wanted.recording else { return become_program(command, program) };
     let status = wait_for(command, program)?;
-    if status.success() && !path.exists() {
+    if status.success() && !is_recorded(path) {
         return Err(format!(
             "nothing was recorded to `{}`: your own program records if `apex_rt::run` or `apex_rt::drive` drives it, or with an `apex_rt::record::Recorder`",
             path.display()
         ));
     }
     Ok(exit_code(status))
+}
+
+/// Returns `true` if there is a recording in `path`, or one that is divided into numbered files.
+fn is_recorded(path: &Path) -> bool {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let start = format!("{}.", path.file_stem().unwrap_or_default().to_string_lossy());
+    let mut files = fs::read_dir(folder).into_iter().flatten().flatten();
+    path.exists() || files.any(|file| file.file_name().to_string_lossy().starts_with(&start))
 }
 
 /// Replaces this process by the program, so that signals and exit codes are those of the program.

@@ -1,6 +1,6 @@
 //! Physical dimensions, so that a length is never used as a time.
 
-use std::fmt;
+use std::{fmt, time::Duration};
 
 /// Exponents of metre, second, kilogram, ampere, kelvin and radian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -80,6 +80,31 @@ pub struct Unit {
     pub dimension: Dimension,
     /// Size in SI units.
     pub factor: f64,
+}
+
+/// Smallest limit of a recording, in bytes.
+pub const LEAST_RECORDING: u64 = 16_000_000;
+/// Smallest age of a recording.
+pub const YOUNGEST_RECORDING: Duration = Duration::from_secs(8);
+
+/// Returns a number of bytes, given in `B`, `kB`, `MB`, `GB` or `TB`.
+pub fn bytes(digits: &str, unit: &str) -> Option<u64> {
+    let factor = match unit {
+        "B" => 1.0,
+        "kB" => 1e3,
+        "MB" => 1e6,
+        "GB" => 1e9,
+        "TB" => 1e12,
+        _ => return None,
+    };
+    let bytes = digits.parse::<f64>().ok()? * factor;
+    (0.0..1e18).contains(&bytes).then_some(bytes as u64)
+}
+
+/// Returns a time, given in a unit of time.
+pub fn time(digits: &str, unit: &str) -> Option<Duration> {
+    let unit = parse(unit).ok().filter(|unit| unit.dimension == Dimension::TIME)?;
+    Duration::try_from_secs_f64(digits.parse::<f64>().ok()? * unit.factor).ok()
 }
 
 /// All units with a name: exponents as in [`Dimension`], and size in SI units.

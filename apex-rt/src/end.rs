@@ -126,7 +126,8 @@ fn signalled() {
     let waits = std::thread::Builder::new().name("apex-end".to_owned()).spawn(|| {
         if !have_ended(0, PATIENCE) {
             eprintln!("ended before all nodes have stopped: one of them hangs");
-            exit(INTERRUPTED, *driven());
+            let hanging = *driven();
+            exit(INTERRUPTED, hanging);
         }
     });
     if let Err(error) = waits {

@@ -74,7 +74,7 @@ module.exports = grammar({
       ),
     claim: ($) => seq('claim', field('kind', $.identifier), optional(seq('(', list($.reference), ')')), ';'),
     record: ($) =>
-      seq('record', field('file', $.string), '{', repeat(seq($.reference, ';')), '}'),
+      seq('record', field('file', $.string), optional($.arguments), '{', repeat(seq($.reference, ';')), '}'),
     thread: ($) =>
       seq(
         'thread',

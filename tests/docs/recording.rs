@@ -27,7 +27,9 @@ float64 variance";
 
     fn read(message: &mut Reader<'_>) -> Option<Self> {
         message.header()?;
-        message.f64().map(Self)
+        let warmth = message.f64()?;
+        message.f64()?;
+        Some(Self(warmth))
     }
 }
 

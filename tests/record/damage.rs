@@ -1,11 +1,12 @@
 //! Damaged files: each change is detected, wherever it is. A replay repeats the whole run, or it reports that the file
 //! is incomplete and where it ended. It never reports a wrong run as correct.
 
-use crate::{
-    Folder,
-    cut::{Small, run},
+use crate::{Folder, cut::Small};
+use apex_rt::{
+    drive_with,
+    prelude::*,
+    record::{RecordOptions, Recorder, Report, Tap, WhenFull, replay},
 };
-use apex_rt::record::{Report, replay};
 use std::{fs, ops::Range, path::PathBuf};
 
 /// Kind of a chunk record.
@@ -25,9 +26,19 @@ struct Files {
 }
 
 impl Files {
-    fn new() -> Self {
+    /// Recordings of the same run, plain and compressed.
+    fn all() -> [Self; 2] {
+        [false, true].map(Self::new)
+    }
+
+    fn new(compress: bool) -> Self {
         let folder = Folder::new();
-        run(&folder.file("whole.mcap"), TIME);
+        let options = RecordOptions { compress, ..RecordOptions::default() };
+        let recorder = Recorder::to_file_with::<Small>(&folder.file("whole.mcap"), WhenFull::Wait, options);
+        let mut tap = Tap::Record(recorder.expect("a new file"));
+        drive_with(Small::new(), SimClock::until(Time::from_millis(TIME)), &mut tap);
+        let Tap::Record(recorder) = tap else { unreachable!("it records") };
+        recorder.finish().expect("room for the file");
         let bytes = fs::read(folder.file("whole.mcap")).expect("it was written");
         Self { folder, bytes }
     }
@@ -72,68 +83,73 @@ impl Files {
 
 #[test]
 fn every_bit_counts() {
-    let files = Files::new();
-    assert!(files.pass(&files.bytes, "the file as it is"));
-    for at in 0..files.bytes.len() {
-        // One bit of each byte, in turn one of its eight bits.
-        let mut bytes = files.bytes.clone();
-        bytes[at] ^= 1 << (at % 8);
-        assert!(!files.pass(&bytes, &format!("bit {} of byte {at}", at % 8)), "byte {at} does not count");
+    for files in Files::all() {
+        assert!(files.pass(&files.bytes, "the file as it is"));
+        for at in 0..files.bytes.len() {
+            // One bit of each byte, in turn one of its eight bits.
+            let mut bytes = files.bytes.clone();
+            bytes[at] ^= 1 << (at % 8);
+            assert!(!files.pass(&bytes, &format!("bit {} of byte {at}", at % 8)), "byte {at} does not count");
+        }
     }
 }
 
 #[test]
 fn every_bit_of_the_kind_and_the_length_of_a_record_counts() {
-    let files = Files::new();
-    for record in files.records() {
-        for bit in 0..8 * HEAD {
-            let mut bytes = files.bytes.clone();
-            bytes[record.start + bit / 8] ^= 1 << (bit % 8);
-            let what = format!("bit {bit} of the record at {}", record.start);
-            assert!(!files.pass(&bytes, &what), "{what} does not count");
+    for files in Files::all() {
+        for record in files.records() {
+            for bit in 0..8 * HEAD {
+                let mut bytes = files.bytes.clone();
+                bytes[record.start + bit / 8] ^= 1 << (bit % 8);
+                let what = format!("bit {bit} of the record at {}", record.start);
+                assert!(!files.pass(&bytes, &what), "{what} does not count");
+            }
         }
     }
 }
 
 #[test]
 fn a_file_that_ends_anywhere_else_is_not_whole() {
-    let files = Files::new();
-    for length in 0..files.bytes.len() {
-        assert!(!files.pass(&files.bytes[..length], &format!("{length} bytes")), "{length} bytes are enough");
+    for files in Files::all() {
+        for length in 0..files.bytes.len() {
+            assert!(!files.pass(&files.bytes[..length], &format!("{length} bytes")), "{length} bytes are enough");
+        }
+        let mut longer = files.bytes.clone();
+        longer.push(0);
+        assert!(!files.pass(&longer, "a byte more"));
     }
-    let mut longer = files.bytes.clone();
-    longer.push(0);
-    assert!(!files.pass(&longer, "a byte more"));
 }
 
 #[test]
 fn every_record_has_its_place() {
-    let files = Files::new();
-    let records = files.records();
-    let chunks = records.iter().filter(|r| files.bytes[r.start] == CHUNK).count();
-    assert!(chunks >= 2, "{chunks} chunks");
-    for (number, record) in records.iter().enumerate() {
-        let without = [&files.bytes[..record.start], &files.bytes[record.end..]].concat();
-        assert!(!files.pass(&without, &format!("without record {number}")), "nobody misses record {number}");
-        let twice = [&files.bytes[..record.end], &files.bytes[record.start..]].concat();
-        assert!(!files.pass(&twice, &format!("record {number} twice")), "record {number} may come twice");
-        for other in &records[number + 1..] {
-            let (a, b) = (&files.bytes[record.clone()], &files.bytes[other.clone()]);
-            let between = &files.bytes[record.end..other.start];
-            let swapped = [&files.bytes[..record.start], b, between, a, &files.bytes[other.end..]].concat();
-            let what = format!("record {number} in place of the one at {}", other.start);
-            assert!(a == b || !files.pass(&swapped, &what), "{what}: nobody minds");
+    for files in Files::all() {
+        let records = files.records();
+        let chunks = records.iter().filter(|r| files.bytes[r.start] == CHUNK).count();
+        assert!(chunks >= 1, "{chunks} chunks");
+        for (number, record) in records.iter().enumerate() {
+            let without = [&files.bytes[..record.start], &files.bytes[record.end..]].concat();
+            assert!(!files.pass(&without, &format!("without record {number}")), "nobody misses record {number}");
+            let twice = [&files.bytes[..record.end], &files.bytes[record.start..]].concat();
+            assert!(!files.pass(&twice, &format!("record {number} twice")), "record {number} may come twice");
+            for other in &records[number + 1..] {
+                let (a, b) = (&files.bytes[record.clone()], &files.bytes[other.clone()]);
+                let between = &files.bytes[record.end..other.start];
+                let swapped = [&files.bytes[..record.start], b, between, a, &files.bytes[other.end..]].concat();
+                let what = format!("record {number} in place of the one at {}", other.start);
+                assert!(a == b || !files.pass(&swapped, &what), "{what}: nobody minds");
+            }
         }
     }
 }
 
 #[test]
 fn what_is_said_of_a_file_of_which_nothing_is_left_names_the_reason() {
-    let files = Files::new();
-    let first = files.records().into_iter().find(|r| files.bytes[r.start] == CHUNK).expect("there is a chunk");
-    let mut bytes = files.bytes.clone();
-    bytes[first.start] ^= 1;
-    fs::write(files.other(), &bytes).expect("room for it");
-    let error = replay(Small::new(), &files.other(), ()).expect_err("nothing is left").to_string();
-    assert!(error.contains("damaged"), "{error}");
+    for files in Files::all() {
+        let first = files.records().into_iter().find(|r| files.bytes[r.start] == CHUNK).expect("there is a chunk");
+        let mut bytes = files.bytes.clone();
+        bytes[first.start] ^= 1;
+        fs::write(files.other(), &bytes).expect("room for it");
+        let error = replay(Small::new(), &files.other(), ()).expect_err("nothing is left").to_string();
+        assert!(error.contains("damaged"), "{error}");
+    }
 }

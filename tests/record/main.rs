@@ -4,9 +4,11 @@ mod cut;
 mod damage;
 mod feed;
 mod full;
+mod limits;
 mod python;
 mod round;
 mod threads;
+mod types;
 
 use apex_rt::{
     Program, StdErr,

@@ -105,7 +105,7 @@ impl Observer for Busy {
     }
 }
 
-fn until(ms: i64) -> SimClock {
+pub fn until(ms: i64) -> SimClock {
     SimClock::until(Time::from_millis(ms))
 }
 

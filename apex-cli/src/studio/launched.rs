@@ -3,7 +3,7 @@
 use super::{Launch, Text};
 use crate::{
     project::{self, print_error},
-    run::{Found, KEPT, LOAD, Params, Recording, Stream, Wanted},
+    run::{Found, KEPT, LOAD, Limits, Params, Recording, Stream, Wanted},
     watch::{
         files::Files,
         folders,
@@ -73,6 +73,7 @@ impl Launched {
             params,
             profile: None,
             recording: launch.replay.as_deref().map_or(Recording::Stated, Recording::Repeated),
+            limits: Limits::default(),
             args: &launch.args,
             // Parameters that were set survive a restart. In simulated time they are set again at the same reactions.
             watch: launch.replay.is_none() && !launch.simulated,

@@ -154,7 +154,11 @@ impl Generator<'_> {
             quote!(::apex_rt::record::Channel::new(#name, #node, #group, ::apex_rt::record::Role::#role, #format()))
         });
         let file = graph.record.as_ref().map(|record| {
-            let file = &record.file;
+            // The runtime has one text for both: each option is in a line after the file.
+            let limit = record.limit.map(|bytes| format!("\nlimit {bytes}")).unwrap_or_default();
+            let age = record.age.map(|age| format!("\nage {}", age.as_nanos())).unwrap_or_default();
+            let compress = if record.compress { "\ncompress" } else { "" };
+            let file = format!("{}{limit}{age}{compress}", record.file);
             quote! { const RECORD: ::core::option::Option<&'static str> = Some(#file); }
         });
         quote! {

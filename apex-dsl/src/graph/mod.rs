@@ -97,6 +97,12 @@ pub struct Interrupt {
 pub struct Record {
     /// The file.
     pub file: String,
+    /// Maximum size of all its parts, in bytes.
+    pub limit: Option<u64>,
+    /// Age from which messages are removed.
+    pub age: Option<Duration>,
+    /// `true` if it is compressed.
+    pub compress: bool,
     /// The ports.
     pub ports: Vec<PortId>,
     /// Place in the source file.

@@ -4,8 +4,13 @@ use super::names::suggest;
 use crate::{
     graph::{Graph, NodeKind, PortId, Record, WireEnd},
     report::{Diagnostic, Diagnostics},
-    syntax::tree::{GraphItem, Ident, PortRef, RecordItem},
+    syntax::tree::{Arg, Expr, ExprKind, GraphItem, Ident, PortRef, RecordItem},
+    units,
 };
+use std::time::Duration;
+
+/// Names of all options.
+const OPTIONS: [&str; 3] = ["limit", "age", "compress"];
 
 /// Resolves the `record` statement of `item`, whose program is `graph`.
 pub fn record(graph: &Graph, item: &GraphItem, diagnostics: &mut Diagnostics) -> Option<Record> {
@@ -24,8 +29,65 @@ pub fn record(graph: &Graph, item: &GraphItem, diagnostics: &mut Diagnostics) ->
     }
     let found: Vec<Option<Vec<PortId>>> = first.ports.iter().map(|port| port_of(graph, port, diagnostics)).collect();
     report_twice(first, diagnostics);
+    let (file, span) = (first.file.clone(), first.span);
+    let mut record = Record { file, limit: None, age: None, compress: false, ports: vec![], span };
+    for (number, option) in first.options.iter().enumerate() {
+        if let Err(error) = set(&mut record, option, &first.options[..number]) {
+            diagnostics.push(*error);
+        }
+    }
     let ports: Vec<Vec<PortId>> = found.into_iter().collect::<Option<_>>()?;
-    Some(Record { file: first.file.clone(), ports: ports.concat(), span: first.span })
+    Some(Record { ports: ports.concat(), ..record })
+}
+
+/// Sets an option, which must not be among those `before`.
+fn set(record: &mut Record, option: &Arg, before: &[Arg]) -> Result<(), Box<Diagnostic>> {
+    let wrong = |message: &str| Box::new(Diagnostic::error("wrong-value", option.value.span, message));
+    let Some(name) = &option.name else {
+        let error = Diagnostic::error("unnamed-argument", option.value.span, "an option of a recording has a name");
+        return Err(Box::new(error.note("write it as `limit = 1GB`, `age = 10min` or `compress = true`")));
+    };
+    if before.iter().any(|other| other.name.as_ref().is_some_and(|other| other.text == name.text)) {
+        let message = format!("`{}` is given twice", name.text);
+        return Err(Box::new(
+            Diagnostic::error("duplicate-argument", name.span, message).note("remove one of the two"),
+        ));
+    }
+    match name.text.as_str() {
+        "limit" => {
+            let message = "`limit` must be a size of at least 16MB, in `MB`, `GB` or `TB`: `limit = 1GB`";
+            let size = size(&option.value).filter(|size| *size >= units::LEAST_RECORDING);
+            record.limit = Some(size.ok_or_else(|| wrong(message))?);
+        }
+        "age" => {
+            let message = "`age` must be a time of at least 8s, as a number with a unit: `age = 10min`";
+            let age = time(&option.value).filter(|age| *age >= units::YOUNGEST_RECORDING);
+            record.age = Some(age.ok_or_else(|| wrong(message))?);
+        }
+        "compress" => match option.value.kind {
+            ExprKind::Bool(compress) => record.compress = compress,
+            _ => return Err(wrong("`compress` must be `true` or `false`")),
+        },
+        _ => {
+            let message = format!("a recording has no option `{}`", name.text);
+            let error = Diagnostic::error("unknown-argument", name.span, message);
+            let error = error.note(format!("the options are {}", OPTIONS.join(", ")));
+            return Err(Box::new(suggest(error, name, OPTIONS.into_iter())));
+        }
+    }
+    Ok(())
+}
+
+/// A size in bytes.
+fn size(value: &Expr) -> Option<u64> {
+    let ExprKind::Number(digits, Some(unit)) = &value.kind else { return None };
+    units::bytes(&digits.replace('_', ""), unit)
+}
+
+/// A time.
+fn time(value: &Expr) -> Option<Duration> {
+    let ExprKind::Number(digits, Some(unit)) = &value.kind else { return None };
+    units::time(&digits.replace('_', ""), unit)
 }
 
 fn report_twice(record: &RecordItem, diagnostics: &mut Diagnostics) {

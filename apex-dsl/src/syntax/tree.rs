@@ -478,11 +478,13 @@ pub struct ThreadItem {
     pub settings: Vec<(Ident, Expr)>,
 }
 
-/// `record "run.mcap" { laser.scan; }`
+/// `record "run.mcap"(limit = 1GB) { laser.scan; }`
 #[derive(Debug, Clone)]
 pub struct RecordItem {
     /// The file.
     pub file: String,
+    /// Limits, and if the file is compressed.
+    pub options: Vec<Arg>,
     /// The ports.
     pub ports: Vec<PortRef>,
     /// The keyword and the file.

@@ -1,6 +1,9 @@
 //! Tokens as messages: types with a ROS 2 message, and the encoding of all others.
 
-use super::cdr::{Reader, STD_HEADER, Writer};
+use super::{
+    cdr::{Reader, STD_HEADER, Writer},
+    shape::shape,
+};
 use crate::{Failure, Time};
 use core::{any::type_name, marker::PhantomData};
 use serde::{Serialize, de::DeserializeOwned};
@@ -48,8 +51,10 @@ pub struct Codec<T> {
     pub schema: Schema,
     /// Appends a token to the bytes; `false` if it cannot be written.
     pub write: fn(&T, &mut Vec<u8>) -> bool,
-    /// Reads a token; `None` if the bytes are not one.
+    /// Reads a token; `None` if the bytes are not one, or more than one.
     pub read: fn(&[u8]) -> Option<T>,
+    /// Returns the shape of the type: the definition of the message, or all that serde reads.
+    pub shape: fn() -> String,
 }
 
 impl<T> Clone for Codec<T> {
@@ -79,14 +84,22 @@ pub trait ByMessage<T> {
 impl<T: Message> ByMessage<T> for &&Kind<T> {
     fn codec(&self) -> Option<Codec<T>> {
         Some(Codec {
-            schema: Schema { name: T::NAME, definition: T::DEFINITION, encoding: "cdr" },
+            schema: message::<T>(),
             write: |token, bytes| {
                 token.write(&mut Writer::new(bytes));
                 true
             },
-            read: |bytes| T::read(&mut Reader::new(bytes)?),
+            read: |bytes| {
+                let mut message = Reader::new(bytes)?;
+                T::read(&mut message).filter(|_| message.is_at_end())
+            },
+            shape: || message::<T>().complete_definition(),
         })
     }
+}
+
+fn message<T: Message>() -> Schema {
+    Schema { name: T::NAME, definition: T::DEFINITION, encoding: "cdr" }
 }
 
 /// Codec of types with the traits of serde.
@@ -100,7 +113,11 @@ impl<T: Serialize + DeserializeOwned> BySerde<T> for &Kind<T> {
         Some(Codec {
             schema: Schema { name: type_name::<T>(), definition: "", encoding: "postcard" },
             write: |token, bytes| postcard::to_io(token, &mut *bytes).is_ok(),
-            read: |bytes| postcard::from_bytes(bytes).ok(),
+            read: |bytes| {
+                let (token, rest) = postcard::take_from_bytes(bytes).ok()?;
+                rest.is_empty().then_some(token)
+            },
+            shape: shape::<T>,
         })
     }
 }
@@ -242,6 +259,20 @@ mod tests {
         let (schema, read) = again(crate::__codec!(Vec<f32>), &vec![odd, -0.0]);
         let bits = read.map(|list| list.into_iter().map(f32::to_bits).collect::<Vec<_>>());
         assert_eq!((schema.encoding, bits), ("postcard", Some(vec![odd.to_bits(), (-0.0_f32).to_bits()])));
+    }
+
+    #[test]
+    fn bytes_that_are_left_over_are_an_error() {
+        fn longer<T>(codec: Option<Codec<T>>, token: &T) -> bool {
+            let (codec, mut bytes) = (codec.expect("it can be recorded"), vec![]);
+            (codec.write)(token, &mut bytes);
+            bytes.push(0);
+            (codec.read)(&bytes).is_some()
+        }
+        assert!(!longer(crate::__codec!(f64), &1.0));
+        assert!(!longer(crate::__codec!(String), &"one".to_owned()));
+        assert!(!longer(crate::__codec!(Vec<u8>), &vec![1]));
+        assert!(!longer(crate::__codec!((u8, f32)), &(1, 1.0)));
     }
 
     #[test]

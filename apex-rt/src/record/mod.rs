@@ -6,18 +6,23 @@
 //! between them. All of this is recorded, and also the tokens of selected ports, for comparison.
 
 pub mod cdr;
+mod file;
+mod limits;
 mod message;
 mod recorder;
 mod replay;
 mod report;
 mod run;
+mod shape;
 mod sink;
 mod source;
 mod tap;
 mod threads;
 mod tokens;
+mod types;
 mod waits;
 
+pub use limits::RecordOptions;
 #[doc(hidden)]
 pub use message::{ByMessage, ByNothing, BySerde, Kind};
 pub use message::{Codec, Message, Schema};
@@ -32,6 +37,7 @@ pub use tap::{looked, sent};
 pub use threads::record_on_threads;
 #[doc(hidden)]
 pub use tokens::tokens;
+pub use types::TypeChange;
 
 /// Role of the tokens of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +67,9 @@ pub struct Channel {
     pub role: Role,
     /// Schema of its tokens; `None` if they cannot be recorded.
     pub schema: Option<Schema>,
+    /// Returns the shape of its tokens: the definition of their message, or the fields, variants and numbers that serde
+    /// reads.
+    pub shape: fn() -> String,
     /// Converts a recorded token to readable text; `None` if it cannot be read.
     pub show: fn(&[u8]) -> Option<String>,
 }
@@ -69,7 +78,7 @@ impl Channel {
     /// Returns a row of the table of channels.
     #[doc(hidden)]
     pub const fn new(name: &'static str, node: usize, group: usize, role: Role, format: Format) -> Self {
-        Self { name, node, group, role, schema: format.schema, show: format.show }
+        Self { name, node, group, role, schema: format.schema, shape: format.shape, show: format.show }
     }
 }
 
@@ -78,6 +87,7 @@ impl Channel {
 #[derive(Debug, Clone, Copy)]
 pub struct Format {
     pub schema: Option<Schema>,
+    pub shape: fn() -> String,
     pub show: fn(&[u8]) -> Option<String>,
 }
 
@@ -106,6 +116,7 @@ macro_rules! __format {
         fn $format() -> $crate::record::Format {
             $crate::record::Format {
                 schema: $codec().map(|codec| codec.schema),
+                shape: || $codec().map(|codec| (codec.shape)()).unwrap_or_default(),
                 show: |bytes| {
                     use $crate::testing::{ByDebug as _, ByType as _};
                     let token = ($codec()?.read)(bytes)?;

@@ -1,7 +1,7 @@
 use super::{
-    Channel, Codec, Message as _, Role,
+    Channel, Codec, Message as _, RecordOptions, Role,
     cdr::Writer,
-    sink::{ELAPSED, ENDED, FIRST, Frame, LOOKED, Near, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN, THREADS, free},
+    sink::{ELAPSED, ENDED, FIRST, Frame, LOOKED, Near, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN, THREADS},
 };
 use crate::{
     GroupInfo, Mailbox, Parameters, Program, Time,
@@ -54,15 +54,27 @@ pub struct Recorder {
     params: Vec<u8>,
     /// Values of all parameters before this reaction, as bytes.
     params_now: Vec<u8>,
+    /// Values of all parameters before the first reaction, as bytes.
+    first_params: Vec<u8>,
     /// `true` if the current reaction was dropped with all its messages.
     lost: bool,
+    /// Number of the file into which the messages go, of a recording that is divided.
+    file: u64,
+    /// `true` if the current reaction is the first one in a later file.
+    begins_file: bool,
+    /// Time of the first reaction in the file.
+    file_start: Time,
+    /// Time after which a file ends.
+    period: Option<Duration>,
 }
 
 /// Result of a recording.
 #[derive(Debug)]
 pub struct Finished {
-    /// Path of the file.
+    /// Path of the file; of a recording that is divided, that of the oldest one which is left.
     pub path: PathBuf,
+    /// Paths of all files that are left, the oldest one first.
+    pub files: Vec<PathBuf>,
     /// Channels that lost messages because the file could not be written fast enough, with the numbers of these.
     pub dropped: Vec<(String, u64)>,
 }
@@ -77,6 +89,15 @@ impl Recorder {
         Self::with_room::<P>(path, when_full, ROOM)
     }
 
+    /// Starts a recording with limits of its size and age, or one that is compressed. With limits it consists of
+    /// several files, whose names have numbers before their ending (`run.0001.mcap`); the oldest ones are removed.
+    ///
+    /// # Errors
+    /// The errors of [`to_file`](Self::to_file), and limits that are too small.
+    pub fn to_file_with<P: Program>(path: &Path, when_full: WhenFull, options: RecordOptions) -> io::Result<Self> {
+        Self::new::<P>(path, when_full, ROOM, None, options, |_| false)
+    }
+
     /// Starts a recording without the channels that are `left_out`, for example those of large images. A replay calls
     /// the sources of these channels, which therefore have to send the same tokens again.
     ///
@@ -87,19 +108,23 @@ impl Recorder {
         when_full: WhenFull,
         left_out: impl Fn(&Channel) -> bool,
     ) -> io::Result<Self> {
-        Self::new::<P>(path, when_full, ROOM, None, left_out)
+        Self::new::<P>(path, when_full, ROOM, None, RecordOptions::default(), left_out)
     }
 
     /// Starts a recording as [`to_file`](Self::to_file) does, with `room` for that many bytes that wait to be written.
     #[doc(hidden)]
     pub fn with_room<P: Program>(path: &Path, when_full: WhenFull, room: usize) -> io::Result<Self> {
-        Self::new::<P>(path, when_full, room, None, |_| false)
+        Self::new::<P>(path, when_full, room, None, RecordOptions::default(), |_| false)
     }
 
     /// Starts a recording of a program whose `groups` run in parallel: each has a recorder [`beside`](Self::beside)
     /// this one.
-    pub(super) fn of_threads<P: Program>(path: &Path, groups: &[GroupInfo]) -> io::Result<Self> {
-        Self::new::<P>(path, WhenFull::Drop, ROOM, Some(groups), |_| false)
+    pub(super) fn of_threads<P: Program>(
+        path: &Path,
+        groups: &[GroupInfo],
+        options: RecordOptions,
+    ) -> io::Result<Self> {
+        Self::new::<P>(path, WhenFull::Drop, ROOM, Some(groups), options, |_| false)
     }
 
     fn new<P: Program>(
@@ -107,6 +132,7 @@ impl Recorder {
         when_full: WhenFull,
         room: usize,
         groups: Option<&[GroupInfo]>,
+        options: RecordOptions,
         left_out: impl Fn(&Channel) -> bool,
     ) -> io::Result<Self> {
         let (info, mut channels) = (const { &P::INFO }, P::channels());
@@ -117,17 +143,16 @@ impl Recorder {
         }
         // Channels without a schema are not recorded.
         out.iter_mut().for_each(|channel| channel.schema = None);
-        let path = free(path);
         let mut about = BTreeMap::from([("name".to_owned(), info.name.to_owned())]);
         if let Some(groups) = groups.filter(|groups| !groups.is_empty()) {
             about.insert(THREADS.to_owned(), names(groups));
         }
         // One ring for each group, and one for the watchdog.
         let beside = groups.map_or(0, |groups| groups.len().max(1) + 1);
-        let (sink, mut ends) = Sink::new(path.clone(), about, &channels, 1 + beside, room)?;
+        let (sink, mut ends, path) = Sink::new(path, options, about, &channels, 1 + beside, room)?;
         let near = ends.remove(0);
         let own = Self::by(near, channels, when_full, path, info.nodes.len());
-        Ok(Self { sink: Some(sink), others: Mutex::new(ends), ..own })
+        Ok(Self { sink: Some(sink), others: Mutex::new(ends), period: options.period(), ..own })
     }
 
     /// Returns a recorder that writes into `near`.
@@ -147,7 +172,12 @@ impl Recorder {
             full: vec![false; channels.len()],
             params: vec![],
             params_now: vec![],
+            first_params: vec![],
             lost: false,
+            file: 1,
+            begins_file: false,
+            file_start: Time::ZERO,
+            period: None,
             channels,
         }
     }
@@ -162,10 +192,10 @@ impl Recorder {
         let near = self.others.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let near = near.expect("there is one for each group, and one for who watches over them");
         let own = Self::by(near, self.channels.clone(), self.when_full, self.path.clone(), self.calls.len());
-        Self { group: group.map(|group| group as u32), ..own }
+        Self { group: group.map(|group| group as u32), period: self.period, ..own }
     }
 
-    /// Path of the file.
+    /// Path of the file; of a recording that is divided, that of the first one.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -175,15 +205,15 @@ impl Recorder {
     /// # Errors
     /// The file could not be written.
     pub fn finish(self) -> io::Result<Finished> {
-        let Self { sink: Some(sink), mut near, channels, path, .. } = self else {
+        let Self { sink: Some(sink), mut near, channels, .. } = self else {
             return Err(io::Error::other("another recorder ends the file"));
         };
         let own = OWN.iter().map(|(name, _)| *name);
         let names = own.chain(channels.iter().map(|c| c.name));
         let lost = names.zip(sink.dropped()).filter(|(_, count)| *count > 0);
         let dropped: Vec<(String, u64)> = lost.map(|(name, count)| (name.to_owned(), count)).collect();
-        sink.finish(&mut near, &dropped)?;
-        Ok(Finished { path, dropped })
+        let files = sink.finish(&mut near, &dropped)?;
+        Ok(Finished { path: files.first().cloned().unwrap_or_default(), files, dropped })
     }
 
     pub(super) fn role(&self, channel: usize) -> Role {
@@ -197,11 +227,25 @@ impl Recorder {
         self.calls.fill(0);
         let group = self.group.unwrap_or(0);
         self.reactions = self.reactions.wrapping_add(1);
+        self.begins_file = self.begin_file();
         let sent = self.numbered(REACTION, self.reactions, |message| {
             message.u32(group);
             message.i64(now.as_nanos());
         });
         self.lost = !sent;
+    }
+
+    /// Begins the next file of a recording that is divided, if it shall begin.
+    fn begin_file(&mut self) -> bool {
+        if self.period.is_some_and(|period| self.now.since(self.file_start) >= period) {
+            self.near.end_file(self.file);
+        }
+        let file = self.near.file();
+        if file == self.file || !self.near.begin_file(file) {
+            return false;
+        }
+        (self.file, self.file_start) = (file, self.now);
+        true
     }
 
     pub(super) fn end(&mut self) {
@@ -265,15 +309,21 @@ impl Recorder {
         self.full[channel] = is_full;
     }
 
-    /// Records the parameters that have changed since the last reaction; before the first reaction, all.
+    /// Records the parameters that have changed since the last reaction; before the first reaction in a file, all.
     pub(super) fn changed_params<P: Parameters>(&mut self, program: &mut P) {
-        let first = self.params.is_empty();
         let mut now = core::mem::take(&mut self.params_now);
         now.clear();
         program.visit_params(&mut Bits(&mut now));
-        if first || now != self.params {
+        if self.params.is_empty() {
+            self.first_params.clone_from(&now);
+            program.visit_params(&mut Changes { recorder: self, before: &now, all: true });
+        } else if self.begins_file {
+            let before = core::mem::take(&mut self.first_params);
+            program.visit_params(&mut Changes { recorder: self, before: &before, all: true });
+            self.first_params = before;
+        } else if now != self.params {
             let before = core::mem::take(&mut self.params);
-            program.visit_params(&mut Changes { recorder: self, before: &before, first });
+            program.visit_params(&mut Changes { recorder: self, before: &before, all: false });
             self.params = before;
         }
         self.params_now = now;
@@ -368,11 +418,11 @@ fn bits(value: ParamRef<'_>, out: &mut Vec<u8>) {
     }
 }
 
-/// Visitor that records the parameters whose values differ from `before`.
+/// Visitor that records the parameters whose values differ from `before`, or all, with the difference.
 struct Changes<'a> {
     recorder: &'a mut Recorder,
     before: &'a [u8],
-    first: bool,
+    all: bool,
 }
 
 impl ParamVisitor for Changes<'_> {
@@ -383,8 +433,9 @@ impl ParamVisitor for Changes<'_> {
         };
         let mut now = vec![];
         bits(access.get(), &mut now);
-        if !self.skip(&now) {
-            let (value, changed) = (access.get().to_string(), !self.first);
+        let changed = !self.skip(&now);
+        if self.all || changed {
+            let value = access.get().to_string();
             let group = self.recorder.group.unwrap_or(0);
             self.recorder.own(PARAMETER, |message| {
                 message.text(info.name);

@@ -4,6 +4,7 @@ use super::{
     report::{Compared, Difference},
     sink::OWN,
     source::{CUT, FileMessage, Source},
+    types::{TypeChange, TypeMatch, compare},
     waits::{ReplayBarrier, WaitOutcome},
 };
 use crate::{
@@ -34,6 +35,13 @@ pub enum ReplayError {
         /// Name of the program that was to replay it.
         wanted: &'static str,
     },
+    /// The program takes tokens of other types than the recorded ones.
+    OtherTypes {
+        /// The file.
+        path: PathBuf,
+        /// The channels.
+        changed: Vec<TypeChange>,
+    },
     /// The recording does not have a complete reaction.
     Nothing {
         /// The file.
@@ -61,6 +69,13 @@ impl fmt::Display for ReplayError {
             }
             Self::OtherProgram { path, recorded, wanted } => {
                 write!(f, "`{}` is a recording of `{recorded}`, not of `{wanted}`", path.display())
+            }
+            Self::OtherTypes { path, changed } => {
+                write!(f, "`{}` cannot be replayed: types have changed since", path.display())?;
+                for change in changed {
+                    write!(f, "\n  {change}")?;
+                }
+                write!(f, "\n  replay it with the program as it was, or record it again")
             }
             Self::Nothing { path, why } => {
                 write!(f, "nothing in `{}` can be replayed: it has no complete reaction", path.display())?;
@@ -137,6 +152,8 @@ pub struct Replay {
     group: Option<Side>,
     /// Number of checks of cells between groups in this reaction.
     looks: u32,
+    /// `true` before the first recorded reaction, in a recording that begins in the middle of a run.
+    leads_in: bool,
     /// `true` if this group waited for a token of another one that has ended where the recording is cut off: this one
     /// ends, too.
     over: bool,
@@ -184,6 +201,7 @@ impl Replay {
             bytes: vec![],
             group,
             looks: 0,
+            leads_in: false,
             over: false,
             channels,
         };
@@ -200,29 +218,70 @@ impl Replay {
                 return Err(at(io::Error::new(io::ErrorKind::UnexpectedEof, what)));
             }
         }
-        replay.match_channels();
+        let changed = replay.match_channels();
+        if !changed.is_empty() {
+            return Err(ReplayError::OtherTypes { path: path.to_owned(), changed });
+        }
+        replay.leads_in = matches!(replay.source.files, Some((2.., _)));
+        if replay.leads_in {
+            replay.find_first_tokens(path).map_err(at)?;
+        }
         Ok(replay)
     }
 
-    /// Matches the channels of the program with those of the file.
-    fn match_channels(&mut self) {
-        let known = |c: &Channel| {
-            let same = |f: &super::source::FileChannel| {
-                f.name == c.name && c.schema.is_some_and(|s| s.name == f.schema && s.encoding == f.encoding)
-            };
-            self.source.channels.values().any(same)
-        };
-        let mut missing = vec![];
+    /// Finds the first token of each recorded source, which it sends until the recording begins.
+    fn find_first_tokens(&mut self, path: &Path) -> io::Result<()> {
+        let is_wanted =
+            |(channel, token): (&Channel, &Option<Vec<u8>>)| channel.role == Role::Source && token.is_none();
+        let mut source = Source::open(path)?;
+        while self.channels.iter().zip(&self.last).any(is_wanted) {
+            let Some(message) = source.next()? else { break };
+            if let Some(Meaning::Token(channel)) = self.meaning(message.channel) {
+                self.last[channel].get_or_insert(message.data);
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the time of the first recorded reaction, if the program has to be led there: the recording begins in the
+    /// middle of a run.
+    pub(super) fn leads_in(&self) -> Option<Time> {
+        self.next.filter(|_| self.leads_in)
+    }
+
+    /// Ends the reactions before the first recorded one.
+    pub(super) fn end_lead_in(&mut self) {
+        self.leads_in = false;
+        self.reaction = Reaction::new(self.channels.len());
+    }
+
+    /// Matches the channels of the program with those of the file. Returns the inputs whose types have changed.
+    fn match_channels(&mut self) -> Vec<TypeChange> {
+        let (mut missing, mut changed) = (vec![], vec![]);
         let group = self.group.as_ref().map(|group| group.number);
-        for channel in self.channels.iter().filter(|c| group.is_none_or(|group| c.group == group)) {
-            match (channel.role, known(channel)) {
-                (Role::Source, true) => self.recorded[channel.node] = true,
-                (Role::Chosen, true) => {
-                    self.report.compared.push(Compared::new(channel.name));
+        let own = |c: &&Channel| c.role != Role::Port && group.is_none_or(|group| c.group == group);
+        for channel in self.channels.iter().filter(own) {
+            let Some(recorded) = self.source.channels.values().find(|f| f.name == channel.name) else {
+                missing.push(channel);
+                continue;
+            };
+            match channel.schema.map(|schema| compare(recorded, schema, channel.shape)) {
+                Some(TypeMatch::Same) => {}
+                Some(TypeMatch::Undescribed) => self.report.undescribed.push(channel.name),
+                Some(TypeMatch::Changed(change)) if channel.role == Role::Chosen => {
+                    self.report.changed.push(change);
                     continue;
                 }
-                (Role::Port, _) | (_, true) => {}
-                (_, false) => missing.push(channel),
+                Some(TypeMatch::Changed(change)) => changed.push(change),
+                None => {
+                    missing.push(channel);
+                    continue;
+                }
+            }
+            match channel.role {
+                Role::Source => self.recorded[channel.node] = true,
+                Role::Chosen => self.report.compared.push(Compared::new(channel.name)),
+                Role::Mailbox | Role::Event | Role::Port => {}
             }
         }
         for channel in missing {
@@ -236,6 +295,7 @@ impl Replay {
         let names: Vec<&str> = names.collect();
         let gone = self.source.channels.values().filter(|f| !names.contains(&f.name.as_str()));
         self.report.gone = gone.map(|f| f.name.clone()).collect();
+        changed
     }
 
     /// Reads all inputs of the next reaction, up to the beginning of the one after it. Returns the time of the
@@ -279,7 +339,12 @@ impl Replay {
     fn follow(&mut self, number: u32, time: Time) {
         let (last, before) = mem::replace(&mut self.read, (number, time));
         // Older recordings do not number reactions.
-        let ahead = if number == 0 { 1 } else { number.wrapping_sub(last) };
+        let ahead = match (number, self.source.files) {
+            (0, _) => 1,
+            // The first reaction in a later file of the recording.
+            (_, Some((2.., _))) if last == 0 => 1,
+            _ => number.wrapping_sub(last),
+        };
         if time < before || !(1..=u32::MAX / 2).contains(&ahead) {
             self.source.damaged(&format!("the reaction at {time} is out of order after the one at {before}"));
             return;
@@ -355,6 +420,7 @@ impl Replay {
             }
         }
         self.report.cut = self.source.cut.take();
+        self.report.file = self.source.files.map_or(1, |(first, _)| first);
         self.report.dropped = mem::take(&mut self.source.dropped);
         mem::take(&mut self.report)
     }
@@ -432,7 +498,7 @@ impl Replay {
         let token = codec.and_then(|codec| (codec.read)(&bytes));
         match token {
             Some(_) => self.last[channel] = Some(bytes),
-            None => self.report.unreadable += 1,
+            None => *self.report.unreadable.entry(self.channels[channel].name).or_default() += 1,
         }
         token
     }
@@ -440,7 +506,7 @@ impl Replay {
     pub(super) fn take_or_last<T>(&mut self, channel: usize, codec: Option<Codec<T>>) -> Option<T> {
         self.take(channel, codec).or_else(|| {
             let token = codec.and_then(|codec| (codec.read)(self.last[channel].as_ref()?))?;
-            self.report.repeated += 1;
+            self.report.repeated += u64::from(!self.leads_in);
             Some(token)
         })
     }
@@ -455,7 +521,7 @@ impl Replay {
     }
 
     pub(super) fn compare<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
-        let Some(codec) = codec.filter(|_| !self.over) else { return };
+        let Some(codec) = codec.filter(|_| !self.over && !self.leads_in) else { return };
         let mut bytes = mem::take(&mut self.bytes);
         bytes.clear();
         (codec.write)(token, &mut bytes);

@@ -1,6 +1,7 @@
-use super::{Channel, Role};
+use super::{Channel, Role, TypeChange};
 use crate::Time;
 use core::fmt::{self, Display, Formatter};
+use std::collections::BTreeMap;
 
 /// Report on a replay.
 #[derive(Debug, Default)]
@@ -9,6 +10,9 @@ pub struct Report {
     pub reactions: u64,
     /// Time of the last one.
     pub last: Option<Time>,
+    /// Number of the file with which the replay began, in a recording that is divided: before a later one than the
+    /// first there were reactions.
+    pub file: u64,
     /// Number of reactions that are missing between others.
     pub skipped: u64,
     /// Results of comparison, by port.
@@ -21,8 +25,12 @@ pub struct Report {
     pub params: Vec<String>,
     /// Numbers of messages that were lost during the recording, by channel.
     pub dropped: Vec<(String, u64)>,
-    /// Number of recorded tokens that are not values of their types any more.
-    pub unreadable: u64,
+    /// Numbers of recorded tokens that are not values of their types, by channel: bytes are missing or left over.
+    pub unreadable: BTreeMap<&'static str, u64>,
+    /// Ports of the `record` statement that cannot be compared, because their types have changed.
+    pub changed: Vec<TypeChange>,
+    /// Channels for which the recording has no description of the type, as it is of an earlier version.
+    pub undescribed: Vec<&'static str>,
     /// Number of times that a source which always sends had no recorded token, and sent its last one again.
     pub repeated: u64,
     /// Number of times that a thread waited in vain for a token that it had found in the recorded run.
@@ -66,12 +74,12 @@ impl Compared {
 impl Report {
     /// Returns `true` if all tokens that could be compared were the same.
     pub fn is_same(&self) -> bool {
-        self.missed == 0 && self.compared.iter().all(|c| c.different == 0)
+        self.missed == 0 && self.changed.is_empty() && self.compared.iter().all(|c| c.different == 0)
     }
 
     /// Returns `true` if the whole run was repeated: nothing in the recording is missing, lost or unreadable.
     pub fn is_whole(&self) -> bool {
-        self.cut.is_none() && self.skipped == 0 && self.dropped.is_empty() && self.unreadable == 0
+        self.cut.is_none() && self.skipped == 0 && self.dropped.is_empty() && self.unreadable.is_empty()
     }
 
     /// Merges the reports of all groups of a program, of which that of the main group is the first.
@@ -81,7 +89,9 @@ impl Report {
             all.reactions += report.reactions;
             all.last = all.last.max(report.last);
             all.skipped += report.skipped;
-            all.unreadable += report.unreadable;
+            all.unreadable.extend(report.unreadable);
+            all.changed.extend(report.changed);
+            all.undescribed.extend(report.undescribed);
             all.repeated += report.repeated;
             all.missed += report.missed;
             all.compared.extend(report.compared);
@@ -94,6 +104,7 @@ impl Report {
             }
             all.params.extend(report.params);
             if group == 0 {
+                all.file = report.file;
                 all.gone = report.gone;
             }
         }
@@ -106,6 +117,10 @@ impl Report {
 
 impl Display for Report {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.file > 1 {
+            let number = self.file;
+            writeln!(f, "the recording begins with file {number} of a run: the program was in another state than now")?;
+        }
         if let Some(cut) = &self.cut {
             write!(f, "the recording is incomplete: {cut}; only the part before that is compared")?;
             match self.last {
@@ -119,8 +134,21 @@ impl Display for Report {
         for (channel, count) in &self.dropped {
             writeln!(f, "{count} messages of `{channel}` were lost during the recording: later tokens may differ")?;
         }
-        if self.unreadable > 0 {
-            writeln!(f, "{} recorded tokens are no longer values of their types", self.unreadable)?;
+        if !self.undescribed.is_empty() {
+            let names = self.undescribed.join("`, `");
+            writeln!(
+                f,
+                "warning: the recording does not describe the types of `{names}`: if one has changed, nothing tells"
+            )?;
+        }
+        for (channel, count) in &self.unreadable {
+            writeln!(
+                f,
+                "{count} recorded tokens of `{channel}` are not values of its type: bytes are missing or left over"
+            )?;
+        }
+        for change in &self.changed {
+            writeln!(f, "cannot compare: {change}")?;
         }
         if self.missed > 0 {
             writeln!(f, "{} times a thread waited in vain for another one, unlike during the recording", self.missed)?;

@@ -1,11 +1,11 @@
 //! Recording and replay by [`drive`](crate::drive) and the `apex` command.
 
 use super::{
-    Finished, Recorder, Replay, ReplayError, Report, Tap, WhenFull,
+    Finished, RecordOptions, Recorder, Replay, ReplayError, Report, Tap, WhenFull,
     threads::{record_from_threads, recorded_threads, replay_on_threads},
 };
 use crate::{
-    Clock, Observer, Ports, Program, StdErr,
+    Clock, Next, Observer, Ports, Program, StdErr, Time,
     instruments::{Instruments, Measured, Streams},
     run::{drive_ports, pace_of_threads, react},
 };
@@ -20,9 +20,12 @@ const REPLAY: &str = "APEX_REPLAY";
 /// Environment variable with the file to record to.
 const RECORD: &str = "APEX_RECORD";
 
+/// Time between two reactions of a program that has sources without a period.
+const STEP: Duration = Duration::from_millis(1);
+
 /// Request to record a run or to replay a recording.
 pub enum RunMode {
-    Record(PathBuf),
+    Record(PathBuf, RecordOptions),
     Replay(PathBuf),
 }
 
@@ -30,10 +33,13 @@ impl RunMode {
     /// Returns the request in the environment variables, or that of the program's `record` statement.
     pub fn of<P: Program>() -> Option<Self> {
         let file = |name| env::var_os(name).map(PathBuf::from);
-        match (file(REPLAY), file(RECORD), P::RECORD) {
-            (Some(path), ..) => Some(Self::Replay(path)),
-            (None, Some(path), _) => Some(Self::Record(path)),
-            (None, None, stated) => stated.map(|path| Self::Record(path.into())),
+        match (file(REPLAY), file(RECORD)) {
+            (Some(path), _) => Some(Self::Replay(path)),
+            // The options of the statement are those of its file.
+            (None, Some(path)) => Some(Self::Record(path, RecordOptions::default())),
+            (None, None) => {
+                P::RECORD.map(RecordOptions::stated).map(|(path, options)| Self::Record(path.into(), options))
+            }
         }
     }
 }
@@ -47,10 +53,14 @@ pub(crate) fn drive<P: Program, C: Clock>(
     streams: &Streams,
 ) -> u8 {
     match mode {
-        RunMode::Record(path) => record(program, clock, ports, path, streams).unwrap_or_else(|error| {
-            eprintln!("error: cannot record to `{}`: {error}", path.display());
-            2
-        }),
+        RunMode::Record(path, options) => {
+            let options = options.or_environment();
+            let code = options.and_then(|options| record(program, clock, ports, (path, options), streams));
+            code.unwrap_or_else(|error| {
+                eprintln!("error: cannot record to `{}`: {error}", path.display());
+                2
+            })
+        }
         RunMode::Replay(path) => {
             match replay_with(&mut program, path, |group, tap| instruments::<P>(tap, streams, group)) {
                 Ok(report) => {
@@ -75,18 +85,21 @@ fn record<P: Program, C: Clock>(
     mut program: P,
     clock: C,
     ports: Ports<P>,
-    path: &Path,
+    to: (&Path, RecordOptions),
     streams: &Streams,
 ) -> io::Result<u8> {
     crate::end::on_signals();
     let (code, finished) = match pace_of_threads::<P, _>(&clock) {
         Some(pace) => {
             let observer = |group, tap| instruments::<P>(tap, streams, group);
-            record_from_threads(&mut program, pace, ports.0, path, observer)?
+            record_from_threads(&mut program, pace, ports.0, to, observer)?
         }
-        None => record_in_turn(program, clock, ports, path, streams)?,
+        None => record_in_turn(program, clock, ports, to, streams)?,
     };
-    eprintln!("recorded to `{}`", finished.path.display());
+    match finished.files.as_slice() {
+        [first, .., last] => eprintln!("recorded to `{}` to `{}`", first.display(), last.display()),
+        _ => eprintln!("recorded to `{}`", finished.path.display()),
+    }
     for (channel, count) in finished.dropped {
         eprintln!("warning: {count} messages of `{channel}` were lost: the file could not be written fast enough");
     }
@@ -98,11 +111,11 @@ fn record_in_turn<P: Program, C: Clock>(
     program: P,
     clock: C,
     ports: Ports<P>,
-    path: &Path,
+    to: (&Path, RecordOptions),
     streams: &Streams,
 ) -> io::Result<(u8, Finished)> {
     let when_full = if C::SIMULATED { WhenFull::Wait } else { WhenFull::Drop };
-    let tap = Tap::Record(Recorder::to_file::<P>(path, when_full)?);
+    let tap = Tap::Record(Recorder::to_file_with::<P>(to.0, when_full, to.1)?);
     let mut observer = instruments::<P>(tap, streams, 0);
     let code = drive_ports(program, clock, &mut observer, ports);
     let (_, (_, (Some(Tap::Record(recorder)), _))) = observer else { unreachable!("it was made so") };
@@ -142,6 +155,7 @@ pub(super) fn repeat<P: Program, O: Observer>(
     observer: &mut O,
     mut before: impl FnMut(),
 ) -> io::Result<Report> {
+    lead_in(program, observer);
     while let Some(Tap::Replay(replay)) = observer.tap()
         && let Some(now) = replay.next_reaction()?
     {
@@ -149,6 +163,24 @@ pub(super) fn repeat<P: Program, O: Observer>(
         react(program, now, observer, &mut || Duration::ZERO);
     }
     Ok(observer.tap().map(Tap::report).unwrap_or_default())
+}
+
+/// Leads a program to the first recorded reaction, if that is in the middle of a run: its timers go on as they would
+/// have, while its sources send what they send first in the recording.
+fn lead_in<P: Program, O: Observer>(program: &mut P, observer: &mut O) {
+    let Some(Tap::Replay(replay)) = observer.tap() else { return };
+    let Some(end) = replay.leads_in() else { return };
+    let mut now = Time::ZERO;
+    while now < end {
+        now = match react(program, now, observer, &mut || Duration::ZERO).0 {
+            Next::Now => now + STEP,
+            Next::At(time) if time > now => time,
+            Next::At(_) | Next::Input | Next::Exit(_) => break,
+        };
+    }
+    if let Some(Tap::Replay(replay)) = observer.tap() {
+        replay.end_lead_in();
+    }
 }
 
 /// Returns the report if it has at least one reaction.

@@ -1,12 +1,15 @@
 //! Output of recordings: frames pass through rings of bytes to a thread that writes them into an MCAP file.
 
-use super::{Channel, Schema};
-use mcap::{WriteOptions, Writer, records::MessageHeader, records::Metadata};
+use super::{
+    Channel, Schema,
+    file::{Head, Out},
+    limits::{Files, RecordOptions},
+};
 use rtrb::{Consumer, Producer, RingBuffer};
 use std::{
     collections::BTreeMap,
     fs::File,
-    io::{self, BufWriter},
+    io,
     path::{Path, PathBuf},
     sync::{
         Arc,
@@ -24,7 +27,7 @@ const FLUSH: Duration = Duration::from_millis(500);
 /// meanwhile, it sleeps until one does.
 const NAP: Duration = Duration::from_millis(2);
 /// Size of a chunk of the file, in bytes. A chunk is read and indexed as a whole.
-const CHUNK: u64 = 1 << 20;
+const CHUNK: usize = 1 << 20;
 
 /// Beginnings of reactions. The channels that every recording has come before those of the program.
 pub const REACTION: u16 = 0;
@@ -60,8 +63,23 @@ pub const DROPPED: &str = "apex/dropped";
 /// Name of the metadata on the recorded program.
 pub const PROGRAM: &str = "apex/program";
 
+/// Name of the metadata at the end of a file of a recording that goes on in another one.
+pub const GOES_ON: &str = "apex/next";
+/// Key of the name of that file.
+pub const NEXT: &str = "file";
+/// Key of the number of a file in a recording that is divided, in the metadata on the program.
+pub const NUMBER: &str = "file";
+
 /// Key of the thread groups that ran in parallel, in the metadata on the program.
 pub const THREADS: &str = "threads";
+
+/// Encoding of the schemas of types that are not messages.
+const SHAPE: &str = "apex";
+
+/// Number in the header of a frame with the numbers of lost messages.
+const LOST: u16 = u16::MAX;
+/// Number in the header of a frame after which the next file begins.
+const FILE: u16 = u16::MAX - 1;
 
 /// Length of the header of each frame, in bytes: channel, call, time, length.
 const HEADER: usize = 2 + 4 + 8 + 4;
@@ -94,7 +112,7 @@ impl Frame {
 pub struct Sink {
     shared: Arc<Shared>,
     /// The thread, until it has ended.
-    thread: Option<JoinHandle<io::Result<()>>>,
+    thread: Option<JoinHandle<io::Result<Vec<PathBuf>>>>,
 }
 
 /// State that the sending ends and the writing thread share.
@@ -104,6 +122,8 @@ struct Shared {
     sleeps: AtomicBool,
     /// Numbers of lost messages, by channel.
     dropped: Box<[AtomicU64]>,
+    /// Number of the file that shall be written. Senders begin it between two reactions.
+    file: AtomicU64,
 }
 
 /// The sending end of a ring.
@@ -118,25 +138,40 @@ pub struct Near {
 impl Sink {
     /// Creates the file, and starts the thread that writes frames from `rings` rings of `room` bytes. `about` is the
     /// metadata on the program. Frames in the first ring are written before those that other rings get after
-    /// [`settle`](Near::settle).
+    /// [`settle`](Near::settle). Also returns the path of the file.
     pub fn new(
-        path: PathBuf,
+        path: &Path,
+        options: RecordOptions,
         about: BTreeMap<String, String>,
         channels: &[Channel],
         rings: usize,
         room: usize,
-    ) -> io::Result<(Self, Vec<Near>)> {
+    ) -> io::Result<(Self, Vec<Near>, PathBuf)> {
+        // What waits in the rings goes into the present file, which must not exceed the limit.
+        let room = options.check()?.limit.map_or(room, |limit| room.min((limit / 16) as usize));
         let (near, far): (Vec<_>, Vec<_>) = (0..rings).map(|_| RingBuffer::new(room)).unzip();
-        let file = File::create_new(&path)?;
-        let writer = open(file.try_clone()?, about, channels).map_err(as_io)?;
+        let files = options.divides().then(|| Files::new(path, options));
+        let path = files.as_ref().map_or_else(|| free(path), Files::path);
+        let beginning = Beginning { about, channels: rows(channels), compress: options.compress };
+        let (file, out) = beginning.file(&path, files.as_ref().map(Files::number))?;
         let dropped = (0..FIRST + channels.len()).map(|_| AtomicU64::new(0)).collect();
-        let shared = Arc::new(Shared { over: AtomicBool::new(false), sleeps: AtomicBool::new(false), dropped });
-        let far = Far { rings: far, writer, file, shared: Arc::clone(&shared), frame: vec![], path };
+        let (over, sleeps) = (AtomicBool::new(false), AtomicBool::new(false));
+        let shared = Arc::new(Shared { over, sleeps, dropped, file: AtomicU64::new(1) });
+        let far = Far {
+            rings: far,
+            out: Some(out),
+            file,
+            files,
+            beginning,
+            shared: Arc::clone(&shared),
+            frame: vec![],
+            path: path.clone(),
+        };
         let thread = thread::Builder::new().name("apex-record".to_owned()).spawn(move || far.run())?;
         let near =
             near.into_iter().map(|ring| Near { ring, shared: Arc::clone(&shared), far: thread.thread().clone(), room });
         let near = near.collect();
-        Ok((Self { shared, thread: Some(thread) }, near))
+        Ok((Self { shared, thread: Some(thread) }, near, path))
     }
 
     /// Returns the numbers of lost messages, by channel.
@@ -145,12 +180,12 @@ impl Sink {
     }
 
     /// Writes all remaining frames and the numbers of lost messages, and ends the file. `near` is any of the sending
-    /// ends; the others are not used any more.
-    pub fn finish(mut self, near: &mut Near, dropped: &[(String, u64)]) -> io::Result<()> {
+    /// ends; the others are not used any more. Returns the paths of all files.
+    pub fn finish(mut self, near: &mut Near, dropped: &[(String, u64)]) -> io::Result<Vec<PathBuf>> {
         let fields: BTreeMap<String, String> = dropped.iter().map(|(name, n)| (name.clone(), n.to_string())).collect();
         if let Ok(text) = postcard::to_allocvec(&fields) {
             let mut frame = Frame::default();
-            frame.begin(u16::MAX, 0, 0).extend_from_slice(&text);
+            frame.begin(LOST, 0, 0).extend_from_slice(&text);
             while !near.send(&mut frame) && near.may_fit(&frame) {
                 thread::sleep(NAP);
             }
@@ -159,8 +194,8 @@ impl Sink {
     }
 
     /// Ends the file after all frames that were sent.
-    fn end(&mut self) -> io::Result<()> {
-        let Some(thread) = self.thread.take() else { return Ok(()) };
+    fn end(&mut self) -> io::Result<Vec<PathBuf>> {
+        let Some(thread) = self.thread.take() else { return Ok(vec![]) };
         self.shared.over.store(true, Ordering::Release);
         self.shared.stir(thread.thread());
         thread.join().unwrap_or_else(|_| Err(io::Error::other("the thread that writes it panicked")))
@@ -199,6 +234,23 @@ impl Near {
         frame.0.len() <= self.room && !self.ring.is_abandoned()
     }
 
+    /// Number of the file that shall be written.
+    pub fn file(&self) -> u64 {
+        self.shared.file.load(Ordering::Relaxed)
+    }
+
+    /// Requests that the file after `number` is written.
+    pub fn end_file(&self, number: u64) {
+        self.shared.file.fetch_max(number + 1, Ordering::Relaxed);
+    }
+
+    /// Lets all later messages go into the file `number`. Returns `false` if there is no room to say so.
+    pub fn begin_file(&mut self, number: u64) -> bool {
+        let mut frame = Frame::default();
+        frame.begin(FILE, 0, number);
+        self.send(&mut frame)
+    }
+
     /// Counts a lost message of a channel.
     pub fn lose(&self, channel: usize) {
         self.shared.dropped[channel].fetch_add(1, Ordering::Relaxed);
@@ -212,47 +264,107 @@ impl Near {
     }
 }
 
-type Out = Writer<BufWriter<File>>;
+/// A channel in a file: name, encoding, and the name, encoding and text of its schema.
+type Row = (u16, &'static str, &'static str, (&'static str, &'static str, String));
 
-fn open(file: File, about: BTreeMap<String, String>, channels: &[Channel]) -> mcap::McapResult<Out> {
-    let options = WriteOptions::new()
-        .compression(None)
-        .chunk_size(Some(CHUNK))
-        // A chunk is written as a whole: an incomplete one could not be read.
-        .disable_seeking(true)
-        .profile("ros2")
-        .library(concat!("apex ", env!("CARGO_PKG_VERSION")));
-    let mut writer = options.create(BufWriter::new(file))?;
-    writer.write_metadata(&Metadata { name: PROGRAM.to_owned(), metadata: about })?;
-    let own = OWN.iter().map(|(name, schema)| (*name, Some(*schema)));
-    for (index, (name, schema)) in own.chain(channels.iter().map(|c| (c.name, c.schema))).enumerate() {
-        let Some(schema) = schema else { continue };
-        let encoding = if schema.encoding == "cdr" { "ros2msg" } else { "" };
-        let id = writer.add_schema(schema.name, encoding, schema.complete_definition().as_bytes())?;
-        writer.add_channel_with_id(index as u16, id, name, schema.encoding, &BTreeMap::new())?;
+fn rows(channels: &[Channel]) -> Vec<Row> {
+    let own = OWN.iter().map(|(name, schema)| Some((*name, *schema, schema.complete_definition())));
+    let others = channels.iter().map(|c| c.schema.map(|schema| (c.name, schema, (c.shape)())));
+    let all = own.chain(others).enumerate().filter_map(|(index, row)| Some((index as u16, row?)));
+    all.map(|(id, (name, schema, shape))| {
+        let encoding = if schema.encoding == "cdr" { "ros2msg" } else { SHAPE };
+        (id, name, schema.encoding, (schema.name, encoding, shape))
+    })
+    .collect()
+}
+
+/// The part that all files of a recording begin with.
+struct Beginning {
+    about: BTreeMap<String, String>,
+    channels: Vec<Row>,
+    compress: bool,
+}
+
+impl Beginning {
+    /// Creates a file, which has a number in a recording that is divided.
+    fn file(&self, path: &Path, number: Option<u64>) -> io::Result<(File, Out)> {
+        let file = File::create_new(path)?;
+        let mut out = Out::new(file.try_clone()?, self.compress)?;
+        let mut about = self.about.clone();
+        about.extend(number.map(|number| (NUMBER.to_owned(), number.to_string())));
+        out.metadata(PROGRAM, &about)?;
+        for (id, name, encoding, (schema, schema_encoding, text)) in &self.channels {
+            out.channel(*id, name, encoding, (schema, schema_encoding, text))?;
+        }
+        out.flush()?;
+        Ok((file, out))
     }
-    writer.flush()?;
-    Ok(writer)
 }
 
 /// The receiving ends of the rings, on the thread that writes.
 struct Far {
     rings: Vec<Consumer<u8>>,
-    writer: Out,
+    /// The file that is being written; `None` after an error.
+    out: Option<Out>,
     file: File,
+    /// The files of a recording that is divided.
+    files: Option<Files>,
+    beginning: Beginning,
     shared: Arc<Shared>,
     frame: Vec<u8>,
     path: PathBuf,
 }
 
 impl Far {
-    fn run(mut self) -> io::Result<()> {
-        let result = self.write_all().and_then(|()| self.writer.finish().map(drop).map_err(as_io));
+    fn run(mut self) -> io::Result<Vec<PathBuf>> {
+        let result = self.write_all().and_then(|()| self.end_chunk()).and_then(|()| self.end_file());
         if let Err(error) = &result {
             eprintln!("error: cannot write `{}` any further: {error}", self.path.display());
             // The program continues. Its messages are dropped from now on, because the rings are abandoned.
         }
-        result
+        result.map(|()| self.files.as_ref().map_or_else(|| vec![self.path.clone()], Files::paths))
+    }
+
+    /// Ends the file with its index.
+    fn end_file(&mut self) -> io::Result<()> {
+        self.out.take().map_or(Ok(()), Out::finish)
+    }
+
+    fn out(&mut self) -> io::Result<&mut Out> {
+        self.out.as_mut().ok_or_else(|| io::Error::other("it has ended"))
+    }
+
+    /// Ends the chunk. Of a recording that is divided, old files make room for it before.
+    fn end_chunk(&mut self) -> io::Result<()> {
+        if let (Some(files), Some(out)) = (&mut self.files, &self.out) {
+            files.make_room(out.size() + out.rest(), out.last())?;
+        }
+        self.out()?.end_chunk()?;
+        if let (Some(files), Some(out)) = (&self.files, &self.out)
+            && files.is_full(out.size())
+        {
+            self.shared.file.fetch_max(files.number() + 1, Ordering::Relaxed);
+        }
+        Ok(())
+    }
+
+    /// Ends the file, and goes on to the next one, if it is the one before `number`. Several threads send messages: the
+    /// first one of them begins the file for all.
+    fn begin_file(&mut self, number: u64) -> io::Result<()> {
+        if self.files.as_ref().is_none_or(|files| files.number() + 1 != number) {
+            return Ok(());
+        }
+        self.end_chunk()?;
+        let (Some(files), Some(out)) = (&mut self.files, self.out.as_mut()) else { return Ok(()) };
+        let next = files.next();
+        let name = next.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        out.metadata(GOES_ON, &BTreeMap::from([(NEXT.to_owned(), name)]))?;
+        let (size, last) = (out.size() + out.rest(), out.last());
+        files.advance(size, last);
+        self.end_file()?;
+        let (file, out) = self.beginning.file(&next, Some(number))?;
+        (self.file, self.out, self.path) = (file, Some(out), next);
+        Ok(())
     }
 
     fn write_all(&mut self) -> io::Result<()> {
@@ -263,7 +375,8 @@ impl Far {
             let wrote = self.write_waiting(flushed + FLUSH)?;
             dirty |= wrote;
             if dirty && flushed.elapsed() >= FLUSH {
-                self.writer.flush().map_err(as_io)?;
+                self.end_chunk()?;
+                self.out()?.flush()?;
                 self.file.sync_data()?;
                 (flushed, dirty) = (Instant::now(), false);
             }
@@ -322,32 +435,40 @@ impl Far {
         let length = u32::from_le_bytes([l0, l1, l2, l3]) as usize;
         self.frame.resize(length, 0);
         let _ = ring.pop_entire_slice(&mut self.frame);
-        let channel_id = u16::from_le_bytes([c0, c1]);
-        if channel_id == u16::MAX {
-            return self.write_dropped().map(|()| true);
-        }
         let time = u64::from_le_bytes([t0, t1, t2, t3, t4, t5, t6, t7]);
-        let sequence = u32::from_le_bytes([s0, s1, s2, s3]);
-        let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
-        self.writer.write_to_known_channel(&header, &self.frame).map_err(as_io)?;
+        match u16::from_le_bytes([c0, c1]) {
+            LOST => self.write_dropped()?,
+            FILE => self.begin_file(time)?,
+            channel => {
+                let sequence = u32::from_le_bytes([s0, s1, s2, s3]);
+                self.write_message(&Head { channel, sequence, time })?;
+            }
+        }
         Ok(true)
+    }
+
+    fn write_message(&mut self, head: &Head) -> io::Result<()> {
+        let frame = std::mem::take(&mut self.frame);
+        let out = self.out()?;
+        out.message(head, &frame);
+        let is_full = out.chunk_len() >= CHUNK;
+        self.frame = frame;
+        if is_full { self.end_chunk() } else { Ok(()) }
     }
 
     fn write_dropped(&mut self) -> io::Result<()> {
         let metadata = postcard::from_bytes(&self.frame).unwrap_or_default();
-        self.writer.write_metadata(&Metadata { name: DROPPED.to_owned(), metadata }).map_err(as_io)
-    }
-}
-
-fn as_io(error: mcap::McapError) -> io::Error {
-    match error {
-        mcap::McapError::Io(error) => error,
-        other => io::Error::other(other),
+        self.out()?.metadata(DROPPED, &metadata)
     }
 }
 
 /// Returns `path`, or the first of `run-2.mcap`, `run-3.mcap`, … that does not exist: nothing is overwritten.
 pub fn free(path: &Path) -> PathBuf {
+    first_free(path, |path| path.symlink_metadata().is_ok())
+}
+
+/// Returns `path`, or the first of `run-2.mcap`, `run-3.mcap`, … that is not `taken`.
+pub fn first_free(path: &Path, taken: impl Fn(&Path) -> bool) -> PathBuf {
     let (stem, end) = (path.file_stem().unwrap_or_default(), path.extension().unwrap_or_default());
     let numbered = |n: u32| {
         let mut name = stem.to_owned();
@@ -360,6 +481,5 @@ pub fn free(path: &Path) -> PathBuf {
         }
         file
     };
-    let taken = |path: &PathBuf| path.symlink_metadata().is_ok();
     std::iter::once(path.to_owned()).chain((2..).map(numbered)).find(|p| !taken(p)).unwrap_or_else(|| path.to_owned())
 }

@@ -1,9 +1,14 @@
 //! Reader of an MCAP file from its beginning, one message after the other. It also reads a file that was cut off in the
-//! middle of a chunk, or has wrong bytes, up to that place. Checksums and the statistics at the end of the file are
-//! compared with what was read, so that a file without an error is complete and unchanged.
+//! middle of a chunk, or has wrong bytes, up to that place, and goes on in the next file of a divided recording.
+//! Checksums and the statistics at the end of the file are compared with what was read, so that a file without an error
+//! is complete and unchanged.
 
-use super::sink::{DROPPED, PROGRAM, THREADS};
+use super::{
+    file::LZ4,
+    sink::{DROPPED, GOES_ON, NEXT, NUMBER, PROGRAM, THREADS},
+};
 use crc32fast::Hasher;
+use lz4_flex::frame::FrameDecoder;
 use mcap::{
     MAGIC, McapError, parse_record,
     records::{Record, Statistics, op},
@@ -13,7 +18,7 @@ use std::{
     env,
     fs::File,
     io::{self, BufReader, Read},
-    path::Path,
+    path::{Path, PathBuf},
     thread,
     time::Duration,
 };
@@ -52,6 +57,9 @@ pub struct FileChannel {
     pub name: String,
     /// Name of its schema.
     pub schema: String,
+    /// Shape of its tokens: the definition of their message, or the description of their type; `None` if the recording
+    /// has none.
+    pub shape: Option<String>,
     /// Encoding of its messages.
     pub encoding: String,
 }
@@ -71,17 +79,23 @@ pub struct FileMessage {
 
 /// A file that is being read.
 pub struct Source {
+    path: PathBuf,
     file: Summed,
     /// Number of chunks and of messages in each channel that were read.
     chunks: u32,
     counts: BTreeMap<u16, u64>,
     /// Records of the current chunk, with the position in them.
     chunk: io::Cursor<Vec<u8>>,
-    schemas: BTreeMap<u16, String>,
+    /// Name and shape of each schema.
+    schemas: BTreeMap<u16, (String, Option<String>)>,
     /// Channels that were read, by their number.
     pub channels: BTreeMap<u16, FileChannel>,
     /// Name of the recorded program, once it was read.
     pub program: Option<String>,
+    /// Number of the first file that was read in a recording that is divided, and of the present one.
+    pub files: Option<(u64, u64)>,
+    /// Name of the file in which the recording goes on.
+    next_file: Option<String>,
     /// Names of the thread groups that ran in parallel, if any did.
     pub threads: Option<String>,
     /// Numbers of lost messages by channel, from the end of the file.
@@ -141,6 +155,22 @@ struct Summed {
     sum: Hasher,
 }
 
+impl Summed {
+    fn open(path: &Path) -> io::Result<Self> {
+        if path.is_dir() {
+            return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
+        }
+        let mut file = Self { file: BufReader::new(Positioned::open(path)?), sum: Hasher::new() };
+        let mut magic = vec![];
+        (&mut file).take(MAGIC.len() as u64).read_to_end(&mut magic)?;
+        if !MAGIC.starts_with(&magic) {
+            let what = "it is not an MCAP file, or its beginning is damaged";
+            return Err(io::Error::new(io::ErrorKind::InvalidData, what));
+        }
+        Ok(file)
+    }
+}
+
 impl Read for Summed {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
         let count = self.file.read(into)?;
@@ -165,25 +195,17 @@ impl Source {
     /// # Errors
     /// The file cannot be read, or is not an MCAP file.
     pub fn open(path: &Path) -> io::Result<Self> {
-        if path.is_dir() {
-            return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
-        }
-        let file = BufReader::new(Positioned::open(path)?);
-        let mut file = Summed { file, sum: Hasher::new() };
-        let mut magic = vec![];
-        (&mut file).take(MAGIC.len() as u64).read_to_end(&mut magic)?;
-        if !MAGIC.starts_with(&magic) {
-            let what = "it is not an MCAP file, or its beginning is damaged";
-            return Err(io::Error::new(io::ErrorKind::InvalidData, what));
-        }
         Ok(Self {
-            file,
+            path: path.to_owned(),
+            file: Summed::open(path)?,
             chunks: 0,
             counts: BTreeMap::new(),
             chunk: io::Cursor::default(),
             schemas: BTreeMap::new(),
             channels: BTreeMap::new(),
             program: None,
+            files: None,
+            next_file: None,
             threads: None,
             dropped: vec![],
             cut: None,
@@ -211,6 +233,37 @@ impl Source {
     /// Reports that the rest of the file is damaged.
     pub fn damaged(&mut self, what: &str) {
         self.stop(&format!("it is damaged: {what}"));
+    }
+
+    /// Reads the metadata on the program, at the beginning of each file.
+    fn begin_program(&mut self, about: &BTreeMap<String, String>) -> Result<(), Stop> {
+        let name = about.get("name").cloned();
+        let number: Option<u64> = about.get(NUMBER).and_then(|number| number.parse().ok());
+        if let Some((_, before)) = self.files
+            && (name != self.program || number != Some(before + 1))
+        {
+            return Err(Stop::Damage(format!("`{}` is not the next file of the recording", self.path.display())));
+        }
+        self.files = number.map(|number| (self.files.map_or(number, |(first, _)| first), number));
+        self.threads = about.get(THREADS).cloned();
+        self.program = name;
+        Ok(())
+    }
+
+    /// Goes on in the next file of a recording that is divided.
+    fn go_on(&mut self, name: &str) {
+        // A name with a folder in it is not one of a recording.
+        let path = self.path.with_file_name(Path::new(name).file_name().unwrap_or_default());
+        match Summed::open(&path) {
+            Ok(file) => {
+                (self.path, self.file, self.over) = (path, file, false);
+                self.chunks = 0;
+                self.counts.clear();
+                self.schemas.clear();
+                self.chunk = io::Cursor::default();
+            }
+            Err(error) => self.stop(&format!("it goes on in `{}`, which cannot be read: {error}", path.display())),
+        }
     }
 
     fn stop(&mut self, why: &str) {
@@ -301,36 +354,48 @@ impl Source {
         let (head, rest) = body.split_at_checked(24).ok_or(Stop::Cut)?;
         let (sum, rest) = rest.split_first_chunk::<4>().ok_or(Stop::Cut)?;
         let (name, rest) = rest.split_first_chunk::<4>().ok_or(Stop::Cut)?;
-        if u32::from_le_bytes(*name) != 0 {
-            return Err(Stop::Damage("or it is compressed, which is not supported".to_owned()));
-        }
+        let name_length = u32::from_le_bytes(*name) as usize;
+        let (name, rest) = rest.split_at_checked(name_length).ok_or(Stop::Cut)?;
+        let is_compressed = match name {
+            [] => false,
+            name if name == LZ4.as_bytes() => true,
+            _ => return Err(Stop::Damage("or its compression is not that of `apex`".to_owned())),
+        };
         let (size, records) = rest.split_first_chunk::<8>().ok_or(Stop::Cut)?;
         let (is_whole, size_here) = (body.len() as u64 == length, u64::from_le_bytes(*size));
-        if head[16..] != *size || size_here.checked_add(CHUNK_HEAD) != Some(length) {
+        let (plain_size, head_size) = (number(&head[16..]), CHUNK_HEAD + name_length as u64);
+        if !is_compressed && plain_size != size_here || size_here.checked_add(head_size) != Some(length) {
             return Err(Stop::Damage("a chunk has two different lengths".to_owned()));
         }
+        let records = if is_compressed { plain(records, plain_size, is_whole)? } else { records.to_vec() };
         let sum = u32::from_le_bytes(*sum);
-        if is_whole && sum != 0 && crc32fast::hash(records) != sum {
+        if is_whole && sum != 0 && crc32fast::hash(&records) != sum {
             return Err(Stop::Damage("the checksum of a chunk is wrong".to_owned()));
         }
         self.chunks += 1;
-        self.chunk = io::Cursor::new(records.to_vec());
+        self.chunk = io::Cursor::new(records);
         if self.chunk.get_ref().is_empty() && !is_whole { Err(Stop::Cut) } else { Ok(()) }
     }
 
     fn record(&mut self, record: Record<'static>) -> Result<Option<FileMessage>, Stop> {
         match record {
-            Record::Schema { header, .. } => {
-                self.schemas.insert(header.id, header.name);
+            Record::Schema { header, data } => {
+                // Earlier versions wrote nothing for types that are not messages.
+                let text = || String::from_utf8_lossy(&data).into_owned();
+                let shape = (!header.encoding.is_empty()).then(text);
+                self.schemas.insert(header.id, (header.name, shape));
             }
             Record::Channel(channel) => {
-                let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
-                let found = FileChannel { name: channel.topic, schema, encoding: channel.message_encoding };
-                self.channels.insert(channel.id, found);
+                let (schema, shape) = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+                let found = FileChannel { name: channel.topic, schema, shape, encoding: channel.message_encoding };
+                let before = self.channels.insert(channel.id, found);
+                if before.is_some_and(|before| Some(&before) != self.channels.get(&channel.id)) {
+                    return Err(Stop::Damage("its channels are not those of the file before".to_owned()));
+                }
             }
-            Record::Metadata(metadata) if metadata.name == PROGRAM => {
-                self.program = metadata.metadata.get("name").cloned();
-                self.threads = metadata.metadata.get(THREADS).cloned();
+            Record::Metadata(metadata) if metadata.name == PROGRAM => self.begin_program(&metadata.metadata)?,
+            Record::Metadata(metadata) if metadata.name == GOES_ON => {
+                self.next_file = metadata.metadata.get(NEXT).cloned();
             }
             Record::Metadata(metadata) if metadata.name == DROPPED => {
                 let counts = metadata.metadata.into_iter();
@@ -351,11 +416,33 @@ impl Source {
             Record::DataEnd(_) => {
                 self.read_summary()?;
                 self.over = true;
+                if let Some(name) = self.next_file.take() {
+                    self.go_on(&name);
+                }
             }
             _ => {}
         }
         Ok(None)
     }
+}
+
+/// Returns the records of a compressed chunk, of `size` bytes; of one that is cut off, those that can be read.
+fn plain(compressed: &[u8], size: u64, is_whole: bool) -> Result<Vec<u8>, Stop> {
+    let (mut records, damage) = (vec![], |what: &str| Err(Stop::Damage(format!("a chunk {what}"))));
+    if size > LARGEST {
+        return damage(&format!("claims a length of {size} bytes"));
+    }
+    let read = FrameDecoder::new(compressed).take(size + 1).read_to_end(&mut records);
+    match read {
+        Ok(_) if records.len() as u64 == size => Ok(records),
+        _ if !is_whole && records.len() as u64 <= size => Ok(records),
+        _ => damage("cannot be decompressed"),
+    }
+}
+
+/// A number in a file.
+fn number(bytes: &[u8]) -> u64 {
+    bytes.try_into().map_or(0, u64::from_le_bytes)
 }
 
 /// Checks that a record of this kind may be at this place.

@@ -5,7 +5,8 @@
 //! check found something waits until it is there.
 
 use super::{
-    Finished, Recorder, Replay, ReplayError, Report, Tap, recorder, run, source::Source, waits::ReplayBarrier,
+    Finished, RecordOptions, Recorder, Replay, ReplayError, Report, Tap, recorder, run, source::Source,
+    waits::ReplayBarrier,
 };
 use crate::{
     CellSender, Observer, Ports, Program,
@@ -31,7 +32,8 @@ pub fn record_on_threads<P: Program, O: Observer + Send>(
     path: &Path,
     observer: impl Fn(usize) -> O,
 ) -> io::Result<(u8, Finished)> {
-    record_from_threads(program, pace, Ports::<P>::new().0, path, |group, tap| (observer(group), tap))
+    let (ways, options) = (Ports::<P>::new().0, RecordOptions::default());
+    record_from_threads(program, pace, ways, (path, options), |group, tap| (observer(group), tap))
 }
 
 /// Records a program as [`record_on_threads`] does, with ports for other threads.
@@ -39,13 +41,13 @@ pub(super) fn record_from_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     pace: Pace,
     ways: Ways<P::Inputs, P::Events>,
-    path: &Path,
+    (path, options): (&Path, RecordOptions),
     observer: impl Fn(usize, Tap) -> O,
 ) -> io::Result<(u8, Finished)> {
     // A single group is recorded like a program without groups; it may have settings that need a thread.
     let several = P::INFO.groups.len() > 1;
     let groups = if several { const { P::INFO.groups } } else { &[] };
-    let recorder = Recorder::of_threads::<P>(path, groups)?;
+    let recorder = Recorder::of_threads::<P>(path, groups, options)?;
     let tap = |group| Tap::Record(recorder.beside(several.then_some(group)));
     let code = drive_from_threads(program, pace, ways, |group| observer(group, tap(group)));
     Ok((code, recorder.finish()?))

@@ -1,6 +1,10 @@
 //! Tokens of one channel of a recording, for tests.
 
-use super::{Codec, source::Source};
+use super::{
+    Codec,
+    source::{FileChannel, Source},
+    types::{TypeMatch, compare},
+};
 use core::time::Duration;
 use std::{
     env,
@@ -21,16 +25,23 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
         codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
     let cannot_read = |error| format!("cannot read `{}`: {error}", path.display());
     let mut source = Source::open(path).map_err(cannot_read)?;
-    let mut tokens = vec![];
+    let (mut tokens, mut compared, mut start) = (vec![], None, 0);
     while let Some(message) = source.next().map_err(cannot_read)? {
+        // A later file of a recording that is divided begins in the middle of its run.
+        if start == 0 && matches!(source.files, Some((2.., _))) {
+            start = message.time;
+        }
         let Some(found) = source.channels.get(&message.channel).filter(|c| c.name == channel) else { continue };
-        if found.schema != codec.schema.name || found.encoding != codec.schema.encoding {
-            let (is, wanted) = (&found.schema, codec.schema.name);
-            return Err(format!("`{channel}` in `{}` is of type `{is}`, not `{wanted}`", path.display()));
+        if compared != Some(message.channel) {
+            check(path, found, codec)?;
+            compared = Some(message.channel);
         }
         let token = (codec.read)(&message.data);
-        let token = token.ok_or_else(|| format!("a token of `{channel}` in `{}` is damaged", path.display()))?;
-        tokens.push((Duration::from_nanos(message.time), token));
+        let token = token.ok_or_else(|| {
+            let (ty, file) = (codec.schema.name, path.display());
+            format!("a token of `{channel}` in `{file}` is not one of `{ty}`: bytes are missing or left over")
+        })?;
+        tokens.push((Duration::from_nanos(message.time.saturating_sub(start)), token));
     }
     if let Some(cut) = source.cut {
         return Err(format!("`{}` is incomplete: {cut}", path.display()));
@@ -40,6 +51,21 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
         return Err(format!("`{}` has no tokens of `{channel}`; it has {}", path.display(), names.join(", ")));
     }
     Ok(tokens)
+}
+
+/// Checks that the recorded tokens are of the type of the port.
+fn check<T>(path: &Path, channel: &FileChannel, codec: Codec<T>) -> Result<(), String> {
+    match compare(channel, codec.schema, codec.shape) {
+        TypeMatch::Same => {}
+        TypeMatch::Undescribed => {
+            let (name, file) = (&channel.name, path.display());
+            eprintln!("warning: `{file}` does not describe the type of `{name}`: if it has changed, nothing tells");
+        }
+        TypeMatch::Changed(change) => {
+            return Err(format!("`{}` cannot be fed: {change}\n  record it again", path.display()));
+        }
+    }
+    Ok(())
 }
 
 /// Returns the path of `file`. Tests run in the folder of their package, but paths of source files begin at the

@@ -262,13 +262,22 @@ impl<'a> Builder<'a> {
         Some(ThreadItem { name: name?, settings })
     }
 
-    fn record(&self, pair: Pair<'_, Rule>) -> Option<RecordItem> {
+    fn record(&mut self, pair: Pair<'_, Rule>) -> Option<RecordItem> {
         let mut parts = pair.into_inner();
         let (word, file) = (parts.next()?, parts.next()?);
         let span = self.span(&word).to(self.span(&file));
-        let ports = parts.filter(|p| p.as_rule() == Rule::recorded).filter_map(|p| p.into_inner().next());
-        let ports = ports.map(|port| self.port_ref(port)).collect();
-        Some(RecordItem { file: expr::unescape(file.as_str()), ports, span })
+        let (mut options, mut ports) = (vec![], vec![]);
+        for part in parts {
+            match part.as_rule() {
+                Rule::args => {
+                    let args = part.into_inner().filter(|p| p.as_rule() == Rule::arg);
+                    options.extend(args.filter_map(|arg| self.arg(arg)));
+                }
+                Rule::recorded => ports.extend(part.into_inner().next().map(|port| self.port_ref(port))),
+                _ => {}
+            }
+        }
+        Some(RecordItem { file: expr::unescape(file.as_str()), options, ports, span })
     }
 
     /// A type with the unit behind it.

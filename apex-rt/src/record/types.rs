@@ -1,0 +1,61 @@
+//! Comparison of the types in a recording with those of the program.
+
+use super::{Schema, shape, source::FileChannel};
+use core::fmt::{self, Display, Formatter};
+
+/// A channel whose tokens are of another type than the recorded ones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TypeChange {
+    /// Name of the channel: that of the port and its node.
+    pub channel: String,
+    /// Name of the recorded type.
+    pub recorded: String,
+    /// Name of the type that the program has.
+    pub present: String,
+    /// First lines of the descriptions of both types that differ; `None` if the recording has no description.
+    pub difference: Option<(String, String)>,
+}
+
+/// Result of a comparison.
+pub enum TypeMatch {
+    /// The types are the same.
+    Same,
+    /// The types have the same name, but the recording does not describe its type.
+    Undescribed,
+    /// The types differ.
+    Changed(TypeChange),
+}
+
+/// Compares the type of a recorded channel with the present one. A type that has only moved to another module is the
+/// same.
+pub fn compare(recorded: &FileChannel, present: Schema, shape: fn() -> String) -> TypeMatch {
+    let change = |difference| {
+        TypeMatch::Changed(TypeChange {
+            channel: recorded.name.clone(),
+            recorded: recorded.schema.clone(),
+            present: present.name.to_owned(),
+            difference,
+        })
+    };
+    let is_message = present.encoding == "cdr";
+    if recorded.encoding != present.encoding || is_message && recorded.schema != present.name {
+        return change(None);
+    }
+    match &recorded.shape {
+        Some(recorded) => match shape::difference(recorded, &shape()) {
+            Some(difference) => change(Some(difference)),
+            None => TypeMatch::Same,
+        },
+        None if recorded.schema == present.name => TypeMatch::Undescribed,
+        None => change(None),
+    }
+}
+
+impl Display for TypeChange {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { channel, recorded, present, difference } = self;
+        write!(f, "the type of `{channel}` was `{recorded}` and is `{present}`")?;
+        let Some((was, is)) = difference else { return Ok(()) };
+        write!(f, "; the first difference:\n    recorded: {was}\n    now:      {is}")
+    }
+}
