@@ -82,7 +82,19 @@ impl<P: Program> Drop for Driven<P> {
 pub(crate) fn exit(code: i32, hanging: usize) -> ! {
     ASKED.set();
     have_ended(hanging, LIMIT);
+    let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+    unfinished.drain(..).for_each(|finish| finish());
     std::process::exit(code)
+}
+
+/// Functions that finish what a process must not leave unfinished.
+static UNFINISHED: Mutex<Vec<Box<dyn Fn() + Send>>> = Mutex::new(vec![]);
+
+/// Lets [`exit`] call `finish`, which has to be bounded in time, before the process ends: whatever the function refers
+/// to may have been finished before.
+#[cfg(feature = "record")]
+pub(crate) fn finish_at_exit(finish: impl Fn() + Send + 'static) {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner).push(Box::new(finish));
 }
 
 /// Waits until all thread groups but `hanging` ones have ended. Returns `false` if they did not within `limit`.

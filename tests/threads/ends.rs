@@ -182,6 +182,23 @@ fn all_groups_but_a_hanging_one_stop() {
     assert!(begun.elapsed() < Duration::from_secs(30), "it does not wait for what hangs");
 }
 
+#[test]
+fn the_recording_of_a_program_that_hangs_is_finished() {
+    for (program, signal) in [("Hangs", None), ("HangsFar", Some("TERM"))] {
+        let path = std::env::temp_dir().join(format!("apex-ends-{program}-{}.mcap", std::process::id()));
+        let file = path.to_str().expect("UTF-8");
+        let (mut child, mut lines) = again("ends::other_process", &[(PROGRAM, program), ("APEX_RECORD", file)]);
+        read_until(&mut lines, |line| line == "what hangs drives");
+        if let Some(signal) = signal {
+            send(&child, signal);
+        }
+        let status = child.0.wait().expect("it ends");
+        let bytes = std::fs::read(&path).expect("it was recorded");
+        let _ = std::fs::remove_file(&path);
+        assert!(!status.success() && bytes.ends_with(b"\x89MCAP0\r\n"), "{program}: {status}, {} bytes", bytes.len());
+    }
+}
+
 graph! {
     use apex_nodes::flow::tick;
     use crate::ends::{Base, hangs, slow};

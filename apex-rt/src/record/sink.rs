@@ -26,6 +26,8 @@ const FLUSH: Duration = Duration::from_millis(500);
 /// Sleep of the thread when it has written all frames, so that later frames are written together. If no frame comes
 /// meanwhile, it sleeps until one does.
 const NAP: Duration = Duration::from_millis(2);
+/// Time that the thread has to end the file if the process ends without its threads.
+const LAST: Duration = Duration::from_secs(2);
 /// Size of a chunk of the file, in bytes. A chunk is read and indexed as a whole.
 const CHUNK: usize = 1 << 20;
 
@@ -124,6 +126,8 @@ struct Shared {
     dropped: Box<[AtomicU64]>,
     /// Number of the file that shall be written. Senders begin it between two reactions.
     file: AtomicU64,
+    /// `true` when the thread has ended.
+    has_ended: AtomicBool,
 }
 
 /// The sending end of a ring.
@@ -156,7 +160,8 @@ impl Sink {
         let (file, out) = beginning.file(&path, files.as_ref().map(Files::number))?;
         let dropped = (0..FIRST + channels.len()).map(|_| AtomicU64::new(0)).collect();
         let (over, sleeps) = (AtomicBool::new(false), AtomicBool::new(false));
-        let shared = Arc::new(Shared { over, sleeps, dropped, file: AtomicU64::new(1) });
+        let shared =
+            Arc::new(Shared { over, sleeps, dropped, file: AtomicU64::new(1), has_ended: AtomicBool::new(false) });
         let far = Far {
             rings: far,
             out: Some(out),
@@ -167,7 +172,18 @@ impl Sink {
             frame: vec![],
             path: path.clone(),
         };
-        let thread = thread::Builder::new().name("apex-record".to_owned()).spawn(move || far.run())?;
+        let ended = Arc::clone(&shared);
+        let thread = thread::Builder::new().name("apex-record".to_owned()).spawn(move || {
+            let paths = far.run();
+            ended.has_ended.store(true, Ordering::Release);
+            paths
+        })?;
+        let (left, far) = (Arc::downgrade(&shared), thread.thread().clone());
+        crate::end::finish_at_exit(move || {
+            if let Some(shared) = left.upgrade() {
+                shared.end(&far);
+            }
+        });
         let near =
             near.into_iter().map(|ring| Near { ring, shared: Arc::clone(&shared), far: thread.thread().clone(), room });
         let near = near.collect();
@@ -209,6 +225,17 @@ impl Drop for Sink {
 }
 
 impl Shared {
+    /// Lets the thread write what was sent, and end the file, within a time limit. For the end of a process in which a
+    /// node hangs: the groups that still run may lose their last frames.
+    fn end(&self, far: &Thread) {
+        let begun = Instant::now();
+        self.over.store(true, Ordering::Release);
+        self.stir(far);
+        while !self.has_ended.load(Ordering::Acquire) && begun.elapsed() < LAST {
+            thread::sleep(NAP);
+        }
+    }
+
     /// Wakes the thread that writes, if it sleeps. That thread sets `sleeps` and then looks at the rings once more; the
     /// caller sends a frame and then clears `sleeps`. The one that changes `sleeps` last sees what the other did
     /// before.
