@@ -1,4 +1,4 @@
-use super::{FollowingLaw, Path, Pid, Projection, Twist, path::nearest_on, twist::Halt};
+use super::{FollowingLaw, Path, Pid, Projection, Twist, latest::fresh, path::nearest_on, twist::Halt};
 use crate::scan::{Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
@@ -11,8 +11,9 @@ const TURN: f32 = 0.1;
 
 /// Follows a path with an omnidirectional robot until it is at the goal (thesis 4.3.6, eqs. 4.2 to 4.5).
 ///
-/// A new path replaces the current one. `pose` is in the frame of the path; it is ⊥ while no pose is known. `scan` is
-/// in the frame of the robot; before the first one, no obstacle is known. The node sends twists while it has a path,
+/// A new path replaces the current one. `pose` is in the frame of the path; while there is none that is younger than
+/// `max_age`, the robot stands still. `scan` is in the frame of the robot; before the first one, no obstacle is known. That
+/// the robot stops before obstacles, and without scans, is the task of a [`SafetyField`](super::SafetyField). The node sends twists while it has a path,
 /// and drops the path when the robot
 /// * has `reached` the goal,
 /// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path ahead or the robot makes no progress,
@@ -84,6 +85,9 @@ pub struct PathFollower {
     /// Time that an obstacle may stand on the path, and time that the robot may go without progress.
     #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
     blocked_timeout: f32,
+    /// Maximum age of a pose and of a scan.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     path: Path,
     progress: Progress,
     motion: Motion,
@@ -137,14 +141,12 @@ impl PathFollower {
             self.begin(path);
         }
         let Some(goal) = self.path.goal() else { return self.halt.rest() };
-        let pose = pose?;
+        // Without a pose, or with one that is of no use, the robot waits for a better one.
+        let Some(pose) = fresh(ctx, pose, self.max_age) else { return self.halt.drive(Twist::ZERO) };
         let projection = self.path.project(pose.position(), self.progress.segment, self.reach());
-        // A pose or a projection that is not finite is useless: the robot waits for a better one.
-        let Some(projection) = projection.filter(|_| pose.is_finite()) else {
-            return self.halt.drive(Twist::ZERO);
-        };
+        let Some(projection) = projection else { return self.halt.drive(Twist::ZERO) };
         self.progress.segment = projection.segment;
-        if let Some(scan) = scan {
+        if let Some(scan) = fresh(ctx, scan, self.max_age) {
             self.look(scan, pose, &projection, ctx.now());
         }
         match self.end(pose, goal, &projection, ctx.now()) {
@@ -309,7 +311,7 @@ mod tests {
         let limits = (1.0, 3.0, 1.5);
         PathFollower::construct((
             2.0, 1.0, 0.05, gains.0, gains.1, gains.2, gains.3, 1.5, limits.0, limits.1, limits.2, 2.0, 0.0, 0.0, 1.0,
-            0.05, 0.05, 1.0, 0.3, 2.0,
+            0.05, 0.05, 1.0, 0.3, 2.0, 0.5,
         ))
     }
 
@@ -333,8 +335,9 @@ mod tests {
             let (mut reached, mut blocked, mut off_path) = (None, None, None);
             let ctx = Ctx::new(Time::from_millis(20 * self.step));
             self.step += 1;
+            let scan = scan.map(|scan| Scan { stamp: ctx.now(), ..scan.clone() });
             let (a, b, c) = (apex_rt::event(&mut reached), apex_rt::event(&mut blocked), apex_rt::event(&mut off_path));
-            let twist = self.node.process(&ctx, Some(&self.pose), path, scan, a, b, c);
+            let twist = self.node.process(&ctx, Some(&self.pose), path, scan.as_ref(), a, b, c);
             let ends = [(reached, End::Reached), (blocked, End::Blocked), (off_path, End::OffPath)];
             let end = ends.into_iter().find_map(|(event, end)| event.map(|()| end));
             (twist, end)
@@ -417,11 +420,13 @@ mod tests {
         let after = |steps: i64, ranges: &[f32]| {
             let mut scan = Scan { angle_increment: FRAC_PI_2, ..Scan::default() };
             scan.ranges.extend(ranges.iter().copied());
+            let mut free = Scan::default();
+            free.ranges.push(f32::INFINITY).expect("room");
             let mut robot = Robot::new(follower(), Pose2::default());
             let way = path(&[(0.0, 0.0), (20.0, 0.0)], 0.0);
             let mut end = robot.react(Some(&way), Some(&scan)).1;
             while end.is_none() && robot.step < 150 {
-                let scan = if robot.step < steps { &scan } else { &Scan::default() };
+                let scan = if robot.step < steps { &scan } else { &free };
                 let (twist, now) = robot.react(None, Some(scan));
                 robot.drive(twist.expect("it drives"));
                 end = now;

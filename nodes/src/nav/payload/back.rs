@@ -1,7 +1,7 @@
 use super::vehicle::{Articulated, backing_twist};
 use crate::{
     math::normalize_angle,
-    nav::{Twist, twist::Halt},
+    nav::{Twist, latest::fresh, twist::Halt},
     scan::Pose2,
 };
 use apex_rt::{Ctx, Event, node};
@@ -18,7 +18,8 @@ const REMEMBERED: usize = 64;
 /// active. A trailer that is pushed turns away to the side, so the tractor steers against it: the angle approaches the
 /// remembered one at the rate `gain` (Lamiraux et al. 1998), and 0 where nothing is remembered, as after a way backward
 /// that another node drove. `base` and `trailer` are the poses of the two axes in one fixed frame such as that of
-/// odometry. Drives while it is active; `done` comes with a twist of zero. Nothing behind the vehicle is looked at.
+/// odometry. Drives while it is active; `done` comes with a twist of zero. Without both poses, or with poses older than
+/// `max_age`, the vehicle stands still. Nothing behind the vehicle is looked at.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BackUp {
@@ -34,6 +35,9 @@ pub struct BackUp {
     /// Shape of the vehicle.
     #[param(default = Articulated::PATSY)]
     vehicle: Articulated,
+    /// Maximum age of the poses.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     last: Option<Pose2>,
     /// Distance driven backward since the activation, in m.
     driven: f32,
@@ -46,19 +50,17 @@ pub struct BackUp {
 
 #[node]
 impl BackUp {
-    fn process(&mut self, ctx: &Ctx, base: &Pose2, trailer: &Pose2, done: Event<()>) -> Option<Twist> {
-        let is_usable = base.is_finite() && trailer.is_finite();
-        let bend = normalize_angle(&(base.theta - trailer.theta));
-        if is_usable {
+    fn process(&mut self, ctx: &Ctx, base: Option<&Pose2>, trailer: Option<&Pose2>, done: Event<()>) -> Option<Twist> {
+        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let bend = axes.map(|(base, trailer)| normalize_angle(&(base.theta - trailer.theta)));
+        if let Some(((base, _), bend)) = axes.zip(bend) {
             let last = self.last.replace(*base).unwrap_or(*base);
             self.remember(base.relative_to(&last).x, bend, ctx.active());
         }
         if !ctx.active() {
             return self.halt.rest();
         }
-        if !is_usable {
-            return self.halt.drive(Twist::ZERO);
-        }
+        let Some(bend) = bend else { return self.halt.drive(Twist::ZERO) };
         let left = self.distance - self.driven;
         if left <= 0.0 {
             self.begin();
@@ -117,12 +119,13 @@ mod tests {
     #[test]
     fn it_backs_up_and_straightens_the_trailer() {
         for bent in [0.6_f32, 0.0, -0.8] {
-            let mut node = BackUp::construct((1.5, 0.2, 0.6, Articulated::PATSY));
+            let mut node = BackUp::construct((1.5, 0.2, 0.6, Articulated::PATSY, 0.5));
             let (mut base, mut heading, mut done) = (Pose2::default(), -bent, None);
             for step in 0..2000 {
                 let ctx = Ctx::new(Time::from_millis(20 * step)).of_node(true);
                 let trailer = Articulated::PATSY.trailer(&base, heading);
-                let twist = node.process(&ctx, &base, &trailer, apex_rt::event(&mut done)).expect("it is active");
+                let twist = node.process(&ctx, Some(&base), Some(&trailer), apex_rt::event(&mut done));
+                let twist = twist.expect("it is active");
                 if done.is_some() {
                     break;
                 }
@@ -136,7 +139,7 @@ mod tests {
     #[test]
     fn it_backs_up_on_the_way_on_which_it_came() {
         let vehicle = Articulated::PATSY;
-        let mut node = BackUp::construct((1.5, 0.2, 0.6, vehicle));
+        let mut node = BackUp::construct((1.5, 0.2, 0.6, vehicle, 0.5));
         let (mut base, mut heading) = (Pose2::default(), 0.0);
         let mut ways: [std::vec::Vec<Pose2>; 2] = Default::default();
         for step in 0..1000 {
@@ -145,7 +148,7 @@ mod tests {
             let (ctx, axis) =
                 (Ctx::new(Time::from_millis(20 * step)).of_node(is_back), vehicle.trailer(&base, heading));
             let mut done = None;
-            let sent = node.process(&ctx, &base, &axis, apex_rt::event(&mut done));
+            let sent = node.process(&ctx, Some(&base), Some(&axis), apex_rt::event(&mut done));
             if done.is_some() {
                 break;
             }
@@ -164,10 +167,13 @@ mod tests {
 
     #[test]
     fn it_rests_without_activity_and_stops_without_a_pose() {
-        let (mut node, at) = (BackUp::construct((1.0, 0.2, 0.6, Articulated::PATSY)), Pose2::default());
+        let (mut node, at) = (BackUp::construct((1.0, 0.2, 0.6, Articulated::PATSY, 0.5)), Pose2::default());
         let idle = Ctx::new(Time::ZERO);
-        assert_eq!(node.process(&idle, &at, &at, Event::unconnected()), None);
-        let nan = Pose2::new(f32::NAN, 0.0, 0.0);
-        assert_eq!(node.process(&idle.of_node(true), &nan, &at, Event::unconnected()), Some(Twist::ZERO));
+        let mut fire = |ctx: &Ctx, base: Option<&Pose2>| node.process(ctx, base, Some(&at), Event::unconnected());
+        assert_eq!(fire(&idle, Some(&at)), None);
+        for odd in [None, Some(&Pose2::new(f32::NAN, 0.0, 0.0)), Some(&Pose2::new(5e6, 0.0, 0.0))] {
+            assert_eq!(fire(&idle.of_node(true), odd), Some(Twist::ZERO));
+        }
+        assert_ne!(fire(&idle.of_node(true), Some(&at)), Some(Twist::ZERO));
     }
 }

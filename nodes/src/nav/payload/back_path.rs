@@ -1,7 +1,7 @@
 use super::vehicle::{Articulated, backing_twist};
 use crate::{
     math::normalize_angle,
-    nav::{Twist, twist::Halt},
+    nav::{Twist, latest::fresh, twist::Halt},
     scan::Pose2,
 };
 use apex_rt::{Ctx, Event, Time, node};
@@ -59,7 +59,8 @@ impl BackPath {
 /// axes in one fixed frame such as that of odometry: distances are measured with them, and where the path leads is not
 /// corrected, so a path should be a few metres long. A new path replaces the current one. The node sends twists while
 /// it has a path. It drops the path when the vehicle has `reached` its end, when it is `blocked`, so that it makes no
-/// progress for longer than `blocked_timeout`, and when it is deactivated.
+/// progress for longer than `blocked_timeout`, and when it is deactivated. Without both poses, or with poses older than
+/// `max_age`, the vehicle stands still.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BackFollower {
@@ -76,6 +77,9 @@ pub struct BackFollower {
     /// Time that the vehicle may go without progress.
     #[param(unit = "s", default = 3.0, range = 0.0..=600.0)]
     blocked_timeout: f32,
+    /// Maximum age of the poses.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     path: BackPath,
     /// Pose at the last firing, and distance driven on the path, in m.
     last: Option<Pose2>,
@@ -90,8 +94,8 @@ impl BackFollower {
     fn process(
         &mut self,
         ctx: &Ctx,
-        base: &Pose2,
-        trailer: &Pose2,
+        base: Option<&Pose2>,
+        trailer: Option<&Pose2>,
         path: Option<&BackPath>,
         reached: Event<()>,
         #[failure] blocked: Event<()>,
@@ -103,9 +107,8 @@ impl BackFollower {
         if self.path.pieces.is_empty() {
             return self.halt.rest();
         }
-        if !(base.is_finite() && trailer.is_finite()) {
-            return self.halt.drive(Twist::ZERO);
-        }
+        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let Some((base, trailer)) = axes else { return self.halt.drive(Twist::ZERO) };
         let last = self.last.replace(*base).unwrap_or(*base);
         self.driven -= base.relative_to(&last).x;
         let Some(wanted) = self.path.bend_at(self.driven) else {
@@ -157,7 +160,7 @@ pub(in crate::nav) mod tests {
     impl Backing {
         /// Begins with a path.
         pub fn new(path: &BackPath) -> Self {
-            let node = BackFollower::construct((0.25, 2.5, Articulated::PATSY, 1.0));
+            let node = BackFollower::construct((0.25, 2.5, Articulated::PATSY, 1.0, 0.5));
             Self { node, path: Some(path.clone()), now: Time::ZERO }
         }
 
@@ -178,7 +181,7 @@ pub(in crate::nav) mod tests {
             let trailer = Articulated::PATSY.trailer(base, heading);
             let ctx = Ctx::new(self.now).of_node(true);
             let (path, ends) = (self.path.take(), (apex_rt::event(&mut reached), apex_rt::event(&mut blocked)));
-            let twist = self.node.process(&ctx, base, &trailer, path.as_ref(), ends.0, ends.1);
+            let twist = self.node.process(&ctx, Some(base), Some(&trailer), path.as_ref(), ends.0, ends.1);
             (twist, [reached, blocked])
         }
     }
