@@ -1,6 +1,8 @@
 //! Builds of programs with cargo. They use the target folder of the workspace, so that finished crates are not built
 //! again.
 
+mod trim;
+
 use crate::project::print_error;
 use apex_host::{Workspace, cargo, no_cargo};
 use serde_json::Value;
@@ -13,6 +15,7 @@ use std::{
     process::{Child, Command, Stdio},
     thread,
 };
+use trim::Trimmed;
 
 /// A crate that cargo builds.
 pub struct Wanted {
@@ -33,12 +36,15 @@ pub struct How {
     pub release: bool,
     /// `true` to print errors only.
     pub quiet: bool,
+    /// `true` to leave the paths of this machine out of the program.
+    pub trims: bool,
 }
 
 impl How {
     /// Settings with these values; the build is also quiet if the user's `CARGO_TERM_QUIET` says so.
     pub fn new(release: bool, quiet: bool) -> Self {
-        Self { release, quiet: quiet || env::var_os("CARGO_TERM_QUIET").is_some_and(|value| value == "true") }
+        let quiet = quiet || env::var_os("CARGO_TERM_QUIET").is_some_and(|value| value == "true");
+        Self { release, quiet, trims: false }
     }
 }
 
@@ -164,6 +170,8 @@ impl Outcome {
 /// A terminal shows cargo's progress. Otherwise one line is printed for each crate that is compiled.
 pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String> {
     let mut command = cargo_for(wanted, verb, how);
+    let trimmed = how.trims.then(|| Trimmed::of(wanted));
+    trimmed.iter().for_each(|trimmed| trimmed.apply(&mut command));
     let sees_progress = io::stderr().is_terminal();
     let passes_on = !how.quiet && !sees_progress;
     command.stderr(if passes_on { Stdio::piped() } else { Stdio::inherit() });
@@ -182,6 +190,7 @@ pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String
         eprint!("\x1b[1A\x1b[2K");
     }
     let Some(executable) = messages.executable else { return Ok(Outcome::Nothing) };
+    trimmed.iter().for_each(|trimmed| trimmed.check(&executable));
     let folder = executable.parent().unwrap_or(Path::new("."));
     let is_ours = |path: &PathBuf| path.starts_with(&wanted.target);
     let mut libraries: Vec<PathBuf> = messages.linked.into_iter().filter(is_ours).collect();

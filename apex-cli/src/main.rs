@@ -19,6 +19,7 @@ mod nodes;
 mod project;
 mod replace;
 mod run;
+mod sbom;
 mod studio;
 mod test;
 mod texts;
@@ -210,6 +211,21 @@ enum Command {
         #[command(flatten)]
         how: Building,
     },
+    /// List the crates of which a program consists: a bill of materials, or the notices of their licences.
+    #[command(
+        after_help = "The list is in the format CycloneDX (JSON) and has names, versions, licences, checksums and what needs what; crates for tests\nare left out. With the same `Cargo.lock` it is the same. --notices writes what has to be handed on with a program.\n\nExample:\n  apex sbom -o robot.cdx.json\n  apex sbom --notices -o NOTICES"
+    )]
+    Sbom {
+        /// Folder of the package or workspace.
+        #[arg(default_value = ".", hide_default_value = true)]
+        folder: PathBuf,
+        /// Write the licences and copyright of the crates of others, instead of the bill.
+        #[arg(long)]
+        notices: bool,
+        /// Output file; by default standard output.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
     /// Run the tests of a source file in simulated time.
     #[command(
         after_help = "If the package compiles the file with `graph!(\"…\")`, the tests are those that `cargo test` runs, too. Otherwise a package\nis generated for them in the target folder. In both cases, crates that `cargo build` has built are reused.\nExit code 0: all passed, 1: one failed (or the file has errors), 2: they could not be built.\n\nExample:\n  apex test robot.afg\n  apex test robot.afg wall"
@@ -263,10 +279,14 @@ enum Command {
         /// file is kept, and the new one gets a number.
         #[arg(long, value_name = "FILE", conflicts_with = "profile")]
         record: Option<PathBuf>,
-        /// Open a socket at this address, for `apex studio --connect` on this machine or another one. Everyone who can
-        /// connect can set parameters.
+        /// Open a socket at this address, for `apex studio --connect` on this machine or another one. If other machines
+        /// reach it, viewers may only look, unless --stream-access says otherwise. With the environment variable
+        /// APEX_STUDIO_TOKEN, only viewers with the same value are admitted.
         #[arg(long, value_name = "HOST:PORT")]
         stream: Option<String>,
+        /// Rights of viewers: to look (`read`), or also to set parameters (`write`).
+        #[arg(long, value_enum, requires = "stream")]
+        stream_access: Option<run::StreamAccess>,
         #[command(flatten)]
         how: Building,
         /// Arguments for the program.
@@ -308,7 +328,12 @@ enum Command {
         /// Address of the page. Other machines reach it only if it is not a loopback address.
         #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:7410")]
         listen: std::net::SocketAddr,
-        /// Only look: the page can neither set parameters nor halt the robot.
+        /// Origin under which a proxy shows the page, such as `https://robot.example`: the proxy encrypts, and passes
+        /// requests on to the address of the page. May be given several times.
+        #[arg(long, value_name = "ORIGIN", value_parser = apex_studio::origin)]
+        origin: Vec<String>,
+        /// Only look: the page can neither set parameters nor halt the robot, asks it for no tokens or times, and
+        /// changes no text.
         #[arg(long)]
         read_only: bool,
         #[command(flatten)]
@@ -328,11 +353,15 @@ struct Building {
     /// Print only errors of the build, without the progress of cargo.
     #[arg(short, long)]
     quiet: bool,
+    /// Leave the paths of this machine out of the program, for one that is handed on. All crates are compiled for that
+    /// once more, beside those that `cargo build` has built.
+    #[arg(long)]
+    trim_paths: bool,
 }
 
 impl Building {
     fn how(&self) -> build::How {
-        build::How::new(self.release, self.quiet)
+        build::How { trims: self.trim_paths, ..build::How::new(self.release, self.quiet) }
     }
 }
 
@@ -370,6 +399,7 @@ fn main() -> ExitCode {
         Command::Lsp => lsp::run(),
         Command::New { folder, template, path } => new::run(&folder, template, path.as_deref()),
         Command::Nodes { words, package, markdown } => nodes::run(&package, &words, markdown),
+        Command::Sbom { folder, notices, output } => sbom::run(&folder, notices, output.as_deref()),
         Command::Test { file, filter, how } => test::run(&file, filter.as_deref(), how.how()),
         Command::Replay { recording, file, robot, params, how } => {
             let params = run::Params { load: params, save: None };
@@ -399,11 +429,12 @@ fn main() -> ExitCode {
             speed,
             params,
             listen,
+            origin,
             read_only,
             how,
             args,
         } => {
-            let page = studio::Page { listen, read_only, speed };
+            let page = studio::Page { listen, origins: origin, read_only, speed };
             match file {
                 Some(file) if connect.is_empty() => {
                     let is_study = file.is_dir();
@@ -414,11 +445,12 @@ fn main() -> ExitCode {
                 file => studio::connect(connect, file, &page),
             }
         }
-        Command::Run { file, robot, params, save_params, watch, profile, record, stream, how, args } => {
+        Command::Run { file, robot, params, save_params, watch, profile, record, stream, stream_access, how, args } => {
             let params = run::Params { load: params, save: save_params };
             let (robot, profile) = (robot.as_deref(), profile.as_deref());
             let recording = record.as_deref().map_or(run::Recording::Stated, run::Recording::Made);
-            let (args, stream) = (&args[..], stream.as_deref().map_or(run::Stream::None, run::Stream::At));
+            let at = |address| run::Stream::At(address, stream_access);
+            let (args, stream) = (&args[..], stream.as_deref().map_or(run::Stream::None, at));
             let (file, params, simulated, how) = (&file, &params, false, how.how());
             let wanted = run::Wanted { file, robot, params, profile, recording, args, watch, stream, simulated, how };
             if watch { watch::run(&wanted) } else { run::run(&wanted) }

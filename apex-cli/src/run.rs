@@ -78,6 +78,27 @@ const REPLAY: &str = "APEX_REPLAY";
 const STREAM: &str = "APEX_STUDIO";
 const STREAM_WAITS: &str = "APEX_STUDIO_WAIT";
 
+/// Environment variable with the rights of viewers.
+const STREAM_ACCESS: &str = "APEX_STUDIO_ACCESS";
+
+/// Rights of viewers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum StreamAccess {
+    /// They may look.
+    Read,
+    /// They may also set parameters.
+    Write,
+}
+
+impl StreamAccess {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Read => "read",
+            Self::Write => "write",
+        }
+    }
+}
+
 /// Use of a recording.
 #[derive(Clone, Copy, Default)]
 pub enum Recording<'a> {
@@ -149,8 +170,8 @@ pub struct Wanted<'a> {
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Stream<'a> {
     None,
-    /// A socket at this address.
-    At(&'a str),
+    /// A socket at this address, with other rights of viewers than those that follow from it.
+    At(&'a str, Option<StreamAccess>),
     /// A socket at this address; a program in simulated time waits for a viewer.
     WaitAt(&'a str),
 }
@@ -189,8 +210,12 @@ impl Wanted<'_> {
         command.env_remove(STREAM).env_remove(STREAM_WAITS);
         match self.stream {
             Stream::None => {}
-            Stream::At(address) => drop(command.env(STREAM, address)),
-            Stream::WaitAt(address) => drop(command.env(STREAM, address).env(STREAM_WAITS, "1")),
+            Stream::At(address, None) => drop(command.env(STREAM, address)),
+            Stream::At(address, Some(access)) => drop(command.env(STREAM, address).env(STREAM_ACCESS, access.name())),
+            // The studio has started it, and nobody else reaches it.
+            Stream::WaitAt(address) => {
+                command.env(STREAM, address).env(STREAM_WAITS, "1").env_remove(STREAM_ACCESS);
+            }
         }
         let Some(made) = &program.made else { return command };
         let kept = self.watch.then(|| made.join("kept"));
@@ -252,7 +277,7 @@ impl Wanted<'_> {
         let realtime = threads.any(|thread| !thread.cores.is_empty() || thread.priority.is_some());
         let wanted = [
             ("params", params),
-            ("ctrl-c", params),
+            ("ctrl-c", true),
             ("profile", self.profile.is_some()),
             ("realtime", realtime),
             (made::RECORD, records),

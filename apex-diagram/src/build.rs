@@ -11,7 +11,10 @@ use apex_dsl::{
     machine::Machines,
     syntax::tree::PortKind,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
 
 /// Diagram of a graph.
 pub fn diagram(graph: &Graph, machines: &Machines, catalog: &Catalog) -> Item {
@@ -38,12 +41,15 @@ struct Builder<'a> {
     active: BTreeSet<NodeId>,
     /// All ends of connections.
     connected: BTreeSet<WireEnd>,
+    /// Real periods of sources that slower ones hold back.
+    throttled: BTreeMap<NodeId, Duration>,
 }
 
 impl<'a> Builder<'a> {
     fn new(graph: &'a Graph, machines: &'a Machines, catalog: &'a Catalog) -> Self {
         let connected = graph.wires.iter().flat_map(|w| [w.from, w.to]).collect();
-        Self { graph, machines, catalog, active: analyse::active_nodes(graph), connected }
+        let throttled = analyse::throttled_periods(graph, catalog);
+        Self { graph, machines, catalog, active: analyse::active_nodes(graph), connected, throttled }
     }
 
     /// Boundary nodes, which are the ports of the graph itself.
@@ -157,7 +163,7 @@ impl<'a> Builder<'a> {
     fn node(&self, id: NodeId) -> (Item, Vec<WireEnd>) {
         let node = &self.graph.nodes[id];
         let mut item = match &node.kind {
-            NodeKind::Library(library) => self.library(node, library),
+            NodeKind::Library(library) => self.library(id, node, library),
             NodeKind::Each(each) => self.each(node, each),
             NodeKind::Delay(initial) => {
                 let held: Vec<String> =
@@ -220,11 +226,12 @@ impl<'a> Builder<'a> {
         ports.filter(|place| self.connected.contains(&WireEnd::Port(*place))).collect()
     }
 
-    fn library(&self, node: &Node, library: &Library) -> Item {
+    fn library(&self, id: NodeId, node: &Node, library: &Library) -> Item {
         let mut item = Item::new(Shape::Node, &node.name);
         item.words.push(words::type_name(library, self.catalog));
         item.words.extend(words::parameters(library, self.catalog));
         item.words.extend(words::modifiers(&node.modifiers));
+        item.words.extend(self.throttled.get(&id).map(|real| format!("really every {}", words::duration(*real))));
         item.docs.clone_from(&node.docs);
         item.states = self.machines.get(&library.signature).map(states::machine);
         item

@@ -121,8 +121,12 @@ pub fn modifiers(modifiers: &Modifiers) -> Option<String> {
     ];
     let timed = timed.into_iter().filter_map(|(word, time)| Some(format!("{word} {}", duration(time?))));
     let group = modifiers.group.iter().map(|group| format!("on {group}"));
-    let flags =
-        [("pipelined", modifiers.pipelined), ("essential", modifiers.essential), ("restart", modifiers.restart)];
+    let flags = [
+        ("skip", modifiers.skip),
+        ("pipelined", modifiers.pipelined),
+        ("essential", modifiers.essential),
+        ("restart", modifiers.restart),
+    ];
     let flags = flags.into_iter().filter(|(_, on)| *on).map(|(word, _)| word.to_owned());
     let words: Vec<String> = timed.chain(group).chain(flags).collect();
     (!words.is_empty()).then(|| words.join(" "))

@@ -93,13 +93,21 @@ fn section(text: &mut String, graph: &Graph, analysis: &Analysis, decided: &Deci
         regions.len(),
         analysis.clusters.len()
     );
+    let periods = analysis.real_periods(graph);
     for (index, cluster) in analysis.clusters.iter_enumerated() {
         let guards: Vec<String> = cluster.own_guards.iter().map(|g| analysis.guards[*g].text(graph)).collect();
         let upstream: Vec<String> = cluster.upstream.iter().map(|c| format!("cluster {}", c.index())).collect();
         let waits = guards.into_iter().chain(upstream).collect::<Vec<_>>().join(", ");
         let waits = if waits.is_empty() { "nothing".to_owned() } else { waits };
         let never = if cluster.fires { "" } else { ", and never fires: some of these never arrive" };
-        let _ = writeln!(text, "{pad}cluster {} (region {}) waits for {waits}{never}", index.index(), cluster.region);
+        let period = periods[index].map(|period| format!(", every {period:?}"));
+        let _ = writeln!(
+            text,
+            "{pad}cluster {} (region {}) waits for {waits}{}{never}",
+            index.index(),
+            cluster.region,
+            period.unwrap_or_default()
+        );
         if !graph.is_body && cluster.fires && cluster.upstream.is_empty() {
             let steps = match analysis.steps_after(graph, index) {
                 Some(1) => "it is the only step until it is notified".to_owned(),

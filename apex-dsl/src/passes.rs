@@ -71,6 +71,9 @@ pub fn check_all(
         for graph in programs.iter().map(|program| &program.graph).chain(&parts) {
             check::check_lints(graph, catalog, diagnostics);
         }
+        for program in &programs {
+            check::check_periods(&program.graph, &program.analysis, diagnostics);
+        }
         for program in &mut programs {
             program.claims = claims::decide(&program.graph, catalog, states, diagnostics);
         }

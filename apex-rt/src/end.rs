@@ -4,9 +4,14 @@
 //! reaction and calls the `#[on_stop]` methods of its nodes ([`Program::stop`]). A group that hangs cannot: the process
 //! ends without it, after a time limit.
 
-use crate::{Program, Switch, switch::Listens};
+use crate::{
+    Next, Observer, Program, Switch, Time,
+    run::react,
+    switch::Listens,
+    watchdog::{self, Health},
+};
 use std::{
-    sync::{Condvar, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
     time::Duration,
 };
 
@@ -35,21 +40,38 @@ pub(crate) fn is_asked() -> bool {
 pub(crate) struct Driven<P: Program> {
     /// The program.
     pub program: P,
+    /// Counts for a watchdog outside of the process.
+    health: Option<Arc<Health>>,
     /// Unparks the thread when the process is to end.
     _listens: Listens<'static>,
 }
 
 impl<P: Program> Driven<P> {
-    /// Begins to drive a program on this thread.
-    pub fn new(program: P) -> Self {
+    /// Begins to drive a program on this thread. In `real` time a watchdog outside of the process is fed.
+    pub fn new(program: P, real: bool) -> Self {
         *driven() += 1;
-        Self { program, _listens: ASKED.listen() }
+        let health = if real { watchdog::register() } else { None };
+        Self { program, health, _listens: ASKED.listen() }
+    }
+
+    /// Executes a reaction, and tells the observer before and after it. `elapsed` returns the duration of the reaction
+    /// so far.
+    #[inline]
+    pub fn react<O: Observer>(&mut self, now: Time, observer: &mut O, elapsed: &mut dyn FnMut() -> Duration) -> Next {
+        let health = self.health.as_deref();
+        health.inspect(|health| health.begin());
+        let (next, is_late) = react(&mut self.program, now, observer, elapsed);
+        health.inspect(|health| health.end(is_late));
+        next
     }
 }
 
 impl<P: Program> Drop for Driven<P> {
     fn drop(&mut self) {
         self.program.stop();
+        if self.health.take().is_some() {
+            watchdog::leave();
+        }
         *driven() -= 1;
         ENDED.notify_all();
     }
@@ -59,9 +81,15 @@ impl<P: Program> Drop for Driven<P> {
 /// latest.
 pub(crate) fn exit(code: i32, hanging: usize) -> ! {
     ASKED.set();
-    let waits = |driven: &mut usize| *driven > hanging;
-    drop(ENDED.wait_timeout_while(driven(), LIMIT, waits).unwrap_or_else(PoisonError::into_inner));
+    have_ended(hanging, LIMIT);
     std::process::exit(code)
+}
+
+/// Waits until all thread groups but `hanging` ones have ended. Returns `false` if they did not within `limit`.
+fn have_ended(hanging: usize, limit: Duration) -> bool {
+    let waits = |driven: &mut usize| *driven > hanging;
+    let waited = ENDED.wait_timeout_while(driven(), limit, waits).unwrap_or_else(PoisonError::into_inner);
+    !waited.1.timed_out()
 }
 
 /// Lets the signals that end a process (SIGINT, SIGTERM, SIGHUP) end its programs, unless they have another handler.
@@ -79,7 +107,11 @@ pub(crate) fn handle_signals() -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(signalled)
 }
 
-/// Exit code after a second signal, which is that of Ctrl-C in shells.
+/// Time that a node may take to return after a signal.
+#[cfg(feature = "ctrl-c")]
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// Exit code after a second signal, and if a node hangs: that of Ctrl-C in shells.
 #[cfg(feature = "ctrl-c")]
 const INTERRUPTED: i32 = 130;
 
@@ -90,4 +122,14 @@ fn signalled() {
         exit(INTERRUPTED, 0);
     }
     ASKED.set();
+    // The handler has to be free for a second signal.
+    let waits = std::thread::Builder::new().name("apex-end".to_owned()).spawn(|| {
+        if !have_ended(0, PATIENCE) {
+            eprintln!("ended before all nodes have stopped: one of them hangs");
+            exit(INTERRUPTED, *driven());
+        }
+    });
+    if let Err(error) = waits {
+        eprintln!("a node that hangs will not be noticed: {error}");
+    }
 }

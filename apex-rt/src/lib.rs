@@ -35,6 +35,8 @@ mod queue;
 pub mod record;
 #[cfg(feature = "std")]
 mod remote;
+#[cfg(feature = "std")]
+mod requests;
 mod run;
 #[cfg(feature = "std")]
 mod stop;
@@ -52,6 +54,8 @@ pub mod threads;
 mod time;
 mod timer;
 mod token;
+#[cfg(feature = "std")]
+mod watchdog;
 
 pub use apex_attributes::{Outputs, Units, node};
 

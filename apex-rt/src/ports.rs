@@ -2,7 +2,7 @@
 
 use crate::{
     Clock, Mailbox, Program, RemoteParams, Time,
-    remote::ServedRequests,
+    requests::{Requests, ServedRequests},
     run::Outside,
     switch::{Bell, Listens},
 };
@@ -20,7 +20,7 @@ pub struct Ports<P: Program>(pub(crate) Ways<P::Inputs, P::Events>);
 impl<P: Program> Ports<P> {
     /// Returns ports without senders and receivers.
     pub fn new() -> Self {
-        let requests = ServedRequests::default();
+        let requests = ServedRequests::new(Arc::new(Requests::new(P::PARAMS)));
         Self(Ways { inputs: vec![], events: vec![], outside: Arc::default(), kept: false, requests })
     }
 
@@ -47,7 +47,7 @@ impl<P: Program> Ports<P> {
 
     /// Returns the requests that the program serves.
     #[cfg(feature = "studio")]
-    pub(crate) fn requests(&self) -> Arc<crate::remote::Requests> {
+    pub(crate) fn requests(&self) -> Arc<Requests> {
         Arc::clone(&self.0.requests.shared)
     }
 

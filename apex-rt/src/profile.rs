@@ -2,7 +2,7 @@
 //! (`ui.perfetto.dev`, `chrome://tracing`). The trace shows active nodes in another colour.
 
 use crate::{
-    Clock, Info, Observer, Ports, Program, StdErr,
+    Clock, Info, Next, Observer, Parameters, Ports, Program, StdErr, Time,
     instruments::{Instruments, Streams, Tapped},
     run::drive_groups,
 };
@@ -25,6 +25,8 @@ pub struct Profile {
     start: Instant,
     /// Calls in progress of each thread group, innermost last: an `each` contains the calls of its body.
     running: Vec<Vec<Call>>,
+    /// The reactions of each thread group.
+    reactions: Vec<Reactions>,
     /// `true` for each active node.
     active: Vec<bool>,
     /// Durations of each node's calls, in ns; `None` before the first call.
@@ -43,6 +45,19 @@ struct Call {
     start: Instant,
     /// Duration of the calls inside this one, in ns.
     inner: u64,
+}
+
+/// Reactions of a thread group.
+#[derive(Default)]
+struct Reactions {
+    /// Beginning of the present one.
+    begun: Option<Instant>,
+    /// Node that has taken longest in the present one, in ns without the calls inside of its own.
+    slowest: Option<(u64, usize)>,
+    /// The longest one, and the node that took longest in it.
+    longest: Option<(Duration, Option<(u64, usize)>)>,
+    /// Source with the shortest period.
+    fastest: Option<(Duration, usize)>,
 }
 
 /// Observer that measures one thread group.
@@ -74,6 +89,7 @@ impl Profile {
             active: vec![false; nodes],
             calls: (0..nodes).map(|_| None).collect(),
             own: vec![0; nodes],
+            reactions: (0..info.groups.len().max(1)).map(|_| Reactions::default()).collect(),
             traced: 0,
             trace,
             error: None,
@@ -86,6 +102,10 @@ impl Profile {
     }
 
     fn begin(&mut self, group: usize, node: usize) {
+        if let Some(reactions) = self.reactions.get_mut(group) {
+            let fastest = self.info.nodes[node].every.map(|every| (every, node));
+            reactions.fastest = reactions.fastest.into_iter().chain(fastest).min();
+        }
         if let Some(calls) = self.running.get_mut(group) {
             calls.push(Call { node, start: Instant::now(), inner: 0 });
         }
@@ -96,6 +116,8 @@ impl Profile {
         debug_assert_eq!(running, node, "calls end in the order in which they begin");
         let took = nanos(end - start);
         self.own[node] += took.saturating_sub(inner);
+        let reactions = &mut self.reactions[group];
+        reactions.slowest = reactions.slowest.max(Some((took.saturating_sub(inner), node)));
         if let Some(outer) = self.running[group].last_mut() {
             outer.inner += took;
         }
@@ -117,6 +139,41 @@ impl Profile {
             self.trace,
             ",\n{{\"ph\":\"X\",\"pid\":1,\"tid\":{tid},\"name\":\"{name}\",\"ts\":{at:.3},\"dur\":{took:.3},\"args\":{{\"active\":{active}}}{colour}}}"
         )
+    }
+
+    fn begin_reaction(&mut self, group: usize) {
+        if let Some(reactions) = self.reactions.get_mut(group) {
+            (reactions.begun, reactions.slowest) = (Some(Instant::now()), None);
+        }
+    }
+
+    fn end_reaction(&mut self, group: usize) {
+        if let Some(reactions) = self.reactions.get_mut(group)
+            && let Some(begun) = reactions.begun.take()
+        {
+            reactions.longest = reactions.longest.max(Some((begun.elapsed(), reactions.slowest)));
+        }
+    }
+
+    /// Returns a warning for each thread group with a reaction that took longer than the shortest period of its
+    /// sources, which then fire late.
+    pub fn warnings(&self) -> Vec<String> {
+        let warning = |(group, reactions): (usize, &Reactions)| {
+            let ((longest, slowest), (every, source)) = (reactions.longest?, reactions.fastest?);
+            if longest <= every {
+                return None;
+            }
+            let name = |node: usize| self.info.nodes[node].name;
+            let thread = self.info.groups.get(group).map_or(String::new(), |group| format!(" of `{}`", group.name));
+            let most =
+                slowest.map(|(own, node)| format!(", {:.1?} of it in `{}`", Duration::from_nanos(own), name(node)));
+            Some(format!(
+                "a reaction{thread} took {longest:.1?}{}, but `{}` fires every {every:?}: move slow nodes to a thread group of their own (`on slow`)",
+                most.unwrap_or_default(),
+                name(source)
+            ))
+        };
+        self.reactions.iter().enumerate().filter_map(warning).collect()
     }
 
     /// Completes the trace.
@@ -189,6 +246,7 @@ pub(crate) fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>,
         cannot_write(error);
     }
     eprint!("{}", profile.table());
+    profile.warnings().iter().for_each(|warning| eprintln!("warning: {warning}"));
     if profile.is_cut() {
         eprintln!("the trace ends after {MAX_TRACED} calls; the table counts all");
     }
@@ -219,6 +277,12 @@ impl Observer for Measures<'_> {
     fn activity(&mut self, node: usize, active: bool) {
         self.with(|profile| profile.active[node] = active);
     }
+    fn before_reaction(&mut self, _now: Time, _params: &mut impl Parameters) {
+        self.with(|profile| profile.begin_reaction(self.group));
+    }
+    fn after_reaction(&mut self, _next: Next) {
+        self.with(|profile| profile.end_reaction(self.group));
+    }
 }
 
 impl Observer for Option<Measures<'_>> {
@@ -240,6 +304,16 @@ impl Observer for Option<Measures<'_>> {
     fn activity(&mut self, node: usize, active: bool) {
         if let Some(measures) = self {
             measures.activity(node, active);
+        }
+    }
+    fn before_reaction(&mut self, now: Time, params: &mut impl Parameters) {
+        if let Some(measures) = self {
+            measures.before_reaction(now, params);
+        }
+    }
+    fn after_reaction(&mut self, next: Next) {
+        if let Some(measures) = self {
+            measures.after_reaction(next);
         }
     }
 }

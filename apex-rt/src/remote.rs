@@ -1,21 +1,24 @@
 //! Parameters of a running program for other threads.
 
 use crate::{
-    Parameters,
-    params::{Access, IntoParam, ParamError, ParamInfo, ParamValue, ParamVisitor, Rejection, find},
-    switch::{Bell, Listens},
+    params::{Access, Given, IntoParam, ParamError, ParamInfo, ParamValue, Rejection, find},
+    requests::{Act, Requests},
 };
-use std::sync::{
-    Arc, Mutex, MutexGuard, PoisonError,
-    atomic::{AtomicUsize, Ordering},
-    mpsc::sync_channel,
+use std::{
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread::{self, Thread},
+    time::Duration,
 };
 
 /// Reads and sets the parameters of a running program from another thread.
 ///
-/// Each call is served between two reactions of the thread group that the parameter belongs to, and returns then: after
-/// at most one reaction. A sleeping group is woken for it. Calls before the program starts wait for its first reaction.
-/// A recording contains the new values, so that a replay sets them at the same reactions.
+/// Each call is served between two reactions of the thread group that the parameter belongs to, and returns then. A
+/// sleeping group is woken for it. A group serves a few calls between two reactions and waits for no other thread
+/// meanwhile; more of them wait for their turn. Calls before the program starts wait for its first reaction. A
+/// recording contains the new values, so that a replay sets them at the same reactions.
 ///
 /// Do not call it from a node: a node runs within a reaction, which would wait for itself.
 #[derive(Clone)]
@@ -23,6 +26,9 @@ pub struct RemoteParams {
     requests: Arc<Requests>,
     params: &'static [ParamInfo],
 }
+
+/// Time between two attempts to find a place for a request.
+const RETRY: Duration = Duration::from_millis(1);
 
 impl RemoteParams {
     pub(crate) const fn new(requests: Arc<Requests>, params: &'static [ParamInfo]) -> Self {
@@ -39,16 +45,17 @@ impl RemoteParams {
     /// # Errors
     /// A parameter that does not exist or is of another type, or a program that has ended.
     pub fn get<T: ParamValue + Send + 'static>(&self, name: &str) -> Result<T, ParamError> {
-        self.ask(name, |access| T::take(access.get()))
+        self.ask(name, |access| (T::take(access.get()), 1))
     }
 
-    /// Sets the parameter `name` to `value`, in SI units, as [`Parameters::set_param`] does.
+    /// Sets the parameter `name` to `value`, in SI units, as
+    /// [`Parameters::set_param`](crate::Parameters::set_param) does.
     ///
     /// # Errors
     /// A parameter that does not exist or is of another type, a value out of its range, or a program that has ended.
     /// The parameter keeps its value.
     pub fn set(&self, name: &str, value: impl IntoParam + Send + 'static) -> Result<(), ParamError> {
-        self.ask(name, move |access| access.set(value.give()))
+        self.ask(name, move |access| (access.set(value.give()), 1))
     }
 
     /// Returns the value of the parameter `name` in TOML: `0.5`, `"laser"`, `[1, 2]`.
@@ -56,143 +63,127 @@ impl RemoteParams {
     /// # Errors
     /// The errors of [`get`](Self::get).
     pub fn get_text(&self, name: &str) -> Result<String, ParamError> {
-        self.ask(name, |access| Ok(access.get().to_string()))
+        let value = self.ask(name, |access| {
+            let mut room = usize::MAX;
+            let value = Given::copy(access.get(), &mut room);
+            (Ok(value), usize::MAX - room)
+        })?;
+        // There was room for any value.
+        Ok(value.map(|value| value.give().to_string()).unwrap_or_default())
     }
 
-    /// Sets the parameter `name` to a value in TOML.
+    /// Sets the parameter `name` to a value in TOML. It is read on this thread.
     ///
     /// # Errors
     /// The errors of [`set`](Self::set).
     #[cfg(feature = "params")]
     pub fn set_text(&self, name: &str, value: &str) -> Result<(), ParamError> {
-        let value = value.to_owned();
-        self.ask(name, move |access| crate::params::with_text(&value, |value| access.set(value)))
+        let (size, value) = (value.len(), crate::params::parsed(value));
+        // The value comes back, so that the group need not free its memory.
+        let (set, _) = self.ask(name, move |access| {
+            let set = access.set(value.give());
+            (Ok((set, value)), size)
+        })?;
+        set.map_err(|refusal| self.refused(name, refusal))
+    }
+
+    /// The error of a value that was refused.
+    #[cfg(feature = "params")]
+    pub(crate) fn refused(&self, name: &str, refusal: Rejection) -> ParamError {
+        find(self.params, name).map_or_else(|unknown| unknown, |param| ParamError::Refused { param, refusal })
     }
 
     /// Calls `act` on the thread of the parameter's group, and returns its result.
-    pub(crate) fn ask<T, F>(&self, name: &str, act: F) -> Result<T, ParamError>
+    fn ask<T, F>(&self, name: &str, act: F) -> Result<T, ParamError>
     where
         T: Send + 'static,
-        F: FnOnce(&mut dyn Access) -> Result<T, Rejection> + Send + 'static,
+        F: FnOnce(&mut dyn Access) -> (Result<T, Rejection>, usize) + Send + 'static,
     {
-        let (answer, answered) = sync_channel(1);
-        // Nobody waits for the answer of a thread that has ended.
-        self.post(name, act, move |result| drop(answer.send(result)))?;
-        answered.recv().unwrap_or(Err(ParamError::Ended))
+        let (mut request, asked) = self.request(name, act)?;
+        while let Err(full) = self.requests.put(request) {
+            request = full;
+            thread::sleep(RETRY);
+        }
+        asked.wait()
     }
 
-    /// Lets `act` be called on the thread of the parameter's group, and `answer` there with its result. A program that
-    /// has ended calls neither.
-    pub(crate) fn post<T, F, A>(&self, name: &str, act: F, answer: A) -> Result<(), ParamError>
+    /// Lets `act` be called on the thread of the parameter's group, if there is a place for another request. `act`
+    /// returns its result, and how many bytes it has moved.
+    ///
+    /// # Errors
+    /// There is no such parameter.
+    #[cfg(feature = "studio")]
+    pub(crate) fn post<T, F>(&self, name: &str, act: F) -> Result<Option<Asked<T>>, ParamError>
     where
-        F: FnOnce(&mut dyn Access) -> Result<T, Rejection> + Send + 'static,
-        A: FnOnce(Result<T, ParamError>) + Send + 'static,
+        T: Send + 'static,
+        F: FnOnce(&mut dyn Access) -> (Result<T, Rejection>, usize) + Send + 'static,
+    {
+        let (request, asked) = self.request(name, act)?;
+        Ok(self.requests.put(request).is_ok().then_some(asked))
+    }
+
+    fn request<T, F>(&self, name: &str, act: F) -> Result<((usize, Act), Asked<T>), ParamError>
+    where
+        T: Send + 'static,
+        F: FnOnce(&mut dyn Access) -> (Result<T, Rejection>, usize) + Send + 'static,
     {
         let param = find(self.params, name)?;
+        let at = self.params.iter().position(|other| std::ptr::eq(other, param)).unwrap_or_default();
+        let answer =
+            Arc::new(Answer { given: Mutex::new(None), is_over: AtomicBool::new(false), asks: thread::current() });
+        let teller = Teller(Arc::clone(&answer));
         let act = move |access: Option<&mut dyn Access>| {
-            let result = access.map_or(Err(Rejection::Opaque), act);
-            answer(result.map_err(|refusal| ParamError::Refused { param, refusal }));
+            let (result, moved) = access.map_or((Err(Rejection::Opaque), 1), act);
+            teller.tell(result.map_err(|refusal| ParamError::Refused { param, refusal }));
+            moved
         };
-        self.requests.put(Request { name: param.name, act: Box::new(act) });
-        Ok(())
+        Ok(((at, Box::new(act)), Asked(answer)))
     }
 }
 
-/// Operation on a parameter; `None` if its type is not a [`ParamValue`].
-type Act = Box<dyn FnOnce(Option<&mut dyn Access>) + Send>;
-
-/// A request of another thread. If it is dropped unserved, that thread learns that the program has ended.
-struct Request {
-    name: &'static str,
-    act: Act,
+/// The answer to a request.
+struct Answer<T> {
+    given: Mutex<Option<Result<T, ParamError>>>,
+    /// `true` if there is nothing to wait for any more.
+    is_over: AtomicBool,
+    /// The thread that asks.
+    asks: Thread,
 }
 
-/// Requests that wait for the groups of a program.
-#[derive(Default)]
-pub(crate) struct Requests {
-    bell: Bell,
-    /// Number of requests so far: a group sees without a lock that there is a new one.
-    count: AtomicUsize,
-    waiting: Mutex<Waiting>,
-}
+/// The end of the thread that answers. If it is dropped without an answer, the program has ended.
+struct Teller<T>(Arc<Answer<T>>);
 
-#[derive(Default)]
-struct Waiting {
-    requests: Vec<Request>,
-    ended: bool,
-}
-
-impl Requests {
-    fn put(&self, request: Request) {
-        let mut waiting = self.waiting();
-        if waiting.ended {
-            return;
-        }
-        waiting.requests.push(request);
-        drop(waiting);
-        self.count.fetch_add(1, Ordering::Release);
-        self.bell.ring();
-    }
-
-    /// Refuses all requests from now on: the program has ended.
-    pub fn end(&self) {
-        let mut waiting = self.waiting();
-        waiting.ended = true;
-        waiting.requests.clear();
-    }
-
-    /// Forgets all requests that wait.
-    #[cfg(feature = "studio")]
-    pub fn forget(&self) {
-        self.waiting().requests.clear();
-    }
-
-    /// Registers this thread: it is unparked by each request as long as the result lives.
-    pub fn listen(&self) -> Listens<'_> {
-        self.bell.listen()
-    }
-
-    fn waiting(&self) -> MutexGuard<'_, Waiting> {
-        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+impl<T> Teller<T> {
+    /// Answers. The other end does not look before this one is dropped: the lock is free.
+    fn tell(self, answer: Result<T, ParamError>) {
+        *self.0.given.lock().unwrap_or_else(PoisonError::into_inner) = Some(answer);
     }
 }
 
-/// A thread group's view of the requests.
-#[derive(Clone, Default)]
-pub(crate) struct ServedRequests {
-    pub shared: Arc<Requests>,
-    /// Number of requests that the group has looked at.
-    seen: usize,
-}
-
-impl ServedRequests {
-    /// A view of the requests in `shared`.
-    #[cfg(feature = "studio")]
-    pub fn new(shared: Arc<Requests>) -> Self {
-        Self { shared, seen: 0 }
-    }
-
-    /// Returns `true` if there are requests that the group has not looked at.
-    pub fn are_new(&self) -> bool {
-        self.shared.count.load(Ordering::Acquire) != self.seen
-    }
-
-    /// Serves the requests for the parameters of `part`: those of the program, or of one of its thread groups.
-    pub fn serve<P: Parameters>(&mut self, part: &mut P) {
-        if self.are_new() {
-            self.seen = self.shared.count.load(Ordering::Acquire);
-            part.visit_params(&mut Server(&mut self.shared.waiting().requests));
-        }
+impl<T> Drop for Teller<T> {
+    fn drop(&mut self) {
+        self.0.is_over.store(true, Ordering::Release);
+        self.0.asks.unpark();
     }
 }
 
-/// Visitor that serves the requests for the parameters that it visits.
-struct Server<'a>(&'a mut Vec<Request>);
+/// The end of the thread that asks.
+pub(crate) struct Asked<T>(Arc<Answer<T>>);
 
-impl ParamVisitor for Server<'_> {
-    fn param(&mut self, info: &'static ParamInfo, mut access: Option<&mut dyn Access>) {
-        for request in self.0.extract_if(.., |request| request.name == info.name) {
-            (request.act)(access.as_mut().map(|access| &mut **access as &mut dyn Access));
+impl<T> Asked<T> {
+    /// Returns the answer, or `None` as long as there is none.
+    pub fn take(&self) -> Option<Result<T, ParamError>> {
+        let is_over = self.0.is_over.load(Ordering::Acquire);
+        let given = || self.0.given.lock().unwrap_or_else(PoisonError::into_inner).take();
+        is_over.then(|| given().unwrap_or(Err(ParamError::Ended)))
+    }
+
+    fn wait(&self) -> Result<T, ParamError> {
+        loop {
+            if let Some(answer) = self.take() {
+                return answer;
+            }
+            thread::park();
         }
     }
 }

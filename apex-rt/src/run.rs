@@ -154,23 +154,29 @@ impl<P: Program> Program for &mut P {
 }
 
 /// Executes a reaction, and tells the observer before and after it. `elapsed` returns the duration of the reaction so
-/// far.
+/// far. Also returns `true` if a deadline was missed.
 pub(crate) fn react<P: Program, O: Observer>(
     program: &mut P,
     now: Time,
     observer: &mut O,
     elapsed: &mut dyn FnMut() -> Duration,
-) -> Next {
+) -> (Next, bool) {
     observer.before_reaction(now, program);
-    let next = program.react_with(now, &mut (&mut *observer, Stopwatch(elapsed)));
+    let mut observers = (&mut *observer, Stopwatch { elapsed, is_late: false });
+    let next = program.react_with(now, &mut observers);
+    let (observer, Stopwatch { is_late, .. }) = observers;
     observer.after_reaction(next);
-    next
+    (next, is_late)
 }
 
 /// Observer that measures the duration of a reaction, and ends a late one after each instant: tokens and requests of
-/// other threads are served before the next. Its type does not depend on the clock, and that of all runs with
-/// one type of observer is the same: the program is compiled once for them.
-struct Stopwatch<'a>(&'a mut dyn FnMut() -> Duration);
+/// other threads are served before the next. Its type does not depend on the clock, and that of all runs with one type
+/// of observer is the same: the program is compiled once for them.
+struct Stopwatch<'a> {
+    elapsed: &'a mut dyn FnMut() -> Duration,
+    /// `true` if a deadline was missed.
+    is_late: bool,
+}
 
 impl Observer for Stopwatch<'_> {
     fn ends_early(&mut self) -> bool {
@@ -178,7 +184,11 @@ impl Observer for Stopwatch<'_> {
     }
 
     fn elapsed(&mut self) -> Duration {
-        (self.0)()
+        (self.elapsed)()
+    }
+
+    fn late(&mut self, _node: usize, _age: Duration) {
+        self.is_late = true;
     }
 }
 
@@ -193,11 +203,13 @@ const TOLD_FROM: Duration = Duration::from_secs(1);
 
 impl Lateness {
     /// Looks at a reaction that began at `now`. `elapsed` returns its duration.
+    #[inline]
     pub fn look<O: Observer>(&mut self, next: Next, now: Time, observer: &mut O, elapsed: impl FnOnce() -> Duration) {
         match next {
             Next::At(due) if due <= now => {
                 let behind = now.since(due);
-                if behind >= TOLD_FROM && !core::mem::replace(&mut self.is_told, true) {
+                if behind >= TOLD_FROM && !self.is_told {
+                    self.is_told = true;
                     observer.behind(behind, elapsed());
                 }
             }
@@ -230,8 +242,12 @@ struct Driven<P: Program> {
 
 #[cfg(not(feature = "std"))]
 impl<P: Program> Driven<P> {
-    fn new(program: P) -> Self {
+    fn new(program: P, _real: bool) -> Self {
         Self { program }
+    }
+
+    fn react<O: Observer>(&mut self, now: Time, observer: &mut O, elapsed: &mut dyn FnMut() -> Duration) -> Next {
+        react(&mut self.program, now, observer, elapsed).0
     }
 }
 
@@ -377,13 +393,13 @@ fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
     observer: &mut O,
     mut outside: W,
 ) -> u8 {
-    let mut driven = Driven::new(program);
-    let program = &mut driven.program;
-    outside.exchange(program);
+    let mut driven = Driven::new(program, !C::SIMULATED);
+    outside.exchange(&mut driven.program);
     let mut lateness = Lateness::default();
     loop {
         let now = clock.now();
-        let next = react(program, now, observer, &mut || clock.now().since(now));
+        let next = driven.react(now, observer, &mut || clock.now().since(now));
+        let program = &mut driven.program;
         lateness.look(next, now, observer, || clock.now().since(now));
         outside.serve(program);
         let came = outside.exchange(program);
@@ -400,7 +416,7 @@ fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
             }
             Next::Input => None,
         };
-        if is_asked() || !outside.wait(&mut clock, until) {
+        if !outside.wait(&mut clock, until) || is_asked() {
             return 0;
         }
     }

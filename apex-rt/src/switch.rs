@@ -27,6 +27,7 @@ impl Bell {
         self.listening().iter().for_each(Thread::unpark);
     }
 
+    #[inline]
     pub fn rings(&self) -> bool {
         self.rung.load(Ordering::Acquire)
     }

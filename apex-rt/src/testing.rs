@@ -124,6 +124,8 @@ pub struct Test<P> {
     feeds: Vec<Feed<P>>,
     /// Number of `feed` statements until now.
     feed_count: usize,
+    /// `true` after a `wait`, until something happens at its end.
+    is_waiting: bool,
     nevers: Vec<(Forbidden<P>, &'static str, &'static str)>,
     timeline: Timeline,
     drain: fn(&mut P, &mut Timeline),
@@ -154,6 +156,7 @@ impl<P: Program + Parameters + 'static> Test<P> {
             ended: None,
             feeds: vec![],
             feed_count: 0,
+            is_waiting: false,
             nevers: vec![],
             timeline,
             drain,
@@ -243,16 +246,21 @@ impl<P: Program + Parameters + 'static> Test<P> {
     }
 
     fn add(&mut self, feed: Feed<P>) {
+        self.is_waiting = false;
         self.feeds.push(feed);
         self.feed_count += 1;
         self.fed = self.reactions;
     }
 
-    /// Lets `time` pass.
+    /// Lets `time` pass. The program reacts at its end with the next statement: a token that is fed then is there
+    /// before a timeout of that instant.
     pub fn wait(&mut self, time: Duration) {
         let until = self.now + time;
-        self.run(until, |_| false);
+        if !time.is_zero() {
+            self.run(until - Duration::from_nanos(1), |_| false);
+        }
         self.now = until;
+        self.is_waiting = true;
     }
 
     /// Runs until a token satisfies check `check`, unless one already has that no expectation before has used. Tokens
@@ -289,11 +297,13 @@ impl<P: Program + Parameters + 'static> Test<P> {
 
     /// Declares that no token must satisfy check `check` from now on.
     pub fn never(&mut self, check: usize, text: &'static str, place: &'static str) {
+        self.arrive();
         self.nevers.push((Forbidden::Tokens(check), text, place));
     }
 
     /// Declares that the state must not hold from now on.
     pub fn never_state(&mut self, holds: Holds<P>, text: &'static str, place: &'static str) {
+        self.arrive();
         self.nevers.push((Forbidden::State(holds), text, place));
     }
 
@@ -356,10 +366,18 @@ impl<P: Program + Parameters + 'static> Test<P> {
         }
     }
 
+    /// Ends a `wait` that nothing was fed after: all that is due at its end happens before what is declared next.
+    fn arrive(&mut self) {
+        if self.is_waiting {
+            self.settle();
+        }
+    }
+
     /// Lets all happen that is due now. Each token that is fed has a reaction of its own, so that tokens come in the
     /// order of feeding, and one that found no room comes as soon as there is some.
     fn settle(&mut self) {
-        if self.wake.is_some_and(|time| time <= self.now) {
+        self.is_waiting = false;
+        if self.put() || self.wake.is_some_and(|time| time <= self.now) {
             self.react();
         }
         while self.put() {

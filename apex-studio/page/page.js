@@ -17,7 +17,7 @@ export function connect(place, hear, begin) {
   const token = location.hash.slice(1) || sessionStorage.getItem("token") || "";
   sessionStorage.setItem("token", token);
   let refused = false;
-  socket = new WebSocket(`ws://${location.host}/${place}`);
+  socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/${place}`);
   socket.addEventListener("open", () => {
     socket?.send(token);
     begin();

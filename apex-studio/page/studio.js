@@ -24,6 +24,8 @@ export const robot = {
   /** Connections over which a node waits for a token. @type {Set<number>} */ awaited: new Set(),
   now: 0,
   readonly: false,
+  /** `true` if this studio asks for neither tokens nor times. */
+  looks: false,
   /** The robot beside it, with which it is compared: its shadow, or the robot whose shadow it is. @type {"shadow" | "robot" | null} */
   beside: null,
   /** Times of calls by node, while they are measured. @type {Map<number, {calls: number, total: number, worst: number}> | null} */
@@ -58,9 +60,11 @@ let problems = 0;
 
 /** What the studio tells, by kind. @type {Record<string, (told: any) => void>} */
 const tells = {
-  about({ about, texts, editable, rebuilds, readonly, travels, repeats, beside }) {
+  about({ about, texts, editable, rebuilds, readonly, looks, travels, repeats, beside }) {
     robot.about = about;
     robot.readonly = readonly;
+    robot.looks = looks;
+    element("heat").hidden = looks;
     robot.beside = beside;
     element("take").hidden = beside !== "robot" || readonly;
     forget();
@@ -145,7 +149,8 @@ function centre(of) {
 function tick(told) {
   const [kind, why] = typeof told.run === "string" ? [told.run, told.run] : Object.entries(told.run)[0];
   const words = /** @type {string} */ (why);
-  state(kind, kind === "running" && told.paused ? "halted" : words);
+  if (told.silence !== null) state("lost", told.silence);
+  else state(kind, kind === "running" && told.paused ? "halted" : words);
   robot.now = told.now;
   paused = told.paused;
   speed = told.speed;
@@ -271,6 +276,7 @@ function look(at) {
 
 /** Shows the share of each node in the computing time, or no longer. */
 function heat() {
+  if (robot.looks) return;
   robot.times = robot.times ? null : new Map();
   element("heat").setAttribute("aria-pressed", String(robot.times !== null));
   ask({ measure: robot.times !== null });

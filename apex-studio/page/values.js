@@ -52,6 +52,8 @@ export class Values {
       row.dataset.channel = name;
       box.type = "checkbox";
       box.checked = this.pinned.has(name);
+      box.disabled = robot.looks;
+      if (robot.looks) box.title = "this studio may only look, and asks the robot for no tokens";
       box.addEventListener("change", () => {
         if (box.checked) this.pinned.add(name);
         else this.pinned.delete(name);

@@ -113,11 +113,16 @@ impl Editor {
         (texts, self.files.iter().map(|file| file.path.is_some()).collect())
     }
 
+    /// Colours of the text on the disk, if the page has that.
+    pub fn colours(&self, file: usize, version: u32, text: &str) -> Option<Written> {
+        let of = self.files.get(file).filter(|of| of.disk == text)?;
+        Some(Written::Paint { file, version, pieces: of.pieces(text) })
+    }
+
     /// Takes note of a text of the page. Returns its colours.
     pub fn edit(&mut self, file: usize, version: u32, text: String) -> Option<Written> {
         let of = self.files.get_mut(file)?;
-        let is_source = is_source(&of.name);
-        let pieces = if is_source { painted(&text) } else { vec![(text.encode_utf16().count(), 0)] };
+        let pieces = of.pieces(&text);
         of.text = Some(text);
         self.tell(file);
         Some(Written::Paint { file, version, pieces })
@@ -225,6 +230,10 @@ impl Editor {
 }
 
 impl File {
+    fn pieces(&self, text: &str) -> Vec<(usize, u8)> {
+        if is_source(&self.name) { painted(text) } else { vec![(text.encode_utf16().count(), 0)] }
+    }
+
     /// The newest text.
     fn now(&self) -> &str {
         self.text.as_ref().unwrap_or(&self.disk)

@@ -7,7 +7,11 @@ mod parameters;
 mod playback;
 mod viewer;
 
-use crate::{Replayed, robot::Shared, server::PATIENCE};
+use crate::{
+    Replayed,
+    robot::Shared,
+    server::{PATIENCE, Worker},
+};
 use axum::extract::ws::{Message, WebSocket};
 use messages::{Frame, asked};
 use std::{sync::Arc, time::Duration};
@@ -33,22 +37,23 @@ pub struct Seen {
 
 /// Talks to an app until it leaves.
 pub async fn talk(seen: Seen, mut socket: WebSocket) {
-    let mut viewer = Viewer::new(seen);
-    let mut tick = time::interval(TICK);
+    let (mut viewer, mut tick) = (Worker(Viewer::new(seen)), time::interval(TICK));
     // An app that was slow gets the newest state, not all that it missed.
     tick.set_missed_tick_behavior(time::MissedTickBehavior::Skip);
     loop {
-        let frames = tokio::select! {
-            _ = tick.tick() => viewer.news(),
+        let worked = tokio::select! {
+            _ = tick.tick() => viewer.work(Viewer::news).await,
             message = socket.recv() => match message {
                 Some(Ok(Message::Close(_)) | Err(_)) | None => return,
-                Some(Ok(message)) => match asked(&message) {
+                Some(Ok(message)) => viewer.work(move |viewer| match asked(&message) {
                     Ok(Some(asked)) => viewer.answer(asked),
                     Ok(None) => vec![],
                     Err(why) => vec![Frame::error(why)],
-                },
+                }).await,
             },
         };
+        let Some((worker, frames)) = worked else { return };
+        viewer = worker;
         for frame in &frames {
             let sent = time::timeout(PATIENCE, socket.send(frame.message())).await;
             if !matches!(sent, Ok(Ok(()))) {

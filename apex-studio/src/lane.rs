@@ -8,6 +8,8 @@ use std::borrow::Cow;
 const ENTRIES: usize = 4_000_000;
 const FEWEST: usize = 2_000;
 const MOST: usize = 100_000;
+/// Maximum number of columns of a window.
+const MAX_COLUMNS: u32 = 10_000;
 /// Width of the first buckets in ns.
 const BUCKET: i64 = 1_000_000;
 
@@ -52,7 +54,27 @@ pub struct Window {
     pub columns: u32,
 }
 
+/// Largest time in ns, before and after 0: 36 years. Times come from robots and pages; within this limit they can be
+/// added and subtracted.
+const LATEST: i64 = 1 << 60;
+
+/// Limits a time in ns.
+pub fn limited(time: i64) -> i64 {
+    time.clamp(-LATEST, LATEST)
+}
+
+/// Returns a time in s as one in ns, within the limit.
+pub fn nanos(seconds: f64) -> i64 {
+    limited((seconds * 1e9).round() as i64)
+}
+
 impl Window {
+    /// The time between two times in s, in this sequence or the other one.
+    pub fn new(from: f64, to: f64, columns: u32) -> Self {
+        let (from, to) = (nanos(from), nanos(to));
+        Self { from: from.min(to), to: from.max(to), columns: columns.clamp(1, MAX_COLUMNS) }
+    }
+
     /// Width of a column in ns.
     pub fn column_width(&self) -> i64 {
         (self.to.saturating_sub(self.from) / i64::from(self.columns.max(1))).max(1)
@@ -60,7 +82,8 @@ impl Window {
 
     /// Column of a time, limited to the window.
     fn column(&self, time: i64) -> u32 {
-        let (all, at) = ((self.to - self.from).max(1) as f64, (time.clamp(self.from, self.to) - self.from) as f64);
+        let all = self.to.saturating_sub(self.from).max(1) as f64;
+        let at = time.min(self.to).saturating_sub(self.from).max(0) as f64;
         (at / all * f64::from(self.columns)) as u32
     }
 }
@@ -332,6 +355,30 @@ mod tests {
         assert_eq!((back.spans, back.fired, back.marks), (early.spans, early.fired, early.marks));
         let begin = late.until(0, false, 0);
         assert_eq!((begin.spans, begin.fired, begin.marks), (vec![], vec![], vec![]));
+    }
+
+    #[test]
+    fn any_window_can_be_drawn_of_any_lane() {
+        let extremes =
+            [f64::NEG_INFINITY, -1e300, -1e9, -1.0, 0.0, 1e-9, 5.0, 1e9, 9.3e9, 1e300, f64::INFINITY, f64::NAN];
+        let times = [i64::MIN, i64::MIN + 1, -1, 0, 1, 5_000_000_000, i64::MAX - 1, i64::MAX].map(limited);
+        let mut lane = Lane::of(usize::MAX);
+        for time in times {
+            lane.activity(time, true);
+            lane.fire(time);
+            lane.mark(time);
+            lane.activity(time, false);
+        }
+        for from in extremes {
+            for to in extremes {
+                for columns in [0, 1, 1000, u32::MAX] {
+                    let window = Window::new(from, to, columns);
+                    assert!(window.from <= window.to && window.column_width() > 0);
+                    let drawn = lane.draw(0, window, limited(i64::MAX));
+                    assert!(drawn.spans.iter().all(|(from, to)| from < to && *to <= window.columns + 1));
+                }
+            }
+        }
     }
 
     #[test]

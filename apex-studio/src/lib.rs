@@ -4,6 +4,7 @@
 //! page to browsers on this machine. It holds no state that a robot needs: it may come and go.
 
 mod condition;
+mod connections;
 mod detail;
 mod drawn;
 mod editor;
@@ -14,13 +15,16 @@ mod lane;
 mod language;
 mod live;
 mod moment;
+mod outbox;
 mod picture;
+mod pulse;
 mod robot;
 #[cfg(test)]
 mod samples;
 mod server;
 mod session;
 mod shadow;
+mod site;
 mod steps;
 mod store;
 mod study;
@@ -28,9 +32,11 @@ mod tokens;
 mod top;
 mod waits;
 mod why;
+mod words;
 
 pub use robot::{Remote, Robot};
 pub use shadow::{Recorded, Shadow};
+pub use site::origin;
 pub use study::Study;
 pub use top::top;
 
@@ -38,6 +44,7 @@ use apex_diagram::Item;
 use robot::{Shared, follow};
 use server::{Served, Serving};
 use session::Beside;
+use site::Site;
 use std::{fmt::Write as _, io, net::SocketAddr, path::PathBuf, sync::Arc, thread};
 use study::Followed;
 use tokio::net::TcpListener;
@@ -123,6 +130,8 @@ pub struct Studio {
     pub studies: Vec<Study>,
     /// Address of the page.
     pub address: SocketAddr,
+    /// Origins under which proxies show the page, as [`origin`] returns them.
+    pub origins: Vec<String>,
     /// `true` if the page may only look.
     pub readonly: bool,
     /// Speed at which a simulated robot starts, in simulated seconds per second.
@@ -134,6 +143,8 @@ pub struct Studio {
 pub struct Addresses {
     /// The page, for a browser.
     pub page: String,
+    /// The page under each of the origins of proxies.
+    pub proxied: Vec<String>,
     /// The first robot, for an app that knows the protocol of Foxglove. That of robot number `n`, from 0, follows after
     /// `/`.
     pub foxglove: String,
@@ -159,11 +170,12 @@ impl Studio {
     pub fn serve(self, opened: impl FnOnce(&Addresses)) -> io::Result<()> {
         let token = token()?;
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-        runtime.block_on(async {
+        let served = runtime.block_on(async {
             let listener = TcpListener::bind(self.address).await?;
             let address = listener.local_addr()?;
             opened(&Addresses {
                 page: format!("http://{address}/#{token}"),
+                proxied: self.origins.iter().map(|origin| format!("{origin}/#{token}")).collect(),
                 foxglove: format!("ws://{address}/foxglove/{token}"),
             });
             let (mut robots, mut threads) = (Vec::<Served>::new(), vec![]);
@@ -189,17 +201,20 @@ impl Studio {
                 robots: Arc::clone(&robots),
                 studies: self.studies.into_iter().map(|study| Arc::new(Followed::new(study))).collect(),
                 token: token.into(),
-                address,
+                site: Arc::new(Site { address, origins: self.origins }),
                 readonly: self.readonly,
             };
-            let served = server::serve(serving, listener, stopped()).await;
+            server::serve(serving, listener, stopped()).await;
             robots.iter().for_each(|robot| robot.shared.end());
             for thread in threads {
                 // It has ended its robot then.
                 let _ = thread.join();
             }
-            served
-        })
+            Ok(())
+        });
+        // What a page still waits for ends with the process.
+        runtime.shutdown_background();
+        served
     }
 }
 

@@ -2,10 +2,12 @@
 
 use crate::{
     detail,
-    lane::{Drawn, Lane, Window},
+    lane::{Drawn, Lane, Window, limited},
+    pulse::Pulse,
     steps::{State, Step, Steps, What},
     tokens::Tokens,
     waits::Waits,
+    words::{is_name, is_value},
 };
 use apex_rt::studio::message::{About, NodeTimes, Report};
 use serde::Serialize;
@@ -13,6 +15,7 @@ use std::{
     borrow::Cow,
     collections::{BTreeMap, VecDeque},
     sync::Arc,
+    time::Instant,
 };
 
 /// Number of problems that are kept. The newest come first.
@@ -81,6 +84,9 @@ pub struct Live {
     pub steps: Steps,
     /// Nodes that wait for others.
     pub waits: Waits,
+    /// `true` if the robot lets viewers only look.
+    pub readonly: bool,
+    pulse: Pulse,
     lanes: Vec<Lane>,
     /// The earlier run.
     before: Option<Before>,
@@ -184,6 +190,8 @@ impl Default for Live {
             checkpoints: vec![],
             steps: Steps::new(Arc::default()),
             waits: Waits::default(),
+            readonly: false,
+            pulse: Pulse::default(),
             lanes: vec![],
             before: None,
         }
@@ -198,7 +206,8 @@ impl Live {
         let about = Arc::new(about);
         before.iter_mut().for_each(|before| before.map_to(&about));
         let steps = Steps::new(self.steps.store());
-        let next = Self { runs, repeats, travels, before, steps, run: Run::Running, ..Self::default() };
+        let (readonly, run) = (self.readonly, Run::Running);
+        let next = Self { runs, repeats, travels, before, steps, readonly, run, ..Self::default() };
         let last = std::mem::replace(self, next);
         self.nodes = vec![Node::default(); about.nodes.len()];
         self.lanes = about.nodes.iter().map(|_| Lane::of(about.nodes.len())).collect();
@@ -210,13 +219,14 @@ impl Live {
 
     /// Takes note of a message. Numbers that do not fit the description of the robot are ignored.
     pub fn note(&mut self, report: Report) {
+        self.pulse.hear(Instant::now());
         match report {
             Report::About(about) => drop(self.begin(about)),
             Report::Active(nodes) => nodes.into_iter().for_each(|node| self.activity(node, true)),
             Report::Reaction { now, .. } => {
-                self.now = self.now.max(now);
+                self.now = self.now.max(limited(now));
                 self.reactions += 1;
-                self.began.get_or_insert(now);
+                self.began.get_or_insert(limited(now));
                 self.step(What::Begins);
             }
             Report::Fired(node) => {
@@ -255,7 +265,7 @@ impl Live {
                 self.problem(None, format!("the claim `{claim}` does not hold"));
             }
             Report::Value { channel, now, text, bytes } if self.has_channel(channel) => {
-                self.tokens.entry(channel).or_default().push(now, text, bytes);
+                self.tokens.entry(channel).or_default().push(limited(now), text, bytes);
             }
             Report::Value { .. } => {}
             Report::Times(times) => {
@@ -267,7 +277,7 @@ impl Live {
                     }
                 }
             }
-            Report::Lost(count) => self.lost += count,
+            Report::Lost(count) => self.lost = self.lost.saturating_add(count),
             Report::Param { name, value, reactions } => self.param(name, value, reactions),
             Report::Pace { paused, speed, .. } => {
                 (self.paused, self.speed) = (paused, speed);
@@ -276,7 +286,21 @@ impl Live {
             Report::Checkpoints(all) => self.keep(&all),
             Report::NoCheckpoints(why) => (self.no_checkpoints, self.checkpoints) = (Some(why), vec![]),
             Report::Ended => self.end(Run::Ended),
+            Report::Alive(groups) => self.pulse.beat(groups, Instant::now()),
+            Report::ReadOnly => self.readonly = true,
+            Report::Dismissed(why) => self.end(Run::Lost(why)),
         }
+    }
+
+    /// Reason to believe that the robot stands still, or the connection to it.
+    pub fn silence(&self) -> Option<String> {
+        self.pulse.silence(self.about.as_ref().map_or(&[], |about| &about.groups), Instant::now())
+    }
+
+    /// Lets the last message have come at this time.
+    #[cfg(test)]
+    pub fn hear(&mut self, at: Instant) {
+        self.pulse.hear(at);
     }
 
     fn step(&mut self, what: What) {
@@ -343,9 +367,14 @@ impl Live {
     }
 
     fn param(&mut self, name: String, value: Result<String, String>, reactions: Option<u64>) {
-        if !self.about.as_ref().is_some_and(|about| about.params.iter().any(|param| param.name == name)) {
+        let is_known = |about: &Arc<About>| about.params.iter().any(|param| param.name == name);
+        // Names and values are written into files.
+        if !is_name(&name) || !self.about.as_ref().is_some_and(is_known) {
             return;
         }
+        let value = value.and_then(|value| {
+            if is_value(&value) { Ok(value) } else { Err("the robot tells something that is not a value".to_owned()) }
+        });
         let is_new = !self.params.contains_key(&name);
         let param = self.params.entry(name.clone()).or_default();
         param.version += 1;

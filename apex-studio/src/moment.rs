@@ -1,6 +1,6 @@
 //! An interval of a run as a `test` item: what became active in it, what stayed active, and what never was.
 
-use crate::{Replayed, kinds::is_silent, lane::Lane, live::Live};
+use crate::{Replayed, kinds::is_silent, lane::Lane, live::Live, words::is_name};
 use apex_rt::studio::message::{About, AboutNode};
 use std::fmt::Write as _;
 
@@ -16,6 +16,9 @@ pub fn test(live: &Live, from: i64, to: i64, replayed: Option<&Replayed>) -> Res
     let about = live.about.as_deref().ok_or("there is no robot yet")?;
     if !about.simulated {
         return Err("a robot in real time cannot be repeated: record it, and mark the moment in the replay".to_owned());
+    }
+    if !is_name(&about.name) {
+        return Err("the robot has a name that the language does not have".to_owned());
     }
     let (from, to) = (from.max(0), to.min(live.now));
     if from >= to {
@@ -74,7 +77,8 @@ impl<'a> Moment<'a> {
     /// The tokens of a recording for all ports that got some.
     fn feeds(&mut self, replayed: Option<&Replayed>) -> Result<(), String> {
         let Some(Replayed { file, channels, .. }) = replayed else { return Ok(()) };
-        let ports = self.about.nodes.iter().filter(|node| matches!(node.kind.as_str(), "input" | "slot"));
+        let is_port = |node: &&AboutNode| matches!(node.kind.as_str(), "input" | "slot") && is_name(&node.name);
+        let ports = self.about.nodes.iter().filter(is_port);
         let fed: Vec<&str> =
             ports.map(|node| node.name.as_str()).filter(|name| channels.iter().any(|c| c == name)).collect();
         if fed.is_empty() {

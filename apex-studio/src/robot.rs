@@ -4,15 +4,17 @@ use crate::{
     condition,
     journey::Journey,
     live::{Live, Run},
+    outbox::Outbox,
+    words::one_line,
 };
 use apex_rt::studio::{
-    connect,
+    connect_until,
     message::{self, About, Command, Report},
 };
 use std::{
     collections::{BTreeMap, VecDeque},
     io::{BufReader, ErrorKind, Read, Write},
-    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, atomic::AtomicBool},
     thread,
     time::{Duration, Instant},
 };
@@ -95,7 +97,7 @@ const MAX_EARLIER: usize = 4;
 
 #[derive(Default)]
 struct Link {
-    wire: Option<Box<dyn Write + Send>>,
+    wire: Option<Outbox>,
     /// Number of pages that watch each channel.
     watches: BTreeMap<u32, usize>,
     /// Number of pages that want calls to be measured.
@@ -105,13 +107,19 @@ struct Link {
     stop: String,
     /// The way to the state that the next run begins with.
     journey: Option<Journey>,
-    /// Parameters that the next run begins with, if it does not repeat this one.
-    sets: Vec<(String, String)>,
+    /// Parameters that the next run begins with, if it does not repeat this one, and those that are to be set at once.
+    sets: VecDeque<(String, String)>,
+    /// Number of those that the robot has not answered yet.
+    unanswered: usize,
     /// `true` if the robot was told to go back to a checkpoint.
     returns: bool,
     over: bool,
 }
 
+/// Number of parameters that are set at once.
+const MAX_UNANSWERED: usize = 32;
+/// Interval at which a robot is told that the studio is there.
+const BEAT: Duration = Duration::from_secs(1);
 /// Interval in ms at which tokens are asked for.
 const EVERY: u32 = 30;
 
@@ -145,6 +153,13 @@ impl Shared {
     /// Sends a command to the robot, if there is one.
     pub fn tell(&self, command: &Command) {
         locked(&self.link).tell(command);
+    }
+
+    /// Sets parameters, however many.
+    pub fn set_all(&self, values: Vec<(String, String)>) {
+        let mut link = locked(&self.link);
+        link.sets.extend(values);
+        link.set_some();
     }
 
     /// Asks for the tokens of a channel.
@@ -271,13 +286,25 @@ impl Shared {
 
 impl Link {
     fn tell(&mut self, command: &Command) {
-        let mut bytes = vec![];
-        message::write(command, &mut bytes);
-        if let Some(wire) = &mut self.wire
-            && wire.write_all(&bytes).is_err()
-        {
-            self.wire = None;
+        if let Some(wire) = &self.wire {
+            wire.put(command);
         }
+    }
+
+    /// Sets some of the parameters that wait for it: a robot has room for so many.
+    fn set_some(&mut self) {
+        while self.unanswered < MAX_UNANSWERED
+            && let Some((name, value)) = self.sets.pop_front()
+        {
+            self.unanswered += 1;
+            self.tell(&Command::Set { name, value });
+        }
+    }
+
+    /// A parameter was set, or refused.
+    fn is_answered(&mut self) {
+        self.unanswered = self.unanswered.saturating_sub(1);
+        self.set_some();
     }
 }
 
@@ -325,22 +352,36 @@ fn run(
     speed: &mut Option<f64>,
     way: Way,
 ) -> Option<Journey> {
-    let (from, to) = connection(robot, address, shared)?;
-    locked(&shared.link).wire = Some(to);
-    let reader = thread::scope(|scope| {
+    let closed = Arc::<AtomicBool>::default();
+    let (from, to) = connection(robot, address, shared, &closed)?;
+    let to = Outbox::new(to, closed).map_err(|error| shared.set(Run::Lost(format!("no thread: {error}")))).ok()?;
+    {
+        let mut link = locked(&shared.link);
+        (link.wire, link.unanswered) = (Some(to), 0);
+    }
+    shared.live().readonly = false;
+    let mut reader = thread::scope(|scope| {
         let reader = scope.spawn(|| read(from, shared, *speed, way));
+        let mut told = Instant::now();
         while !reader.is_finished() {
             let has_changed = changes(robot, shared);
             if shared.is_over() || has_changed || locked(&shared.link).restart {
                 robot.stop();
-                locked(&shared.link).wire = None;
+                let wire = locked(&shared.link).wire.take();
+                wire.inspect(Outbox::close);
+            }
+            if told.elapsed() > BEAT {
+                told = Instant::now();
+                shared.tell(&Command::Alive);
             }
             thread::sleep(LOOK);
         }
         reader.join().unwrap_or_else(|_| Err("the connection has failed".to_owned()))
     });
     let mut link = locked(&shared.link);
-    link.wire = None;
+    if link.wire.take().is_some_and(|wire| wire.is_deaf()) {
+        reader = Err("the robot takes no commands: it stands still, or the connection does".to_owned());
+    }
     let goes_back = std::mem::take(&mut link.returns) && !link.restart && !link.over;
     let journey = if goes_back { link.journey.take() } else { None };
     drop(link);
@@ -359,6 +400,7 @@ fn connection(
     robot: &mut dyn Robot,
     address: &str,
     shared: &Shared,
+    closed: &Arc<AtomicBool>,
 ) -> Option<(Box<dyn Read + Send>, Box<dyn Write + Send>)> {
     // What an earlier run has shown, or why it was lost, stays until there is a new one.
     let is_first = matches!(shared.live().run, Run::Starting(_));
@@ -367,7 +409,7 @@ fn connection(
     }
     let start = Instant::now();
     loop {
-        match connect(address) {
+        match connect_until(address, Arc::clone(closed)) {
             Ok(wires) => return Some(wires),
             Err(error) if !robot.comes_back() && (start.elapsed() > PATIENCE || !robot.runs()) => {
                 shared.set(Run::Lost(format!("cannot connect to {address}: {error}")));
@@ -413,6 +455,8 @@ fn read(from: Box<dyn Read + Send>, shared: &Shared, speed: Option<f64>, way: Wa
                 about.inspect(|about| greet(shared, about, &wants, first));
             }
             Report::NoCheckpoints(_) => shared.has_no_checkpoint(),
+            Report::Param { reactions: Some(_), .. } => locked(&shared.link).is_answered(),
+            Report::Dismissed(why) => return Err(one_line(why)),
             _ => {}
         }
         if let Some(command) = journey.as_mut().and_then(|journey| journey.after(&report)) {
@@ -470,8 +514,7 @@ fn greet(shared: &Shared, about: &About, wants: &Wants, first: Option<Command>) 
     // Nodes may have other numbers now; a condition on nodes that are gone is void.
     let stop = condition::parse(&link.stop, about).unwrap_or_default();
     link.tell(&Command::Break(stop));
-    let sets = std::mem::take(&mut link.sets);
-    sets.into_iter().for_each(|(name, value)| link.tell(&Command::Set { name, value }));
+    link.set_some();
     let start = wants.speed.map(|speed| Command::Run { speed });
     start.into_iter().chain(first).for_each(|command| link.tell(&command));
 }

@@ -1,9 +1,10 @@
 //! The web server: pages, and sockets for what they ask and are told.
 
 use crate::{
-    Source, foxglove,
+    Source, connections, foxglove,
     robot::Shared,
     session::{Asked, Beside, Session, Told},
+    site::Site,
     study::{self, Followed},
 };
 use axum::{
@@ -17,8 +18,8 @@ use axum::{
     routing::get,
 };
 use serde::Serialize;
-use std::{io, net::SocketAddr, sync::Arc, time::Duration};
-use tokio::{net::TcpListener, time};
+use std::{sync::Arc, time::Duration};
+use tokio::{net::TcpListener, task, time};
 
 /// Interval at which a page gets news.
 const TICK: Duration = Duration::from_millis(50);
@@ -36,7 +37,7 @@ pub struct Serving {
     pub robots: Arc<[Served]>,
     pub studies: Arc<[Arc<Followed>]>,
     pub token: Arc<str>,
-    pub address: SocketAddr,
+    pub site: Arc<Site>,
     pub readonly: bool,
 }
 
@@ -52,11 +53,7 @@ pub struct Served {
 }
 
 /// Serves pages until `stop` is complete.
-pub async fn serve(
-    serving: Serving,
-    listener: TcpListener,
-    stop: impl Future<Output = ()> + Send + 'static,
-) -> io::Result<()> {
+pub async fn serve(serving: Serving, listener: TcpListener, stop: impl Future<Output = ()> + Send + 'static) {
     let router =
         FILES.iter().fold(Router::new(), |router, file| router.route(file.path, get(|| async { file.response() })));
     let first = if serving.robots.is_empty() { &STUDY } else { &ROBOT };
@@ -74,8 +71,8 @@ pub async fn serve(
         )
         .with_state(serving);
     tokio::select! {
-        result = async { axum::serve(listener, router).await } => result,
-        () = stop => Ok(()),
+        () = connections::accept(listener, router) => {}
+        () = stop => {}
     }
 }
 
@@ -145,7 +142,7 @@ fn page<P: Page>(
     upgrade: WebSocketUpgrade,
     begin: fn(Serving) -> Option<(P, P::Told)>,
 ) -> Response {
-    if let Err(why) = serving.admits(headers) {
+    if let Err(why) = serving.site.admits(headers) {
         return (StatusCode::FORBIDDEN, why).into_response();
     }
     upgrade.max_message_size(MAX_MESSAGE).on_upgrade(move |socket| talk(serving, socket, begin))
@@ -159,10 +156,11 @@ async fn app(
     robot: usize,
     upgrade: WebSocketUpgrade,
 ) -> Response {
-    if !serving.is_own_host(&headers) || !is_same(token.as_bytes(), serving.token.as_bytes()) {
+    if !serving.site.is_own_host(&headers) || !is_same(token.as_bytes(), serving.token.as_bytes()) {
         return (StatusCode::FORBIDDEN, "open the address that `apex studio` has printed").into_response();
     }
-    let Some(seen) = serving.robots.get(robot).map(|robot| robot.seen(serving.readonly)) else {
+    let seen = task::spawn_blocking(move || serving.robots.get(robot).map(|robot| robot.seen(serving.readonly)));
+    let Ok(Some(seen)) = seen.await else {
         return (StatusCode::NOT_FOUND, "the studio has no such robot").into_response();
     };
     let upgrade = upgrade.max_message_size(MAX_MESSAGE).protocols(foxglove::PROTOCOLS);
@@ -177,31 +175,6 @@ impl Served {
     fn seen(&self, readonly: bool) -> foxglove::Seen {
         let replayed = self.source.replayed().ok().flatten();
         foxglove::Seen { shared: Arc::clone(&self.shared), readonly, travels: self.travels, replayed }
-    }
-}
-
-/// Returns the text of a header.
-fn text(headers: &HeaderMap, name: header::HeaderName) -> Option<&str> {
-    headers.get(name).and_then(|value| value.to_str().ok())
-}
-
-impl Serving {
-    /// `true` if a request names this studio: a page of another site may have given its own name to this address.
-    fn is_own_host(&self, headers: &HeaderMap) -> bool {
-        let own = [self.address.to_string(), format!("localhost:{}", self.address.port())];
-        let host = text(headers, header::HOST).unwrap_or_default();
-        own.iter().any(|own| own == host) || self.address.ip().is_unspecified()
-    }
-
-    /// Refuses other sites: their pages may not talk to a robot through the browser of its user.
-    fn admits(&self, headers: &HeaderMap) -> Result<(), &'static str> {
-        if !self.is_own_host(headers) {
-            return Err("this is not the host of the studio");
-        }
-        match text(headers, header::ORIGIN) {
-            Some(origin) if origin.strip_prefix("http://") == text(headers, header::HOST) => Ok(()),
-            _ => Err("this is not a page of the studio"),
-        }
     }
 }
 
@@ -253,7 +226,7 @@ async fn has_token(serving: &Serving, socket: &mut WebSocket) -> bool {
 /// A page in a browser.
 trait Page: Send + 'static {
     /// Message to the page.
-    type Told: Serialize + Send + Sync;
+    type Told: Serialize + Send + Sync + 'static;
 
     /// Changes since the last time.
     fn news(&mut self) -> Vec<Self::Told>;
@@ -333,27 +306,45 @@ async fn talk<P: Page>(serving: Serving, mut socket: WebSocket, begin: fn(Servin
     if !has_token(&serving, &mut socket).await {
         return;
     }
-    let Some((mut page, names)) = begin(serving) else { return };
+    let Ok(Some((page, names))) = task::spawn_blocking(move || begin(serving)).await else { return };
     if !send(&mut socket, &names).await {
         return;
     }
-    let mut tick = time::interval(TICK);
+    let (mut page, mut tick) = (Worker(page), time::interval(TICK));
     // A page that was slow gets the newest state, not all that it missed.
     tick.set_missed_tick_behavior(time::MissedTickBehavior::Skip);
     loop {
-        let told = tokio::select! {
-            _ = tick.tick() => page.news(),
+        let worked = tokio::select! {
+            _ = tick.tick() => page.work(P::news).await,
             message = socket.recv() => match message {
-                Some(Ok(Message::Text(text))) => page.answer(&text),
+                Some(Ok(Message::Text(text))) => page.work(move |page| page.answer(&text)).await,
                 Some(Ok(Message::Close(_)) | Err(_)) | None => return,
-                Some(Ok(_)) => vec![],
+                Some(Ok(_)) => continue,
             },
         };
+        let Some((worker, told)) = worked else { return };
+        page = worker;
         for told in told {
             if !send(&mut socket, &told).await {
                 return;
             }
         }
+    }
+}
+
+/// A page or an app that works on threads which may wait: for the compiler, a file, or a robot. Meanwhile all others
+/// are served.
+pub struct Worker<P>(pub P);
+
+impl<P: Send + 'static> Worker<P> {
+    /// Lets it do something. Returns `None` after a panic, which ends this page only.
+    pub async fn work<T: Send + 'static>(self, act: impl FnOnce(&mut P) -> T + Send + 'static) -> Option<(Self, T)> {
+        let Self(mut page) = self;
+        let worked = task::spawn_blocking(move || {
+            let told = act(&mut page);
+            (Self(page), told)
+        });
+        worked.await.ok()
     }
 }
 

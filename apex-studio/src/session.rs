@@ -4,7 +4,7 @@ use crate::{
     ParamChange, Source,
     drawn::drawn,
     editor::{Editor, Written},
-    lane::{Drawn, Window},
+    lane::{Drawn, Window, nanos},
     language::Place,
     live::{Live, Node, Param, Problem, Run},
     moment,
@@ -94,6 +94,8 @@ pub struct AboutRun {
     /// `true` if the robot is built and started again when a text has changed.
     rebuilds: bool,
     readonly: bool,
+    /// `true` if the studio asks for neither tokens nor times.
+    looks: bool,
     /// `true` if it can go back in time.
     travels: bool,
     /// `true` if it repeats the run before up to a point.
@@ -112,6 +114,8 @@ pub struct Tick {
     /// Simulated seconds per second; `null` for as fast as possible.
     speed: Option<f64>,
     lost: u64,
+    /// Reason to believe that the robot stands still, or the connection to it.
+    silence: Option<String>,
     /// Time in s before which only sums are known, if there is one.
     forgotten: Option<f64>,
     /// Nodes that have changed: index, active, since when in s, number of firings, time of the last one in s, number of
@@ -175,9 +179,6 @@ pub enum Asked {
     /// contents; without it, all.
     Lanes { from: f64, to: f64, columns: u32, also: Vec<usize>, seen: Option<BTreeSet<usize>> },
 }
-
-/// Maximum number of columns of the timeline.
-const MAX_COLUMNS: u32 = 10_000;
 
 /// A page.
 pub struct Session {
@@ -245,17 +246,29 @@ impl Session {
         self.earlier.as_ref().map_or_else(|| self.shared.live(), |earlier| locked(earlier))
     }
 
-    /// The current run of the robot beside this one, while this one is shown as it is now.
-    fn beside(&self) -> Option<MutexGuard<'_, Live>> {
-        // All pages are served by one thread: no other one has locked these two in another sequence.
-        self.beside.as_ref().filter(|_| self.earlier.is_none()).map(|beside| beside.shared.live())
+    /// The run that is shown, and that of the robot beside it while this one is shown as it is now. The robot is always
+    /// locked before its shadow: pages of both work at the same time.
+    fn both(&self) -> (MutexGuard<'_, Live>, Option<MutexGuard<'_, Live>>) {
+        match self.beside.as_ref().filter(|_| self.earlier.is_none()) {
+            None => (self.live(), None),
+            Some(shadow) if shadow.is_shadow => {
+                let own = self.live();
+                (own, Some(shadow.shared.live()))
+            }
+            Some(robot) => {
+                let other = robot.shared.live();
+                (self.live(), Some(other))
+            }
+        }
     }
 
     /// Gives the robot the parameters of its shadow, if this is the shadow.
     fn take_over(&self) {
         let Some(robot) = self.beside.as_ref().filter(|beside| !beside.is_shadow) else { return };
-        let changed = self.shared.live().changed_from(&robot.shared.live());
-        changed.into_iter().for_each(|(name, value)| robot.shared.tell(&Command::Set { name, value }));
+        let (own, other) = self.both();
+        let changed = other.as_ref().map(|other| own.changed_from(other)).unwrap_or_default();
+        drop((own, other));
+        robot.shared.set_all(changed);
     }
 
     /// Shows the run with this number; the current one if it is none of the earlier ones.
@@ -267,6 +280,10 @@ impl Session {
     /// Answers the page.
     pub fn answer(&mut self, asked: Asked) -> Option<Told> {
         let command = match asked {
+            Asked::Watch(_) | Asked::Measure(_) if self.readonly => return None,
+            Asked::Edit { file, version, text } if self.readonly => {
+                return self.editor.colours(file, version, &text).map(Told::Written);
+            }
             Asked::Open(open) => {
                 self.open = Some(open);
                 return self.draw();
@@ -286,13 +303,12 @@ impl Session {
                 return None;
             }
             Asked::Lanes { from, to, columns, also, seen } => {
-                let columns = columns.clamp(1, MAX_COLUMNS);
-                let window = Window { from: (from * 1e9) as i64, to: (to * 1e9) as i64, columns };
-                let live = self.live();
+                let window = Window::new(from, to, columns);
+                let (live, other) = self.both();
                 let is_seen = |node: usize| seen.as_ref().is_none_or(|seen| seen.contains(&node));
                 let lanes = live.draw(window, &also, &is_seen);
                 let nodes: Vec<usize> = lanes.iter().map(|lane| lane.node).filter(|node| is_seen(*node)).collect();
-                let (before, differs) = match self.beside() {
+                let (before, differs) = match other {
                     Some(other) => (other.draw_of(window, &nodes), live.differs_from(&other)),
                     None => (live.draw_before(window, &nodes), live.differs()),
                 };
@@ -300,7 +316,7 @@ impl Session {
             }
             Asked::Why { node, at } => {
                 let live = self.live();
-                let time = at.map_or(live.now, |at| (at * 1e9) as i64);
+                let time = at.map_or(live.now, nanos);
                 return Some(Told::Why(why(&live, node, time)));
             }
             Asked::Edit { file, version, text } => return self.editor.edit(file, version, text).map(Told::Written),
@@ -331,7 +347,7 @@ impl Session {
                 return None;
             }
             Asked::Goto(time) => {
-                self.shared.go_to((time * 1e9) as i64);
+                self.shared.go_to(nanos(time));
                 return None;
             }
             Asked::Break(text) => return Some(Told::Break(self.shared.halt_when(&text).err())),
@@ -360,7 +376,7 @@ impl Session {
     fn write_test(&self, from: f64, to: f64) -> Result<String, String> {
         let replayed = self.source.replayed()?;
         let live = self.shared.live();
-        let test = moment::test(&live, (from * 1e9).round() as i64, (to * 1e9).round() as i64, replayed.as_ref())?;
+        let test = moment::test(&live, nanos(from), nanos(to), replayed.as_ref())?;
         let name = live.about.as_ref().map_or_else(String::new, |about| about.name.clone());
         drop(live);
         self.source.write_test(&name, &test)
@@ -391,25 +407,36 @@ impl Session {
         let (shared, earlier) = (Arc::clone(&self.shared), self.earlier.clone());
         let shown = || earlier.as_ref().map_or_else(|| shared.live(), |earlier| locked(earlier));
         let live = shown();
-        if let Some(about) = live.about.clone().filter(|_| live.runs != self.seen.runs) {
-            self.seen = Seen { all_runs: std::mem::take(&mut self.seen.all_runs), ..Seen::of(&live) };
+        let new = live.about.clone().filter(|_| live.runs != self.seen.runs);
+        drop(live);
+        // Nobody waits for the compiler but this page.
+        let new = new.map(|about| {
             let picture = self.source.picture(&about.name).unwrap_or_else(|| drawn(&about));
-            self.picture = Some(Picture::new(picture));
-            let (texts, editable) = self.editor.begin(&about.files);
+            (self.editor.begin(&about.files), Picture::new(picture), about)
+        });
+        let live = shown();
+        // If yet another run has begun meanwhile, that comes the next time.
+        let new = new.filter(|(.., about)| live.about.as_ref().is_some_and(|now| Arc::ptr_eq(now, about)));
+        if let Some(((texts, editable), picture, about)) = new {
+            self.seen = Seen { all_runs: std::mem::take(&mut self.seen.all_runs), ..Seen::of(&live) };
+            self.picture = Some(picture);
             let is_over = self.earlier.is_some();
-            let (readonly, rebuilds) = (self.readonly || is_over, self.travels);
+            let (looks, rebuilds) = (self.readonly, self.travels);
+            let readonly = looks || is_over || live.readonly;
             let travels = self.travels && about.simulated && !is_over;
             let (run, repeats) = (live.runs, live.repeats);
             let beside = self.beside.as_ref().filter(|_| !is_over);
             let beside = beside.map(|beside| if beside.is_shadow { "shadow" } else { "robot" });
-            let about = AboutRun { run, about, texts, editable, rebuilds, readonly, travels, repeats, beside };
+            let about = AboutRun { run, about, texts, editable, rebuilds, readonly, looks, travels, repeats, beside };
             told.push(Told::About(about));
             drop(live);
             told.extend(self.draw());
             told.extend(self.since(&shown()));
         } else {
             told.extend(self.since(&live));
+            drop(live);
         }
+        told.extend(self.tokens_beside().map(Told::Beside));
         let errors = self.source.errors();
         if errors != self.seen.errors {
             self.seen.errors.clone_from(&errors);
@@ -477,7 +504,6 @@ impl Session {
         if !tokens.is_empty() {
             told.push(Told::Tokens(tokens));
         }
-        told.extend(self.tokens_beside().map(Told::Beside));
         told
     }
 
@@ -535,7 +561,19 @@ impl Seen {
         let run = if travels { Run::Starting("repeating the run".to_owned()) } else { live.run.clone() };
         let now = seconds(live.now);
         let (paused, forgotten) = (live.paused, live.steps.forgotten().map(seconds));
-        Tick { run, now, paused, speed, lost: live.lost, forgotten, nodes, handled, awaited: live.waits.awaited() }
+        let silence = live.silence().filter(|_| live.run == Run::Running);
+        Tick {
+            run,
+            now,
+            paused,
+            speed,
+            lost: live.lost,
+            silence,
+            forgotten,
+            nodes,
+            handled,
+            awaited: live.waits.awaited(),
+        }
     }
 
     fn params(&mut self, live: &Live) -> BTreeMap<String, Param> {

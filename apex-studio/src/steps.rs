@@ -174,7 +174,7 @@ impl Steps {
         let first = if is_recent { self.pages.len() } else { first };
         let end = self.pages.partition_point(|page| page.state.now <= to).max(first);
         let until = |time: i64| self.recent.partition_point(|step| step.now <= time);
-        let seen = until(to) - until(from.saturating_sub(1));
+        let seen = until(to).saturating_sub(until(from.saturating_sub(1)));
         let count = self.pages.range(first..end).map(|page| page.count).sum::<usize>() + seen;
         (count <= limit).then(|| self.part(first..end))
     }

@@ -3,6 +3,7 @@
 use crate::{
     live::{Live, Run},
     robot::{Remote, Shared, follow},
+    words::one_line,
 };
 use apex_rt::studio::message::Command;
 use crossterm::{
@@ -113,6 +114,7 @@ impl Rates {
 fn lines(live: &Live, rates: &Rates, height: usize) -> Vec<String> {
     let run = match &live.run {
         Run::Starting(what) | Run::Lost(what) => what.clone(),
+        Run::Running if live.silence().is_some() => live.silence().unwrap_or_default(),
         Run::Running if live.paused => "halted".to_owned(),
         Run::Running => "running".to_owned(),
         Run::Ended => "ended".to_owned(),
@@ -153,11 +155,6 @@ fn lines(live: &Live, rates: &Rates, height: usize) -> Vec<String> {
     lines
 }
 
-/// Text without control characters, which would do something to the terminal.
-fn one_line(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -194,5 +191,10 @@ mod tests {
             ]
         );
         assert_eq!(lines(&live, &rates, 3).len(), 3);
+        // A robot that stands still, or a cable that is out.
+        live.note(Report::Alive(vec![(20, false)]));
+        assert!(lines(&live, &rates, 24)[0].starts_with("Rover   running   "));
+        live.hear(std::time::Instant::now() - Duration::from_secs(4));
+        assert!(lines(&live, &rates, 24)[0].starts_with("Rover   no news for 4 s   "));
     }
 }

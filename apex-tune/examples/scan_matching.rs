@@ -150,7 +150,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         racing: arguments.racing,
     };
     let mut journal = match &arguments.journal {
-        Some(file) => Journal::open(file, &study.description())?,
+        Some(file) => Journal::open(file, &study)?,
         None => Journal::in_memory(),
     };
     println!("{} runs are known", journal.len());

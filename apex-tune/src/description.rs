@@ -7,10 +7,16 @@ use std::collections::BTreeMap;
 /// Version of this crate: another one may search in another way.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+/// Form of the lines of a journal: a run, its values, and a checksum.
+const FORM: u32 = 2;
+
 /// A study, and the version that runs it.
 #[derive(Serialize, Deserialize)]
 struct Description<S> {
     apex: String,
+    /// Form of the lines.
+    #[serde(default)]
+    journal: u32,
     study: S,
 }
 
@@ -31,7 +37,7 @@ pub(crate) mod bound {
 impl Study {
     /// Description in one line: equal for equal studies.
     pub fn description(&self) -> String {
-        let described = Description { apex: VERSION.to_owned(), study: self };
+        let described = Description { apex: VERSION.to_owned(), journal: FORM, study: self };
         serde_json::to_string(&described).expect("names and numbers can be written")
     }
 
@@ -47,6 +53,9 @@ impl Study {
                 "it is of version {}, and this is {VERSION}: its candidates may differ",
                 described.apex
             ));
+        }
+        if described.journal != FORM {
+            return Err("its lines have another form, without checksums".to_owned());
         }
         let study: Self = serde_json::from_value(described.study)
             .map_err(|error| format!("it does not describe a study: {error}"))?;

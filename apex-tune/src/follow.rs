@@ -84,7 +84,7 @@ impl Follower {
         let text = str::from_utf8(line).map_err(|_| bad())?.trim_end_matches(['\n', '\r']);
         match &mut self.seen {
             Some(seen) => {
-                let (run, values) = journal::run(text).ok_or_else(bad)?;
+                let (run, values) = journal::run(text, seen.study().goals.len()).ok_or_else(bad)?;
                 seen.add(run, values);
             }
             None => {

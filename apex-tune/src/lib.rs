@@ -23,7 +23,7 @@ mod timed;
 pub use apex_optim::{Axis, BadAxis, Best, Scale};
 pub use follow::Follower;
 pub use goal::{Goal, Point};
-pub use journal::{Journal, JournalError, Run};
+pub use journal::{Journal, JournalError, Lock, Run};
 pub use report::{Report, Score};
 pub use seen::{Candidate, Fate, Seen, Trail};
 pub use study::{Found, Known, Method, Objective, Parameter, Progress, Study, StudyError, on_threads};

@@ -217,7 +217,12 @@ impl Study {
         let values = runs.par_iter().zip(known).with_max_len(1).map(|((run, values), known)| match known {
             Some(known) => Ok(known),
             None => {
-                let values = objective.run(values, run.seed).map_err(StudyError::Run)?;
+                let mut values = objective.run(values, run.seed).map_err(StudyError::Run)?;
+                let (found, goals) = (values.len(), self.goals.len());
+                if found < goals {
+                    return Err(StudyError::Run(format!("a run has {found} values, and the study {goals} goals")));
+                }
+                values.truncate(goals);
                 let mut journal = journal.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
                 journal.add(*run, values.clone()).map_err(StudyError::Journal)?;
                 Ok(values)

@@ -71,9 +71,14 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
+/// A line of a journal, with its checksum.
+fn checked(line: &str) -> String {
+    format!("{line},{:08x}\n", crc32fast::hash(line.as_bytes()))
+}
+
 /// Runs a study up to its report. Returns the text of its journal.
 fn run(study: &Study, file: &Path, objective: &Valley) -> (String, Vec<Found>) {
-    let mut journal = Journal::open(file, &study.description()).expect("a new journal");
+    let mut journal = Journal::open(file, study).expect("a new journal");
     let found = study.run(objective, &mut journal, (0, 1), &mut |_| ()).expect("a study");
     Report::new(study, found.clone(), objective, &mut journal).expect("scores").expect("a result");
     (fs::read_to_string(file).expect("the journal"), found)
@@ -148,7 +153,7 @@ fn parts_and_other_journals_are_followed() {
     let file = folder.join("journal");
     let mut follower = Follower::new(file.clone());
     assert!(follower.read().is_err_and(|error| error.to_string().contains("journal")));
-    let mut journal = Journal::open(&file, &study.description()).expect("a new journal");
+    let mut journal = Journal::open(&file, &study).expect("a new journal");
     study.run(&objective, &mut journal, (1, 2), &mut |_| ()).expect("a part");
     read(&mut follower);
     let seen = follower.seen().expect("a study");
@@ -168,6 +173,9 @@ fn journals_that_cannot_be_read_are_reported() {
     let head = study.description() + "\n";
     let many = Study { seeds: (0..20_000).collect(), ..study.clone() }.description() + "\n";
     let long = "1".repeat(2 << 20);
+    let run = [head.as_bytes(), checked("0,0,0,1.5").as_bytes()].concat();
+    let with = |line: &[u8]| [&run, line].concat();
+    let changed = checked("0,0,1,1.5").replace("1.5", "1.6");
     for (text, message) in [
         ("nonsense\n".as_bytes(), "journal:1: the study of the journal cannot be shown: it does not describe a study"),
         (head.replace("\"apex\":\"", "\"apex\":\"9.").as_bytes(), "its candidates may differ"),
@@ -175,8 +183,12 @@ fn journals_that_cannot_be_read_are_reported() {
         (head.replace("a.b.x", "a]\\nb.x").as_bytes(), "is not the name of a parameter"),
         (head.replace("\"goals\":[", "\"goals\":[],\"other\":[").as_bytes(), "unknown field `other`"),
         (many.as_bytes(), "it has 20016 seeds, and at most 10000 are shown"),
-        ([head.as_bytes(), b"0,0,0,1.5\n0,1\n"].concat().as_slice(), "journal:3: not a run"),
-        ([head.as_bytes(), b"0,0,0,1.5\n\xff\xfe\n"].concat().as_slice(), "journal:3: not a run"),
+        (&with(b"0,1\n"), "journal:3: not a run"),
+        (&with(b"0,0,1,1.5\n"), "journal:3: not a run"),
+        (&with(b"\xff\xfe\n"), "journal:3: not a run"),
+        (&with(changed.as_bytes()), "journal:3: not a run"),
+        (&with(checked("0,0,1,1.5,2.5").as_bytes()), "journal:3: not a run"),
+        (head.replace("\"journal\":2,", "").as_bytes(), "its lines have another form"),
         ([head.as_bytes(), long.as_bytes()].concat().as_slice(), "journal:2: not a run"),
         (b"\0\0\0\n", "does not describe a study"),
     ] {
@@ -211,7 +223,7 @@ fn a_journal_that_is_too_long_is_shown_in_part() {
     let file = folder.join("journal");
     fs::write(&file, study.description() + "\n").expect("a file");
     let zeros = "0".repeat(1_000_000);
-    (0..80).for_each(|candidate| append(&file, format!("0,{candidate},0,0.{zeros}1\n").as_bytes()));
+    (0..80).for_each(|candidate| append(&file, checked(&format!("0,{candidate},0,0.{zeros}1")).as_bytes()));
     let mut follower = Follower::new(file);
     let error = loop {
         match follower.read() {

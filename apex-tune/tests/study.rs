@@ -102,16 +102,16 @@ fn threads_do_not_change_the_result() {
 fn an_interrupted_study_loses_nothing() {
     let (folder, study) = (folder("resumed"), study(Method::DifferentialEvolution, Summary::Mean));
     let file = folder.join("journal");
-    let mut journal = Journal::open(&file, &study.description()).expect("a new journal");
+    let mut journal = Journal::open(&file, &study).expect("a new journal");
     let (whole, runs) = run(&study, 2, &mut journal, (0, 1));
     let text = fs::read_to_string(&file).expect("the journal");
     // Interrupted in the middle of a line.
     fs::write(&file, &text[..text.len() / 3]).expect("a part of the journal");
-    let mut journal = Journal::open(&file, &study.description()).expect("the part");
+    let mut journal = Journal::open(&file, &study).expect("the part");
     let before = journal.len() as u64;
     let (resumed, rest) = run(&study, 2, &mut journal, (0, 1));
     assert!(before > 0 && before + rest == runs && resumed == whole, "{before} and {rest} of {runs} runs");
-    let error = Journal::open(&file, &Study { seed: 6, ..study }.description()).expect_err("another study");
+    let error = Journal::open(&file, &Study { seed: 6, ..study }).expect_err("another study");
     assert!(error.to_string().contains("other settings"), "{error}");
 }
 
@@ -121,10 +121,10 @@ fn parts_are_merged_to_the_same_result() {
     let (whole, runs) = run(&study, 2, &mut Journal::in_memory(), (0, 1));
     let files = [0, 1].map(|part| folder.join(part.to_string()));
     for (part, file) in files.iter().enumerate() {
-        let mut journal = Journal::open(file, &study.description()).expect("a new journal");
+        let mut journal = Journal::open(file, &study).expect("a new journal");
         run(&study, 1, &mut journal, (part as u64, 2));
     }
-    let mut journal = Journal::merge(&files, &study.description()).expect("both parts");
+    let mut journal = Journal::merge(&files, &study).expect("both parts");
     assert_eq!(journal.len() as u64, runs);
     assert_eq!(run(&study, 2, &mut journal, (0, 1)), (whole, 0));
 }
@@ -188,10 +188,10 @@ fn several_goals_have_a_front() {
     // On several machines.
     let files = [0, 1, 2].map(|part| folder.join(part.to_string()));
     for (part, file) in files.iter().enumerate() {
-        let mut journal = Journal::open(file, &study.description()).expect("a new journal");
+        let mut journal = Journal::open(file, &study).expect("a new journal");
         study.run(&objective, &mut journal, (part as u64, 3), &mut |_| ()).expect("a part");
     }
-    let mut merged = Journal::merge(&files, &study.description()).expect("all parts");
+    let mut merged = Journal::merge(&files, &study).expect("all parts");
     let found = study.run(&objective, &mut merged, (0, 1), &mut |_| ()).expect("the whole");
     let merged = Report::new(&study, found, &objective, &mut merged).expect("scores").expect("a result");
     assert_eq!(merged, report);

@@ -48,3 +48,33 @@ fn a_profile_counts_every_firing_and_every_slot() {
     assert_eq!((active("s"), active("w")), (vec![true, false, false], vec![true; 3]), "activity goes to `w` at once");
     assert!(events.iter().all(|e| e["dur"].as_f64().is_some_and(|dur| dur >= 0.0)));
 }
+
+/// Takes longer than the period of its source.
+#[node]
+pub fn slow_pass(x: &i64) -> i64 {
+    std::thread::sleep(std::time::Duration::from_millis(3));
+    *x
+}
+
+graph! {
+    use crate::profile::slow_pass;
+    use apex_tests::nodes::{Count, Snk};
+
+    graph TooSlow {
+        node often  = Count(end = 3) every 1ms;
+        node seldom = Count(end = 3) every 1h;
+        often  -> Snk();
+        seldom -> slow_pass() -> Snk();
+    }
+}
+
+#[test]
+fn a_reaction_that_is_longer_than_a_period_is_a_warning() {
+    let path = env::temp_dir().join(format!("apex-profile-slow-{}.json", std::process::id()));
+    let profile = Mutex::new(Profile::to_file(const { &TooSlow::INFO }, &path).expect("a folder for temporary files"));
+    drive_with(TooSlow::new(), SimClock::until(Time::from_millis(3)), Profile::of_group(&profile, 0));
+    fs::remove_file(&path).expect("it is ours");
+    let warnings = profile.into_inner().expect("nobody panics").warnings();
+    let [warning] = warnings.as_slice() else { panic!("{warnings:?}") };
+    assert!(warning.contains("of it in `slow_pass_2`, but `often` fires every 1ms"), "{warning}");
+}

@@ -283,3 +283,28 @@ fn each_node_and_each_connection_is_drawn_once() {
     }
     assert!(hybrid > 10, "the random graphs have hybrid connections");
 }
+
+#[test]
+fn a_source_that_a_slower_one_holds_back_has_its_real_period() {
+    let item = Drawer::new().one(
+        "
+use apex_nodes::math::add;
+use apex_tests::nodes::{Count, Snk, mul};
+
+graph Joined {
+    node fast = Count(end = 9) every 10ms skip;
+    node slow = Count(end = 9) every 100ms;
+    node free = Count(end = 9) every 10ms;
+    node sum  = add();
+    fast -> sum.a;
+    slow -> sum.b;
+    sum  -> Snk();
+    free -> Snk();
+}
+",
+    );
+    let frame = item.inside.as_ref().expect("it has an inside");
+    let words = |name: &str| named(frame, name).1.words[2..].to_vec();
+    assert_eq!(words("fast"), ["every 10 ms skip", "really every 100 ms"]);
+    assert_eq!([words("slow"), words("free")], [["every 100 ms"], ["every 10 ms"]]);
+}

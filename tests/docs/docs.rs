@@ -26,6 +26,7 @@ mod prose;
 mod rates;
 mod readme;
 mod recording;
+mod silence;
 mod studio;
 mod texts;
 mod tour;
@@ -186,7 +187,7 @@ fn what_the_documentation_shows_of_the_compiler_is_real() {
 #[test]
 fn the_rust_in_the_documentation_is_compiled_here() {
     assert_eq!(blocks(&page("README.md"), "rust"), [include_str!("readme.rs")]);
-    assert_eq!(blocks(&page("docs/nodes.md"), "rust"), [include_str!("nodes.rs")]);
+    assert_eq!(blocks(&page("docs/nodes.md"), "rust"), [include_str!("nodes.rs"), include_str!("silence.rs")]);
     assert_eq!(blocks(&page("docs/language.md"), "rust"), [include_str!("language.rs"), include_str!("rates.rs")]);
     assert_eq!(blocks(&page("docs/embedding.md"), "rust"), embedding::BLOCKS);
     assert_eq!(blocks(&page("docs/from/copper.md"), "rust"), [include_str!("from/copper.rs")]);
@@ -198,6 +199,7 @@ fn the_rust_in_the_documentation_is_compiled_here() {
     recording::main().expect("the file can be written and read");
     language::main();
     embedding::main();
+    silence::main();
     from::copper::main();
     from::cs_apex::main();
 }

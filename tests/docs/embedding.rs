@@ -1,6 +1,7 @@
 //! The programs of `docs/embedding.md`.
 
 mod driven;
+mod ends;
 mod first;
 mod own_loop;
 mod parameters;
@@ -11,10 +12,11 @@ mod remote;
 mod watching;
 
 /// Sources of the programs, in the order of the page.
-pub const BLOCKS: [&str; 8] = [
+pub const BLOCKS: [&str; 9] = [
     include_str!("embedding/first.rs"),
     include_str!("embedding/own_loop.rs"),
     include_str!("embedding/driven.rs"),
+    include_str!("embedding/ends.rs"),
     include_str!("embedding/ports.rs"),
     include_str!("embedding/parts.rs"),
     include_str!("embedding/parameters.rs"),
@@ -27,6 +29,7 @@ pub fn main() {
     first::main();
     own_loop::main();
     driven::main();
+    ends::main();
     ports::main();
     parts::main();
     parameters::main();

@@ -90,7 +90,7 @@ fn run_to(viewer: &mut Viewer, goal: u64) -> (Vec<Report>, Vec<u64>) {
     for report in viewer.until(is_there) {
         match report {
             Report::Checkpoints(all) => checkpoints = all,
-            Report::Pace { .. } => {}
+            Report::Pace { .. } | Report::Alive(_) => {}
             other => happened.push(other),
         }
     }
@@ -99,7 +99,7 @@ fn run_to(viewer: &mut Viewer, goal: u64) -> (Vec<Report>, Vec<u64>) {
     for report in viewer.until(|report| matches!(report, Report::Param { .. })) {
         match report {
             Report::Checkpoints(all) => checkpoints = all,
-            Report::Pace { .. } | Report::Param { .. } => {}
+            Report::Pace { .. } | Report::Param { .. } | Report::Alive(_) => {}
             other => happened.push(other),
         }
     }

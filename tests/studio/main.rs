@@ -5,6 +5,7 @@ mod bytes;
 mod checkpoints;
 mod figures;
 mod foxglove;
+mod hostile;
 mod measure;
 mod page;
 mod pictures;

@@ -55,10 +55,10 @@ impl Measured {
                 if self.came.len() < length + 4 {
                     break;
                 }
-                let mut bytes: Vec<u8> = self.came.drain(..length + 4).collect();
+                let bytes: Vec<u8> = self.came.drain(..length + 4).collect();
                 // The number of the variant: that of `Pace` and those after it.
                 if bytes[4] >= 18 {
-                    match apex_rt::studio::message::take(&mut bytes) {
+                    match apex_rt::studio::message::read(&mut &bytes[..]) {
                         Ok(Some(Report::Pace { paused: true, reactions, .. })) => return reactions,
                         Ok(Some(Report::NoCheckpoints(why))) => println!("no checkpoints: {why}"),
                         _ => {}

@@ -104,12 +104,25 @@ pub fn opened(robots: Vec<Seat>, readonly: bool) -> String {
     opened_with(robots, vec![], readonly)
 }
 
+/// Starts a studio for robots behind proxies with these origins, and returns the address of its page.
+pub fn opened_at(robots: Vec<Seat>, origins: &[&str]) -> String {
+    let origins = origins.iter().map(|origin| apex_studio::origin(origin).unwrap()).collect();
+    serve(Studio { origins, ..studio_for(robots) })
+}
+
 /// Starts a studio for robots and studies, and returns the address of its page.
 pub fn opened_with(robots: Vec<Seat>, studies: Vec<Study>, readonly: bool) -> String {
+    serve(Studio { studies, readonly, ..studio_for(robots) })
+}
+
+fn studio_for(robots: Vec<Seat>) -> Studio {
+    let address = "127.0.0.1:0".parse().unwrap();
+    Studio { robots, studies: vec![], address, origins: vec![], readonly: false, speed: Some(1.0) }
+}
+
+fn serve(studio: Studio) -> String {
     let (opened, address) = channel();
     thread::spawn(move || {
-        let address = "127.0.0.1:0".parse().unwrap();
-        let studio = Studio { robots, studies, address, readonly, speed: Some(1.0) };
         studio.serve(|addresses| opened.send(addresses.page.clone()).unwrap()).expect("a free port");
     });
     address.recv().expect("it opens")

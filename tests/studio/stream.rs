@@ -7,7 +7,11 @@ use apex_rt::studio::{
 };
 use std::{
     fs,
-    io::{self, Write as _},
+    io::{self, Read as _, Write as _},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     thread,
 };
 
@@ -176,4 +180,234 @@ fn a_program_halts_at_a_reaction_and_where_a_condition_becomes_true() {
         viewer.tell(&Command::Step);
         assert_eq!(halt(&mut viewer), 501);
     });
+}
+
+/// A program in real time whose reactions are few, so that values wait for it.
+fn slow(name: &str) -> (apex_rt::studio::Studio, String) {
+    let studio = open(name, StreamedTime::Real);
+    let address = studio.address().to_owned();
+    (studio, address)
+}
+
+#[test]
+fn a_value_that_no_type_needs_is_refused_before_it_is_read() {
+    streamed("long", StreamedTime::Waiting, |mut viewer| {
+        viewer.about();
+        let error = viewer.set("times.factor", &format!("[{}1]", "1,".repeat(1_000_000))).expect_err("2 MB");
+        assert!(error.contains("times.factor") && error.contains("at most 64 bytes"), "{error}");
+        assert_eq!(viewer.set("times.factor", "5"), Ok("5".to_owned()));
+    });
+}
+
+#[test]
+fn a_flood_of_values_is_dropped_and_its_sender_is_told() {
+    // Nothing serves the values.
+    let (studio, address) = slow("flood");
+    let (mut viewer, mut other) = (Viewer::connect(&address).unwrap(), Viewer::connect(&address).unwrap());
+    for _ in 0..1000 {
+        viewer.tell(&Command::Set { name: "times.factor".to_owned(), value: "3".to_owned() });
+    }
+    let is_last = |report: &Report| matches!(report, Report::Param { value: Err(error), .. } if error.contains("was dropped") && error.contains("(936 "));
+    let dropped = viewer.until(is_last).iter().filter(|report| matches!(report, Report::Param { .. })).count();
+    assert_eq!(dropped, 1000 - 64);
+    // Others have room of their own, and are told of nothing.
+    other.tell(&Command::Set { name: "times.factor".to_owned(), value: "4".to_owned() });
+    let is_told = Arc::new(AtomicBool::new(false));
+    let ends = Arc::clone(&is_told);
+    let runs = thread::spawn(move || {
+        let (mut program, mut stream) = (crate::Counts::new(), studio.stream(0));
+        for ms in (0..).take_while(|_| !ends.load(Ordering::Relaxed)) {
+            apex_rt::Observer::before_reaction(&mut stream, apex_rt::Time::from_millis(ms), &mut program);
+            thread::sleep(std::time::Duration::from_millis(1));
+        }
+    });
+    let (name, value) = ("times.factor".to_owned(), Ok("4".to_owned()));
+    let told =
+        other.until(|report| *report == Report::Param { name: name.clone(), value: value.clone(), reactions: Some(0) });
+    assert!(!told.iter().any(|report| matches!(report, Report::Param { value: Err(_), .. })), "{told:?}");
+    is_told.store(true, Ordering::Relaxed);
+    runs.join().expect("it does not panic");
+}
+
+#[test]
+fn questions_for_all_parameters_take_no_room_from_others() {
+    // Nothing serves them.
+    let (_studio, address) = slow("questions");
+    let (mut viewer, mut other) = (Viewer::connect(&address).unwrap(), Viewer::connect(&address).unwrap());
+    for _ in 0..5000 {
+        viewer.tell(&Command::Params);
+    }
+    viewer.until(|report| matches!(report, Report::Alive(_)));
+    other.tell(&Command::Set { name: "times.factor".to_owned(), value: "4".to_owned() });
+    let told = other.until(|report| matches!(report, Report::Alive(_)));
+    assert!(!told.iter().any(|report| matches!(report, Report::Param { .. })), "{told:?}");
+}
+
+#[test]
+fn viewers_that_say_nothing_make_room_for_others() {
+    let (_studio, address) = slow("idle");
+    let mut talking = Viewer::connect(&address).unwrap();
+    let mut idle: Vec<Viewer> = (0..15).map(|_| Viewer::connect(&address).unwrap()).collect();
+    idle.iter_mut().for_each(|viewer| drop(viewer.about()));
+    // All of them have said something not long ago, or have just come.
+    let mut early = Viewer::connect(&address).unwrap();
+    let told = early.next();
+    assert!(matches!(&told, Some(Report::Dismissed(why)) if why.contains("16 viewers")), "{told:?}");
+    for _ in 0..5 {
+        thread::sleep(std::time::Duration::from_millis(700));
+        talking.tell(&Command::Alive);
+    }
+    let mut late = Viewer::connect(&address).unwrap();
+    late.about();
+    let leaves = |report: &Report| matches!(report, Report::Dismissed(why) if why.contains("said nothing"));
+    idle[0].until(leaves);
+    // The others go when they have had time enough to say something.
+    idle.last_mut().expect("15 of them").until(|report| matches!(report, Report::Dismissed(_)));
+    talking.tell(&Command::Params);
+    talking.until(|report| matches!(report, Report::Alive(_)));
+}
+
+#[test]
+fn a_robot_says_that_it_is_there_and_if_it_reacts() {
+    let (studio, address) = slow("beats");
+    let mut viewer = Viewer::connect(&address).unwrap();
+    viewer.about();
+    let mut beat = || match viewer.until(|report| matches!(report, Report::Alive(_))).pop() {
+        Some(Report::Alive(groups)) => groups,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(beat(), [(0, false)]);
+    let (mut program, mut stream) = (crate::Counts::new(), studio.stream(0));
+    for ms in 0..3 {
+        apex_rt::Observer::before_reaction(&mut stream, apex_rt::Time::from_millis(ms), &mut program);
+        apex_rt::Observer::after_reaction(&mut stream, apex_rt::Next::Now);
+    }
+    assert_eq!(beat(), [(3, false)]);
+    apex_rt::Observer::before_reaction(&mut stream, apex_rt::Time::from_millis(3), &mut program);
+    assert_eq!((beat(), beat()), (vec![(4, true)], vec![(4, true)]));
+}
+
+#[test]
+fn many_small_messages_do_not_keep_others_waiting() {
+    let (_studio, address) = slow("small");
+    let mut flood = vec![];
+    message::write(&Command::Alive, &mut flood);
+    let flood = flood.repeat(400_000);
+    let Viewer { mut from, mut to } = Viewer::connect(&address).unwrap();
+    let reads = thread::spawn(move || while from.read(&mut [0; 1 << 16]).is_ok_and(|count| count > 0) {});
+    let writes = thread::spawn(move || to.write_all(&flood).map(|()| to));
+    let mut viewer = Viewer::connect(&address).unwrap();
+    viewer.about();
+    viewer.until(|report| matches!(report, Report::Alive(_)));
+    let to = writes.join().expect("it does not panic").expect("the robot reads them in time");
+    drop((to, viewer, _studio));
+    reads.join().expect("it ends with the robot");
+}
+
+#[cfg(unix)]
+#[test]
+fn only_the_user_of_the_robot_reaches_its_socket() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let (_studio, address) = slow("rights");
+    assert_eq!(fs::metadata(address).expect("a socket").permissions().mode() & 0o777, 0o600);
+}
+
+/// A robot in a process of its own, which runs as environment variables say.
+pub struct Robot {
+    process: std::process::Child,
+    pub address: String,
+}
+
+impl Robot {
+    /// Starts it with a socket of this name.
+    pub fn start(name: &str, variables: &[(&str, &str)]) -> Self {
+        let address = socket(name).to_str().expect("UTF-8").to_owned();
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_apex-test-robot"));
+        command.env("APEX_STUDIO", &address).env("APEX_STUDIO_WAIT", "1").envs(variables.iter().copied());
+        command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::piped());
+        let process = command.spawn().expect("it starts");
+        Self { process, address }
+    }
+
+    /// Connects a viewer as soon as there is a socket.
+    fn viewer(&self) -> Viewer {
+        let connected = (0..500).find_map(|_| {
+            thread::sleep(std::time::Duration::from_millis(20));
+            Viewer::connect(&self.address).ok()
+        });
+        connected.expect("it has a socket")
+    }
+
+    /// Ends it. Returns what it has written to standard error.
+    fn end(&mut self) -> String {
+        let mut said = String::new();
+        let _ = self.process.kill();
+        self.process.stderr.take().expect("it is read").read_to_string(&mut said).expect("UTF-8");
+        let _ = self.process.wait();
+        said
+    }
+
+    /// Sends a signal to it.
+    #[cfg(unix)]
+    pub fn signal(&self, name: &str) {
+        let id = self.process.id().to_string();
+        assert!(std::process::Command::new("kill").args([name, &id]).status().expect("there is `kill`").success());
+    }
+}
+
+impl Drop for Robot {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+        let _ = fs::remove_file(&self.address);
+    }
+}
+
+#[test]
+fn the_robot_notes_who_has_set_what() {
+    let mut robot = Robot::start("notes", &[]);
+    let mut viewer = robot.viewer();
+    viewer.about();
+    for value in ["3", "4", "5"] {
+        assert_eq!(viewer.set("times.factor", value), Ok(value.to_owned()));
+    }
+    // A note a second, with the last value.
+    thread::sleep(std::time::Duration::from_millis(1500));
+    let said = robot.end();
+    let notes: Vec<&str> = said.lines().filter(|line| line.starts_with("viewer ")).collect();
+    assert!(notes.last().is_some_and(|note| note.contains("has set `times.factor` to 5")), "{said}");
+    assert!(notes.len() <= 2, "{said}");
+}
+
+#[test]
+fn viewers_of_a_robot_that_is_not_for_them_only_look() {
+    let robot = Robot::start("looks", &[("APEX_STUDIO_ACCESS", "read")]);
+    let mut viewer = robot.viewer();
+    assert_eq!(viewer.next(), Some(Report::ReadOnly));
+    viewer.about();
+    assert!(viewer.set("times.factor", "5").expect_err("it may only look").contains("may only look"));
+    // Nothing lets it run.
+    viewer.tell(&Command::Run { speed: f64::INFINITY });
+    viewer.tell(&Command::Step);
+    viewer.tell(&Command::Params);
+    let told = viewer.until(|report| matches!(report, Report::Alive(_)));
+    assert!(!told.iter().any(|report| matches!(report, Report::Reaction { .. })), "{told:?}");
+    let two = Report::Param { name: "times.factor".to_owned(), value: Ok("2".to_owned()), reactions: None };
+    assert!(told.contains(&two), "{told:?}");
+}
+
+#[test]
+fn a_robot_with_a_token_tells_others_nothing() {
+    let robot = Robot::start("token", &[("APEX_STUDIO_TOKEN", "open sesame")]);
+    for first in [Command::Params, Command::Token("open barley".to_owned())] {
+        let mut viewer = robot.viewer();
+        viewer.tell(&first);
+        let told = viewer.next();
+        assert!(matches!(&told, Some(Report::Dismissed(why)) if why.contains("APEX_STUDIO_TOKEN")), "{told:?}");
+        assert_eq!(viewer.next(), None);
+    }
+    let mut viewer = robot.viewer();
+    viewer.tell(&Command::Token("open sesame".to_owned()));
+    viewer.about();
+    assert_eq!(viewer.set("times.factor", "5"), Ok("5".to_owned()));
 }

@@ -59,7 +59,7 @@ fn folder(name: &str, study: &Study) -> (PathBuf, String) {
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("a new folder");
     let file = folder.join("whole");
-    let mut journal = Journal::open(&file, &study.description()).expect("a new journal");
+    let mut journal = Journal::open(&file, study).expect("a new journal");
     let found = study.run(&Valley, &mut journal, (0, 1), &mut |_| ()).expect("a study");
     Report::new(study, found, &Valley, &mut journal).expect("scores").expect("a result");
     let text = fs::read_to_string(&file).expect("the journal");

@@ -1,14 +1,10 @@
 //! Effect of Ctrl-C on a driven program: this test starts itself as another process, which hangs.
 #![cfg(unix)]
 
+use crate::process::{again, read_until, send};
 use apex_macros::graph;
 use apex_rt::{UntilStopped, drive, prelude::*};
-use std::{
-    env,
-    io::{BufRead as _, BufReader, Write as _},
-    process::{Child, Command, Stdio},
-    thread,
-};
+use std::{io::Write as _, thread};
 
 /// Output of the other process when it hangs.
 const HANGS: &str = "it hangs";
@@ -65,42 +61,13 @@ graph! {
     }
 }
 
-/// Reads lines of the process until one is `line`.
-fn wait_for(line: &str, lines: &mut impl Iterator<Item = std::io::Result<String>>) {
-    let found = lines.any(|read| read.expect("it writes text").ends_with(line));
-    assert!(found, "it said nothing of `{line}`");
-}
-
-/// A process that is killed when the value is dropped.
-struct Killed(Child);
-
-impl Drop for Killed {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-fn interrupt(child: &Killed) {
-    let id = child.0.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &id]).status().expect("there is `kill`");
-    assert!(sent.success());
-}
-
 #[test]
 fn a_second_signal_ends_a_program_that_hangs() {
-    let own = env::current_exe().expect("the test runs");
-    let child = Command::new(own)
-        .args(["--ignored", "--exact", "signals::hangs", "--nocapture", "--test-threads=1"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn();
-    let mut child = Killed(child.expect("the test runs again"));
-    let mut lines = BufReader::new(child.0.stdout.take().expect("it is piped")).lines();
-    wait_for(HANGS, &mut lines);
-    interrupt(&child);
-    wait_for(ASKED, &mut lines);
-    interrupt(&child);
+    let (mut child, mut lines) = again("signals::hangs", &[]);
+    read_until(&mut lines, |line| line.ends_with(HANGS));
+    send(&child, "INT");
+    read_until(&mut lines, |line| line.ends_with(ASKED));
+    send(&child, "INT");
     let status = child.0.wait().expect("it ends");
     assert_eq!(status.code(), Some(130));
 }

@@ -11,7 +11,8 @@ use apex_dsl::{
 };
 use apex_host::Workspace;
 use apex_tune::{
-    Axis, Found, Goal, Journal, Known, Method, Parameter, Progress, Report, Scale, Study, StudyError, Summary, Timed,
+    Axis, Found, Goal, Journal, Known, Lock, Method, Parameter, Progress, Report, Scale, Study, StudyError, Summary,
+    Timed,
 };
 use std::{
     fs,
@@ -104,6 +105,8 @@ pub fn run(wanted: &Wanted) -> Result<ExitCode, String> {
     let workspace = Workspace::load(&folder)?;
     let output = wanted.output.clone().unwrap_or_else(|| default_folder(&workspace, &script.name));
     wanted.look(&output)?;
+    fs::create_dir_all(&output).map_err(|e| format!("cannot write in `{}`: {e}", output.display()))?;
+    let _lock = Lock::of(&output)?;
     if wanted.write {
         result::look(&checked, script, stated)?;
     }
@@ -258,11 +261,10 @@ impl Run<'_> {
                 "a study of {searches} searches has no {n} parts: give all of them `--searches {n}`, or more"
             ));
         }
-        fs::create_dir_all(&self.output).map_err(|e| format!("cannot write in `{}`: {e}", self.output.display()))?;
         let timed = Timed::new(self.workers);
         let (found, mut journal) = if self.wanted.merge.is_empty() {
-            let mut journal = Journal::open(&self.output.join(Journal::FILE), &self.study.description())
-                .map_err(|e| e.to_string())?;
+            let mut journal = Journal::open(&self.output.join(Journal::FILE), self.study).map_err(|e| e.to_string())?;
+            warn_of_damage(&journal, "their runs are repeated");
             self.begin(&journal)?;
             let found = self.search(&timed, &mut journal, (k - 1, n)).map_err(told)?;
             if n > 1 {
@@ -273,7 +275,8 @@ impl Run<'_> {
             (found, journal)
         } else {
             let files: Vec<PathBuf> = self.wanted.merge.iter().map(|folder| folder.join(Journal::FILE)).collect();
-            let mut journal = Journal::merge(&files, &self.study.description()).map_err(|e| e.to_string())?;
+            let mut journal = Journal::merge(&files, self.study).map_err(|e| e.to_string())?;
+            warn_of_damage(&journal, "their runs are missing: repeat them with `--shard K/N --resume`");
             let found = self.study.run(&Known, &mut journal, (0, 1), &mut |_| ()).map_err(told)?;
             (found, journal)
         };
@@ -358,6 +361,24 @@ impl Run<'_> {
         let left = if seconds >= 100 { format!("{} min", seconds.div_ceil(60)) } else { format!("{seconds} s") };
         eprint!("\r\x1b[2K{done} of {total} candidates; {best}; {left} left");
         let _ = io::stderr().flush();
+    }
+}
+
+/// Maximum number of damaged lines that are named.
+const MAX_NAMED: usize = 10;
+
+/// Prints the lines of a journal that are damaged.
+fn warn_of_damage(journal: &Journal, what: &str) {
+    let damaged = journal.damaged();
+    let named = damaged.iter().take(MAX_NAMED).map(|(path, line)| format!("{}:{line}", path.display()));
+    let named: Vec<String> = named.collect();
+    if !named.is_empty() {
+        let more =
+            if damaged.len() > MAX_NAMED { format!(" and {} more", damaged.len() - MAX_NAMED) } else { String::new() };
+        project::print_error(&format!(
+            "warning: lines of the journal are damaged, and {what}: {}{more}",
+            named.join(", ")
+        ));
     }
 }
 

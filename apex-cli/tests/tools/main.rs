@@ -24,6 +24,7 @@ mod params;
 mod record;
 #[cfg(unix)]
 mod studio;
+mod supply;
 mod times;
 mod together;
 mod tour;

@@ -45,6 +45,12 @@ fn read(folder: &Folder, path: impl AsRef<Path>) -> String {
     fs::read_to_string(folder.0.join(path)).unwrap()
 }
 
+/// Checksum of a line, bit by bit.
+fn crc32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg());
+    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
+}
+
 /// The lines of a journal, which are in the order in which the runs have ended.
 fn sorted(journal: &str) -> Vec<&str> {
     let mut lines: Vec<&str> = journal.lines().collect();
@@ -87,6 +93,27 @@ fn a_study_is_the_same_on_any_number_of_cores_and_machines() {
     fs::write(folder.0.join("two/journal.csv"), &two[..two.len() / 2]).unwrap();
     done(tune(&folder, "Swift", "two", &["--resume"]));
     assert_eq!(sorted(&one), sorted(&read(&folder, "two/journal.csv")));
+    // A changed digit, a missing value, and zeros after a power failure: these lines are run again.
+    let mut lines: Vec<Vec<u8>> = one.lines().map(|line| [line.as_bytes(), b"\n"].concat()).collect();
+    lines[3].iter_mut().rev().skip(9).find(|byte| byte.is_ascii_digit()).map(|byte| *byte ^= 1).unwrap();
+    let cut = lines[5].iter().rposition(|byte| *byte == b',').unwrap();
+    let end = lines[5].len() - 1;
+    lines[5].drain(cut..end);
+    lines[7] = vec![0; 40];
+    lines[8] = b"\xff\n".to_vec();
+    fs::write(folder.0.join("two/journal.csv"), lines.concat()).unwrap();
+    // Another program has locked the folder meanwhile.
+    let lock = fs::File::create(folder.0.join("two/.lock")).unwrap();
+    lock.lock().unwrap();
+    let second = tune(&folder, "Swift", "two", &["--resume"]).output().unwrap();
+    assert!(stderr(&second).contains("another `apex tune` works in `"), "{}", stderr(&second));
+    drop(lock);
+    let repaired = tune(&folder, "Swift", "two", &["--resume"]).output().unwrap();
+    let said = stderr(&repaired);
+    assert!(repaired.status.success(), "{said}");
+    let damaged = [4, 6, 8].map(|line| format!("two/journal.csv:{line}"));
+    assert!(damaged.iter().all(|place| said.contains(place)) && said.matches("journal.csv").count() == 3, "{said}");
+    assert_eq!(sorted(&one), sorted(&read(&folder, "two/journal.csv")));
     assert_eq!(read(&folder, "one/report.md"), read(&folder, "two/report.md"));
 
     done(tune(&folder, "Gentle", "whole", &[]));
@@ -99,6 +126,17 @@ fn a_study_is_the_same_on_any_number_of_cores_and_machines() {
     for file in ["report.md", "front.svg", "convergence.svg", "importance.svg"] {
         assert_eq!(read(&folder, format!("whole/{file}")), read(&folder, format!("merged/{file}")));
     }
+    // A part that is of another program: it has other values of the same run.
+    let text = read(&folder, "part2/journal.csv");
+    fs::create_dir(folder.0.join("other")).unwrap();
+    let head = text.lines().next().unwrap();
+    let of_defaults = "0,0,0,1.0,2.0";
+    let checked = |line: &str| format!("{head}\n{line},{:08x}\n", crc32(line.as_bytes()));
+    folder.file("other/journal.csv", checked(of_defaults));
+    let wrong = tune(&folder, "Gentle", "wrong", &["--merge", &both[0], "--merge", &part("other")]).output().unwrap();
+    let said = stderr(&wrong);
+    assert_eq!(wrong.status.code(), Some(2), "{said}");
+    assert!(said.contains("the run `0,0,0` has the values [") && said.contains("[1.0, 2.0] in "), "{said}");
     let incomplete = tune(&folder, "Gentle", "half", &["--merge", &both[0]]).output().unwrap();
     assert_eq!(incomplete.status.code(), Some(2));
     assert!(stderr(&incomplete).contains("the journals are not complete"), "{}", stderr(&incomplete));

@@ -18,7 +18,7 @@ use crate::{
 };
 
 pub use lints::check_lints;
-pub use rates::check_rates;
+pub use rates::{check_periods, check_rates};
 pub use types::compare as compare_types;
 
 /// Runs all checks on `graph` and on the bodies in it.

@@ -1,4 +1,4 @@
-//! Regions whose nodes fire at different rates.
+//! Regions whose nodes fire at different rates, and sources that others slow down.
 
 use crate::{
     analyse::{Analysis, has_rates},
@@ -15,6 +15,24 @@ pub fn check_rates(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnos
         if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
             check_rates(&each.body, body, diagnostics);
         }
+    }
+}
+
+/// Warns of sources that fire less often than their `every` says, because they are joined with slower ones.
+pub fn check_periods(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
+    for throttled in analysis.throttled(graph) {
+        let (node, slowest, [own, real]) =
+            (&graph.nodes[throttled.node], &graph.nodes[throttled.slowest], throttled.periods);
+        let name = graph.path(throttled.slowest);
+        let message =
+            format!("`{}` fires every {real:?} instead of every {own:?}: it is joined with `{name}`", node.name);
+        let warning = Diagnostic::warning("throttled", node.span, message)
+            .also(slowest.span, format!("every {real:?}"))
+            .note(format!(
+                "send its values through a `Latest` or `Latch`: `{} -> newest.set;`, and `newest` to the join",
+                node.name
+            ));
+        diagnostics.push(warning.inside(graph.scope_path(node.scope)));
     }
 }
 

@@ -49,7 +49,9 @@ impl Generator<'_> {
         if view.wiring.has_agenda() {
             field("agenda", quote!(::apex_rt::Agenda), quote!(::apex_rt::Agenda::new()));
         }
-        field("time", quote!(::apex_rt::ProgramTime), quote!(::apex_rt::ProgramTime::new()));
+        if self.has_time(view) {
+            field("time", quote!(::apex_rt::ProgramTime), quote!(::apex_rt::ProgramTime::new()));
+        }
         for (cell, _) in receivers(view.graph) {
             let name = Self::holding(cell).to_string();
             field(&name, quote!(bool), quote!(false));
@@ -239,14 +241,25 @@ impl Generator<'_> {
         };
         let next = quote!(next.or(#next));
         let (instant_begins, skips) = (self.next_instant(view), self.skips(view));
-        let reaction = match has_instants {
-            false => quote! {
+        let own_time = quote! { let now = self.state.time.of(now, observer); };
+        let reaction = match (self.has_time(view), has_instants) {
+            (false, _) => quote! {
+                #exit
+                let at = now;
+                #instant
+                #next
+            },
+            (true, false) => quote! {
+                #own_time
+                #exit
                 let at = now;
                 self.state.time.begin(at);
                 #instant
                 self.state.time.outside(#next)
             },
-            true => quote! {
+            (true, true) => quote! {
+                #own_time
+                #exit
                 #skips
                 loop {
                     #instant_begins
@@ -262,8 +275,6 @@ impl Generator<'_> {
         };
         quote! {
             #signature {
-                let now = self.state.time.of(now, observer);
-                #exit
                 #reaction
             }
         }
@@ -385,8 +396,8 @@ impl Generator<'_> {
         raises.finish()
     }
 
-    /// What happens if nothing else is left to do at an instant: what came in time counts before a timeout or a
-    /// silence. The first of them happens, as others may then be void.
+    /// Code for one timeout or silence, if nothing else is left to do at an instant: what came in time counts before
+    /// them. Only the first of them happens, as others may then be void.
     fn expires_first(&self, view: ProgramView<'_>) -> TokenStream {
         let timeouts: TokenStream = match view.wiring.is_tabled {
             true => self.first_expires(view),

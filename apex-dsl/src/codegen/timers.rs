@@ -12,7 +12,8 @@ use super::{
 };
 use crate::{
     analyse::{Analysis, ClusterId, is_source, silence_parameter},
-    graph::{ConnectionId, Graph, NodeId, Standard},
+    catalog::ArgSig,
+    graph::{ConnectionId, Graph, Node, NodeId, NodeKind, Standard},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -91,6 +92,21 @@ impl Generator<'_> {
     /// Returns `true` if something happens at a time, so that a late reaction has several instants.
     pub fn has_instants(view: ProgramView<'_>) -> bool {
         Self::timed(view).next().is_some()
+    }
+
+    /// Returns `true` if the time matters to a program: to its timers, or to a node that may look at it.
+    pub fn has_time(&self, view: ProgramView<'_>) -> bool {
+        let looks = |args: &[ArgSig]| args.contains(&ArgSig::Ctx);
+        let is_told = |node: &Node| match &node.kind {
+            NodeKind::Library(library) => {
+                let signature = &self.catalog.signatures[library.signature];
+                let slots = signature.slots.iter().any(|slot| looks(&slot.args));
+                slots || signature.process.as_deref().is_some_and(looks) || node.modifiers.deadline.is_some()
+            }
+            NodeKind::Each(_) => true,
+            _ => false,
+        };
+        Self::has_instants(view) || view.graph.nodes.iter().any(is_told)
     }
 
     /// The next instant of a reaction: the earliest time after the last instant at which something is due, else `now`.

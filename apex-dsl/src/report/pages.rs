@@ -51,6 +51,7 @@ pages! {
     "syntax"
     "target"
     "threads"
+    "throttled"
     "too-deep"
     "too-large"
     "twice"

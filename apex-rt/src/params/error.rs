@@ -27,6 +27,11 @@ pub enum Rejection {
         /// Maximum number of elements or bytes.
         most: usize,
     },
+    /// The value is written in more bytes than a value may have that is set while the program runs.
+    Size {
+        /// Maximum number of bytes.
+        most: usize,
+    },
     /// The value is out of the declared range.
     Range,
     /// The type of the parameter is not a [`ParamValue`](super::ParamValue).
@@ -68,6 +73,11 @@ impl Rejection {
                 write!(f, "`{name}` ({}) takes {expected} elements, not {found}", param.ty)
             }
             Self::Long { most } => write!(f, "the value of `{name}` is too long: there is room for {most}"),
+            Self::Size { most } => write!(
+                f,
+                "the value of `{name}` ({}) is too long: while the program runs it has at most {most} bytes of text; write a longer one into the source file or a file for `--params`",
+                param.ty
+            ),
             Self::Range => {
                 match value {
                     Some(value) => write!(f, "`{name}` cannot be {value}")?,

@@ -6,9 +6,13 @@
 mod error;
 #[cfg(feature = "params")]
 mod file;
+#[cfg(feature = "std")]
+mod given;
 #[cfg(feature = "params")]
 mod keep;
 mod probe;
+#[cfg(feature = "studio")]
+mod room;
 #[cfg(feature = "params")]
 mod run;
 #[cfg(feature = "params")]
@@ -18,12 +22,16 @@ mod value;
 pub use error::{ParamError, Rejection};
 #[cfg(feature = "params")]
 pub use file::{load_file, save_file};
+#[cfg(feature = "std")]
+pub(crate) use given::{Given, MAX_VALUE};
 #[doc(hidden)]
 pub use probe::{Known, Opaque, Probe};
+#[cfg(feature = "studio")]
+pub(crate) use room::room;
 #[cfg(feature = "params")]
 pub use run::run_with_files;
 #[cfg(feature = "params")]
-pub(crate) use text::with_text;
+pub(crate) use text::parsed;
 #[cfg(feature = "params")]
 pub use text::{LoadError, Problem, load, not_saved, save, set_text};
 pub use value::{GivenList, IntoParam, ParamRef, ParamValue};

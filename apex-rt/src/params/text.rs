@@ -1,6 +1,8 @@
 //! Parameters in TOML: one table per node, values in SI units.
 
-use super::{Access, GivenList, ParamError, ParamInfo, ParamRef, ParamVisitor, Parameters, Rejection, error::nearest};
+use super::{
+    Access, Given, GivenList, ParamError, ParamInfo, ParamRef, ParamVisitor, Parameters, Rejection, error::nearest,
+};
 use std::{
     collections::BTreeMap,
     fmt::{self, Write as _},
@@ -109,15 +111,14 @@ pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError>
 /// # Errors
 /// The errors of [`Parameters::set_param`]. A `value` that is not valid TOML is refused as one of the wrong kind.
 pub fn set_text<P: Parameters>(program: &mut P, name: &str, value: &str) -> Result<(), ParamError> {
-    with_text(value, |value| program.set_param(name, value))
+    program.set_param(name, parsed(value))
 }
 
-/// Calls `act` with a value as written in TOML.
-pub(crate) fn with_text<T>(text: &str, act: impl FnOnce(ParamRef<'_>) -> T) -> T {
-    match DeValue::parse(text) {
-        Ok(value) => act(given(value.get_ref())),
-        Err(_) => act(ParamRef::Other("something that is not a TOML value")),
-    }
+/// Reads a value in TOML. Takes time and memory by its length.
+pub(crate) fn parsed(text: &str) -> Given {
+    let (value, mut room) = (DeValue::parse(text).ok(), usize::MAX);
+    let copied = value.and_then(|value| Given::copy(given(value.get_ref()), &mut room));
+    copied.unwrap_or(Given::Other("something that is not a TOML value"))
 }
 
 #[derive(Default)]

@@ -2,7 +2,9 @@
 
 mod framing;
 
-pub use framing::{Joined, read, take, write};
+#[cfg(feature = "studio")]
+pub use framing::Frames;
+pub use framing::{Joined, read, write};
 
 use crate::PortKind;
 #[cfg(feature = "studio")]
@@ -22,7 +24,7 @@ pub const MAX_TOKEN: usize = 3 << 20;
 /// A message of a robot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Report {
-    /// The robot, as the first message on a connection.
+    /// The robot, as the first message on a connection; only [`ReadOnly`](Self::ReadOnly) comes before it.
     About(About),
     /// All active nodes, after [`About`](Self::About).
     Active(Vec<u32>),
@@ -121,6 +123,13 @@ pub enum Report {
     NoCheckpoints(String),
     /// The program has ended. No message follows.
     Ended,
+    /// The robot is there: sent each second, whatever the program does. For each thread group the number of its
+    /// reactions, and `true` if it is in one.
+    Alive(Vec<(u64, bool)>),
+    /// The viewer may only look: the robot sets no parameters for it, does not halt, and measures nothing.
+    ReadOnly,
+    /// The robot ends the connection, for this reason.
+    Dismissed(String),
 }
 
 /// A message of a viewer.
@@ -177,6 +186,30 @@ pub enum Command {
         /// Number of reactions since its start.
         reactions: u64,
     },
+    /// The viewer is there, and has no other wish. If there are too many viewers, the one leaves that has said nothing
+    /// for the longest time.
+    Alive,
+    /// The token of the robot, before all other commands.
+    Token(String),
+}
+
+impl Command {
+    /// `true` if it changes what the robot does, or how fast.
+    pub const fn acts(&self) -> bool {
+        match self {
+            Self::Watch { .. } | Self::Params | Self::Follow(_) | Self::Alive | Self::Token(_) => false,
+            Self::Measure(_)
+            | Self::Set { .. }
+            | Self::Pause
+            | Self::Step
+            | Self::Run { .. }
+            | Self::RunTo { .. }
+            | Self::RunUntil { .. }
+            | Self::Break(_)
+            | Self::Keep(_)
+            | Self::GoBack { .. } => true,
+        }
+    }
 }
 
 /// Times of the calls of a node: firings, and tokens at its slots.

@@ -3,9 +3,16 @@
 //!
 //! A program that [`drive`](crate::drive) runs streams if the environment variable `APEX_STUDIO` has an address:
 //! `HOST:PORT`, or the path of a socket. With `APEX_STUDIO_WAIT` a program in simulated time waits for a viewer that
-//! lets it run. Anyone who can connect can set parameters: use addresses that others cannot reach, such as
-//! `127.0.0.1:7400`.
+//! lets it run.
+//!
+//! Viewers may set parameters if other machines cannot reach the address, and may only look otherwise; the environment
+//! variable `APEX_STUDIO_ACCESS` (`read` or `write`) says so for any address. With `APEX_STUDIO_TOKEN` only viewers
+//! with the same value are admitted. The robot notes on standard error who has set which parameter.
 
+#[cfg(feature = "studio")]
+mod access;
+#[cfg(feature = "studio")]
+mod asking;
 #[cfg(feature = "studio")]
 mod checkpoint;
 #[cfg(feature = "studio")]
@@ -22,9 +29,11 @@ mod socket;
 mod stream;
 #[cfg(feature = "studio")]
 mod times;
+#[cfg(feature = "studio")]
+mod viewer;
 
 #[cfg(feature = "studio")]
 pub use run::{StreamedTime, Studio};
-pub use socket::connect;
+pub use socket::{connect, connect_until};
 #[cfg(feature = "studio")]
 pub use stream::Stream;

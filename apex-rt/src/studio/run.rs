@@ -1,5 +1,6 @@
 use super::{
     Stream,
+    access::Access,
     checkpoint::Checkpoints,
     message::{self, About},
     server::Server,
@@ -7,7 +8,10 @@ use super::{
     socket::Listener,
     times::Times,
 };
-use crate::{Info, Program, RemoteParams, remote::Requests, remote::ServedRequests};
+use crate::{
+    Info, Program, RemoteParams,
+    requests::{Requests, ServedRequests},
+};
 use rtrb::{Producer, RingBuffer};
 use std::{
     env, io,
@@ -53,7 +57,7 @@ impl Studio {
     /// # Errors
     /// The socket cannot be opened.
     pub fn open<P: Program>(address: &str, time: StreamedTime) -> io::Result<Self> {
-        Self::serving::<P>(address, time, Arc::default())
+        Self::serving::<P>(address, time, Arc::new(Requests::new(P::PARAMS)))
     }
 
     /// Opens a socket as the environment variables say, if they do.
@@ -61,7 +65,7 @@ impl Studio {
     /// # Errors
     /// The socket cannot be opened.
     pub fn of_environment<P: Program>(simulated: bool) -> io::Result<Option<Self>> {
-        Self::wanted::<P>(simulated, Arc::default())
+        Self::wanted::<P>(simulated, Arc::new(Requests::new(P::PARAMS)))
     }
 
     /// Opens a socket if the environment asks for it. The program serves `requests`.
@@ -78,16 +82,17 @@ impl Studio {
 
     fn serving<P: Program>(address: &str, time: StreamedTime, requests: Arc<Requests>) -> io::Result<Self> {
         let listener = Listener::open(address)?;
+        let access = Access::of_environment(&listener)?;
         let (info, channels) = (const { &P::INFO }, P::channels());
         // One ring for each group, and one for the watchdog.
         let (near, far): (Vec<_>, Vec<_>) = (0..info.groups.len().max(1) + 1).map(|_| RingBuffer::new(ROOM)).unzip();
         let pace = (time != StreamedTime::Real).then(|| Pace::new(time == StreamedTime::Waiting));
-        let shared = Arc::new(Shared::new(info.nodes.len(), channels.len(), pace));
+        let shared = Arc::new(Shared::new(info.nodes.len(), channels.len(), info.groups.len().max(1), pace));
         let mut about = vec![];
         let description = About::new(info, &channels, P::PARAMS, time != StreamedTime::Real);
         message::write(&message::Report::About(description), &mut about);
         let (address, params) = (listener.address(), RemoteParams::new(Arc::clone(&requests), P::PARAMS));
-        shared.start(Server::new(listener, far, Arc::clone(&shared), channels, about, params))?;
+        shared.start(Server::new((listener, access), far, Arc::clone(&shared), channels, about, params))?;
         Ok(Self { info, shared, requests, rings: Mutex::new(near), address })
     }
 

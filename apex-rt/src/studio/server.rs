@@ -1,27 +1,23 @@
 //! The thread that talks to viewers.
 
 use super::{
+    access::Access,
+    asking::{Asking, Told},
     fork::Lifeline,
-    message::{self, Command, Report},
+    message::{self, Report},
     shared::{Pace, Shared},
-    socket::{Listener, Wire},
+    socket::Listener,
     stream::shortened,
+    viewer::Viewer,
 };
-use crate::{
-    RemoteParams,
-    params::{Access, ParamError, with_text},
-    record::Channel,
-};
+use crate::{RemoteParams, record::Channel};
 use core::time::Duration;
 use rtrb::Consumer;
 use std::{
-    boxed::Box,
-    format, io,
-    string::{String, ToString as _},
+    format,
     sync::{
         Arc, PoisonError,
         atomic::Ordering::{AcqRel, Acquire, Relaxed, Release},
-        mpsc::{Receiver, Sender, channel},
     },
     thread,
     time::Instant,
@@ -32,10 +28,12 @@ use std::{
 /// Time between two looks at the rings, with a viewer and without.
 const LOOK: Duration = Duration::from_millis(2);
 const DOZE: Duration = Duration::from_millis(50);
-/// Number of bytes that may wait for a viewer. One that is slower is disconnected.
-const BACKLOG: usize = 16 << 20;
 /// Maximum number of viewers.
-const MAX_VIEWERS: usize = 16;
+pub const MAX_VIEWERS: usize = 16;
+/// Time without a word after which a viewer makes room for a new one. Studios say each second that they are there.
+const IDLE: Duration = Duration::from_secs(3);
+/// Interval at which viewers are told that the robot is there.
+const BEAT: Duration = Duration::from_secs(1);
 /// Time that viewers get for the last messages.
 const FAREWELL: Duration = Duration::from_secs(1);
 /// Maximum length of a token as text, in bytes.
@@ -46,47 +44,49 @@ const MAX_SHOWN: usize = 64 << 10;
 /// Everything that the thread has.
 pub struct Server {
     listener: Listener,
+    pub access: Access,
     rings: Vec<Consumer<u8>>,
-    shared: Arc<Shared>,
+    pub shared: Arc<Shared>,
     channels: Vec<Channel>,
     /// Description of the robot, as a message.
     about: Vec<u8>,
-    params: RemoteParams,
-    answers: (Sender<Report>, Receiver<Report>),
+    pub asking: Asking,
     viewers: Vec<Viewer>,
+    /// Number of viewers so far.
+    count: u64,
+    /// Time at which viewers were told that the robot is there.
+    beaten: Instant,
+    /// Room for a token.
+    token: Vec<u8>,
     /// Ends if the process ends whose checkpoint this one was.
     pub lifeline: Option<Lifeline>,
 }
 
-/// A connected viewer.
-struct Viewer {
-    wire: Box<dyn Wire>,
-    /// Bytes of commands that have come.
-    came: Vec<u8>,
-    /// Bytes that wait for the socket.
-    out: Vec<u8>,
-    /// Interval of each channel that it asked for, and the time of its last token.
-    watches: Vec<(usize, Duration, Option<Instant>)>,
-    /// `true` if it wants calls to be measured.
-    measures: bool,
-    /// `true` if it wants to know of every token.
-    follows: bool,
-    /// `true` if it wants checkpoints.
-    keeps: bool,
-    /// `true` after an error or the end of its commands.
-    gone: bool,
-}
-
 impl Server {
     pub fn new(
-        listener: Listener,
+        (listener, access): (Listener, Access),
         rings: Vec<Consumer<u8>>,
         shared: Arc<Shared>,
         channels: Vec<Channel>,
         about: Vec<u8>,
         params: RemoteParams,
     ) -> Self {
-        Self { listener, rings, shared, channels, about, params, answers: channel(), viewers: vec![], lifeline: None }
+        let asking = Asking::new(params, Arc::clone(&shared));
+        let (viewers, token, beaten) = (vec![], vec![], Instant::now());
+        Self {
+            listener,
+            access,
+            rings,
+            shared,
+            channels,
+            about,
+            asking,
+            viewers,
+            count: 0,
+            beaten,
+            token,
+            lifeline: None,
+        }
     }
 
     /// Serves viewers until the end of the program, or until it has to stop.
@@ -101,21 +101,23 @@ impl Server {
             self.lifeline.as_ref().inspect(|lifeline| lifeline.check());
             let mut viewers = core::mem::take(&mut self.viewers);
             self.welcome(&mut viewers);
+            let mut has_more = false;
             for viewer in &mut viewers {
-                viewer.receive(&self);
+                has_more |= viewer.receive(&mut self);
             }
             self.note_wishes(&viewers);
             self.collect(&mut batch);
             if let Some(report) = self.shared.pace.as_ref().and_then(Pace::news) {
                 message::write(&report, &mut batch);
             }
-            self.answers.1.try_iter().for_each(|report| message::write(&report, &mut batch));
+            self.answer(&mut viewers, &mut batch);
             self.values(&mut viewers);
+            self.beat(&mut batch);
             if over {
                 message::write(&Report::Ended, &mut batch);
             }
-            let is_quiet = batch.is_empty();
-            for viewer in &mut viewers {
+            let is_quiet = batch.is_empty() && !has_more;
+            for viewer in viewers.iter_mut().filter(|viewer| viewer.is_admitted) {
                 viewer.out.extend_from_slice(&batch);
                 viewer.flush();
             }
@@ -136,7 +138,7 @@ impl Server {
     pub fn leave_viewers(&mut self) {
         self.viewers.clear();
         self.collect(&mut vec![]);
-        self.answers = channel();
+        self.asking.clear();
         self.shared.watched.store(false, Release);
         self.note_wishes(&[]);
         self.update_channels(&[]);
@@ -149,27 +151,64 @@ impl Server {
         self.shared.keeps.store(viewers.iter().any(|viewer| viewer.keeps), Relaxed);
     }
 
-    /// Greets new viewers.
-    fn welcome(&self, viewers: &mut Vec<Viewer>) {
-        while viewers.len() < MAX_VIEWERS
-            && let Ok(wire) = self.listener.accept()
-        {
-            self.shared.watched.store(true, Release);
-            let mut out = self.about.clone();
-            message::write(&self.shared.active_nodes(), &mut out);
-            if let Some(pace) = &self.shared.pace {
-                message::write(&pace.report(), &mut out);
+    /// Takes new viewers in. If there are too many, the one leaves that has said nothing for the longest time.
+    fn welcome(&mut self, viewers: &mut Vec<Viewer>) {
+        for _ in 0..MAX_VIEWERS {
+            let Ok(wire) = self.listener.accept(self.count) else { return };
+            let mut viewer = Viewer::new(self.count, wire);
+            self.count += 1;
+            if viewers.len() >= MAX_VIEWERS {
+                let idle = viewers.iter_mut().max_by_key(|viewer| viewer.silence());
+                match idle.filter(|viewer| viewer.silence() > IDLE) {
+                    Some(idle) => idle.dismiss("others look at the robot, and this viewer has said nothing"),
+                    None => {
+                        viewer.dismiss(&format!("the robot has {MAX_VIEWERS} viewers, which is the maximum"));
+                        continue;
+                    }
+                }
+                self.dismiss(viewers);
             }
-            viewers.push(Viewer {
-                wire,
-                came: vec![],
-                out,
-                watches: vec![],
-                measures: false,
-                follows: false,
-                keeps: false,
-                gone: false,
-            });
+            if self.access.token.is_none() {
+                self.greet(&mut viewer);
+            }
+            viewers.push(viewer);
+        }
+    }
+
+    /// Describes the robot to a viewer.
+    pub fn greet(&self, viewer: &mut Viewer) {
+        if core::mem::replace(&mut viewer.is_admitted, true) {
+            return;
+        }
+        self.shared.watched.store(true, Release);
+        if self.access.readonly {
+            message::write(&Report::ReadOnly, &mut viewer.out);
+        }
+        viewer.out.extend_from_slice(&self.about);
+        message::write(&self.shared.active_nodes(), &mut viewer.out);
+        if let Some(pace) = &self.shared.pace {
+            message::write(&pace.report(), &mut viewer.out);
+        }
+    }
+
+    /// Passes the answers of the program on.
+    fn answer(&mut self, viewers: &mut [Viewer], batch: &mut Vec<u8>) {
+        for told in self.asking.told() {
+            match told {
+                Told::All(report) => message::write(&report, batch),
+                Told::One(id, report) => {
+                    let viewer = viewers.iter_mut().find(|viewer| viewer.id == id);
+                    viewer.into_iter().for_each(|viewer| message::write(&report, &mut viewer.out));
+                }
+            }
+        }
+    }
+
+    /// Says from time to time that the robot is there.
+    fn beat(&mut self, batch: &mut Vec<u8>) {
+        if self.beaten.elapsed() >= BEAT {
+            self.beaten = Instant::now();
+            message::write(&self.shared.alive(), batch);
         }
     }
 
@@ -203,7 +242,7 @@ impl Server {
     }
 
     /// Sends tokens to the viewers that asked for them.
-    fn values(&self, viewers: &mut [Viewer]) {
+    fn values(&mut self, viewers: &mut [Viewer]) {
         let asked: Vec<usize> = viewers.iter().flat_map(|viewer| viewer.watches.iter().map(|(at, ..)| *at)).collect();
         if asked.is_empty() {
             return;
@@ -224,60 +263,26 @@ impl Server {
     }
 
     /// Takes the newest token of a channel.
-    fn latest(&self, channel: usize) -> Option<Report> {
+    fn latest(&mut self, channel: usize) -> Option<Report> {
         let mut latest = self.shared.channels[channel].latest.lock().unwrap_or_else(PoisonError::into_inner);
         if !latest.is_new {
             return None;
         }
         latest.is_new = false;
-        let (bytes, now) = (latest.bytes.clone(), latest.now);
-        // The program must not wait while the token is converted.
+        // Only exchanged: the program finds the lock free after a moment, however long the token is.
+        core::mem::swap(&mut latest.bytes, &mut self.token);
+        let now = latest.now;
         drop(latest);
+        let bytes = &self.token;
         let schema = self.channels[channel].schema?;
         // Images as text would be of no use, and take long.
         let text = if bytes.len() > MAX_SHOWN {
             format!("{} bytes", bytes.len())
         } else {
-            (self.channels[channel].show)(&bytes)?
+            (self.channels[channel].show)(bytes)?
         };
-        let bytes = if schema.encoding == "cdr" && bytes.len() <= message::MAX_TOKEN { bytes } else { vec![] };
+        let bytes = if schema.encoding == "cdr" && bytes.len() <= message::MAX_TOKEN { bytes.clone() } else { vec![] };
         Some(Report::Value { channel: channel as u32, now, text: shortened(text, MAX_TEXT), bytes })
-    }
-
-    /// Asks the program for the values of all parameters. The answers come after its reaction.
-    fn ask_for_all(&self) {
-        for param in self.params.all() {
-            let (tell, refused) = (self.tells(param.name.into(), None), self.tells(param.name.into(), None));
-            let asked = self.params.post(param.name, |access| Ok((access.get().to_string(), None)), tell);
-            asked.unwrap_or_else(|error| refused(Err(error)));
-        }
-    }
-
-    /// Asks the program to set a parameter.
-    fn set(&self, name: String, value: String) {
-        let (tell, refused) = (self.tells(name.clone(), Some(0)), self.tells(name.clone(), Some(0)));
-        let shared = Arc::clone(&self.shared);
-        let act = move |access: &mut dyn Access| {
-            with_text(&value, |value| access.set(value))?;
-            Ok((access.get().to_string(), Some(shared.pace.as_ref().map_or(0, Pace::reactions))))
-        };
-        self.params.post(&name, act, tell).unwrap_or_else(|error| refused(Err(error)));
-    }
-
-    /// Returns a function that sends the value of a parameter, and the number of reactions before it was set, or
-    /// `unset` after an error.
-    fn tells(
-        &self,
-        name: String,
-        unset: Option<u64>,
-    ) -> impl FnOnce(Result<(String, Option<u64>), ParamError>) + Send + use<> {
-        let answer = self.answers.0.clone();
-        move |result| {
-            let reactions = result.as_ref().map_or(unset, |(_, reactions)| *reactions);
-            let value = result.map(|(value, _)| value).map_err(|error| error.to_string());
-            // The viewer may have gone.
-            let _ = answer.send(Report::Param { name, value, reactions });
-        }
     }
 
     fn update_channels(&self, viewers: &[Viewer]) {
@@ -288,85 +293,10 @@ impl Server {
     }
 }
 
-impl Viewer {
-    /// Obeys the commands that have come.
-    fn receive(&mut self, server: &Server) {
-        let mut bytes = [0; 4096];
-        loop {
-            match self.wire.read(&mut bytes) {
-                Ok(0) => {
-                    self.gone = true;
-                    break;
-                }
-                Ok(count) => self.came.extend_from_slice(&bytes[..count]),
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) => {
-                    self.gone |= error.kind() != io::ErrorKind::WouldBlock;
-                    break;
-                }
-            }
-            if self.came.len() > message::MAX_BYTES {
-                break;
-            }
-        }
-        loop {
-            match message::take(&mut self.came) {
-                Ok(Some(command)) => self.obey(command, server),
-                Ok(None) => return,
-                Err(_) => {
-                    self.gone = true;
-                    return;
-                }
-            }
-        }
-    }
-
-    fn obey(&mut self, command: Command, server: &Server) {
-        match command {
-            Command::Watch { channel, every } => {
-                let channel = channel as usize;
-                self.watches.retain(|watch| watch.0 != channel);
-                if every > 0 && channel < server.shared.channels.len() {
-                    self.watches.push((channel, Duration::from_millis(every.into()), None));
-                }
-            }
-            Command::Measure(measures) => self.measures = measures,
-            Command::Follow(follows) => self.follows = follows,
-            Command::Keep(keeps) => {
-                self.keeps = keeps;
-                // Before the next command, which may let the program run.
-                server.shared.keeps.fetch_or(keeps, Relaxed);
-            }
-            Command::Params => server.ask_for_all(),
-            Command::Set { name, value } => server.set(name, value),
-            pace => {
-                if let Some(state) = &server.shared.pace {
-                    state.obey(&pace, &server.shared.active);
-                }
-            }
-        }
-    }
-
-    /// Writes as much as the socket takes.
-    fn flush(&mut self) {
-        let mut sent = 0;
-        while sent < self.out.len() && !self.gone {
-            match self.wire.write(&self.out[sent..]) {
-                Ok(count) => sent += count,
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) if error.kind() == io::ErrorKind::WouldBlock => break,
-                Err(_) => self.gone = true,
-            }
-        }
-        self.out.drain(..sent);
-        self.gone |= self.out.len() > BACKLOG;
-    }
-}
-
 /// Sends the last messages.
 fn farewell(viewers: &mut [Viewer]) {
     let start = Instant::now();
-    while viewers.iter().any(|viewer| !viewer.gone && !viewer.out.is_empty()) && start.elapsed() < FAREWELL {
+    while viewers.iter().any(|viewer| !viewer.gone && viewer.is_behind()) && start.elapsed() < FAREWELL {
         viewers.iter_mut().for_each(Viewer::flush);
         thread::sleep(LOOK);
     }

@@ -35,6 +35,8 @@ pub struct Shared {
     pub followed: AtomicBool,
     /// Number of messages that did not fit into a ring.
     pub lost: AtomicU64,
+    /// Reactions of each thread group.
+    pub beats: Box<[Beat]>,
     /// `true` while a viewer wants checkpoints.
     pub keeps: AtomicBool,
     /// Pace of the program, if its time is simulated.
@@ -60,8 +62,34 @@ pub struct Latest {
     pub bytes: Vec<u8>,
 }
 
+/// Reactions of a thread group.
+#[derive(Default)]
+pub struct Beat {
+    /// Number of those that have begun.
+    begun: AtomicU64,
+    /// The same at the end of the last one; 0 if the group does not tell.
+    ended: AtomicU64,
+}
+
+impl Beat {
+    pub fn begin(&self) {
+        self.begun.fetch_add(1, Relaxed);
+    }
+
+    pub fn end(&self) {
+        self.ended.store(self.begun.load(Relaxed), Relaxed);
+    }
+
+    /// Number of reactions, and `true` within one.
+    fn report(&self) -> (u64, bool) {
+        // A reaction that begins or ends meanwhile has been in progress.
+        let (ended, begun) = (self.ended.load(Relaxed), self.begun.load(Relaxed));
+        (begun, ended > 0 && begun != ended)
+    }
+}
+
 impl Shared {
-    pub fn new(nodes: usize, channels: usize, pace: Option<Pace>) -> Self {
+    pub fn new(nodes: usize, channels: usize, groups: usize, pace: Option<Pace>) -> Self {
         Self {
             watched: AtomicBool::new(false),
             over: AtomicBool::new(false),
@@ -70,6 +98,7 @@ impl Shared {
             measured: AtomicBool::new(false),
             followed: AtomicBool::new(false),
             lost: AtomicU64::new(0),
+            beats: (0..groups).map(|_| Beat::default()).collect(),
             keeps: AtomicBool::new(false),
             pace,
             stops: AtomicBool::new(false),
@@ -93,6 +122,11 @@ impl Shared {
         let server = thread.join().ok();
         self.stops.store(false, Release);
         server
+    }
+
+    /// Says that the robot is there, and whether its groups react.
+    pub fn alive(&self) -> Report {
+        Report::Alive(self.beats.iter().map(Beat::report).collect())
     }
 
     /// Returns all active nodes.

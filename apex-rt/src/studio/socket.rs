@@ -1,12 +1,18 @@
 //! Sockets of the machine's network and, on Unix, of the file system.
 
 use super::message;
+use core::time::Duration;
 use std::{
     boxed::Box,
-    fs,
+    env, fs,
     io::{self, Read, Write},
     net::TcpStream,
     path::Path,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    vec::Vec,
 };
 #[cfg(feature = "studio")]
 use std::{
@@ -15,6 +21,13 @@ use std::{
     path::PathBuf,
     string::{String, ToString as _},
 };
+
+/// Environment variable of robots and of those who look at them, with the token that admits viewers.
+pub const TOKEN: &str = "APEX_STUDIO_TOKEN";
+/// Time between two looks whether a connection is to be closed.
+const LOOK: Duration = Duration::from_millis(200);
+/// Time in which a robot has to take what is sent to it.
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A connection to a viewer.
 #[cfg(feature = "studio")]
@@ -43,6 +56,8 @@ impl Listener {
                     let _ = fs::remove_file(path);
                 }
                 let listener = std::os::unix::net::UnixListener::bind(path)?;
+                // Only the user who runs the robot may connect.
+                fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(0o600))?;
                 listener.set_nonblocking(true)?;
                 Self::File(listener, path.to_owned())
             }
@@ -57,21 +72,33 @@ impl Listener {
         Ok(listener)
     }
 
-    /// Returns the next connection, if there is one.
-    pub fn accept(&self) -> io::Result<Box<dyn Wire>> {
+    /// Returns the next connection, if there is one, with its address. Connections to a file have none but their
+    /// `number`.
+    pub fn accept(&self, number: u64) -> io::Result<(String, Box<dyn Wire>)> {
         match self {
             Self::Tcp(listener) => {
-                let (stream, _) = listener.accept()?;
+                let (stream, from) = listener.accept()?;
                 stream.set_nonblocking(true)?;
                 stream.set_nodelay(true)?;
-                Ok(Box::new(stream))
+                Ok((from.to_string(), Box::new(stream)))
             }
             #[cfg(unix)]
             Self::File(listener, _) => {
                 let (stream, _) = listener.accept()?;
                 stream.set_nonblocking(true)?;
-                Ok(Box::new(stream))
+                Ok((format!("{number} of this machine"), Box::new(stream)))
             }
+        }
+    }
+
+    /// `true` if other machines may reach it.
+    pub fn is_public(&self) -> bool {
+        match self {
+            Self::Tcp(listener) => {
+                listener.local_addr().map_or(true, |address| !address.ip().to_canonical().is_loopback())
+            }
+            #[cfg(unix)]
+            Self::File(..) => false,
         }
     }
 
@@ -95,21 +122,62 @@ impl Drop for Listener {
     }
 }
 
-/// Connects to a robot at `address`: `HOST:PORT`, or the path of a socket or a serial device. After `bytes:`, it is a
+/// Connects to a robot at `address`: `HOST:PORT`, or the path of a socket or a serial device. The token in the
+/// environment variable `APEX_STUDIO_TOKEN` is sent to it, if there is one. After `bytes:`, the address is that of a
 /// stream of bytes that may be joined in the middle ([`ByteStream`](crate::bytes::ByteStream)): everything before the
 /// next description of the robot is skipped, and no commands are sent. Returns a reader and a writer.
 ///
 /// # Errors
 /// There is none.
-pub fn connect(address: &str) -> io::Result<(Box<dyn Read + Send>, Box<dyn Write + Send>)> {
-    let Some(address) = address.strip_prefix("bytes:") else { return open(address) };
-    let (from, mut to) = open(address)?;
-    // Whatever comes from here lets the robot describe itself.
-    to.write_all(&[0])?;
-    Ok((Box::new(message::Joined::new(from)), Box::new(io::sink())))
+pub fn connect(address: &str) -> io::Result<Wires> {
+    connect_until(address, Arc::default())
 }
 
-fn open(address: &str) -> io::Result<(Box<dyn Read + Send>, Box<dyn Write + Send>)> {
+/// Connects as [`connect`] does. The reader of a socket is at its end when `closed` has become `true`; a writer
+/// gives up after some seconds in which the robot takes nothing.
+///
+/// # Errors
+/// There is none.
+pub fn connect_until(address: &str, closed: Arc<AtomicBool>) -> io::Result<Wires> {
+    let (address, is_bytes) = address.strip_prefix("bytes:").map_or((address, false), |address| (address, true));
+    let (from, mut to) = open(address, closed)?;
+    if is_bytes {
+        // Whatever comes from here lets the robot describe itself.
+        to.write_all(&[0])?;
+        return Ok((Box::new(message::Joined::new(from)), Box::new(io::sink())));
+    }
+    if let Some(token) = env::var_os(TOKEN).filter(|token| !token.is_empty()) {
+        let mut bytes = Vec::new();
+        message::write(&message::Command::Token(token.to_string_lossy().into_owned()), &mut bytes);
+        to.write_all(&bytes)?;
+    }
+    Ok((from, to))
+}
+
+/// A reader and a writer.
+type Wires = (Box<dyn Read + Send>, Box<dyn Write + Send>);
+
+/// A socket whose reads have a limited time, until it is closed from this side.
+struct Patient<R> {
+    from: R,
+    closed: Arc<AtomicBool>,
+}
+
+impl<R: Read> Read for Patient<R> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        loop {
+            if self.closed.load(Ordering::Acquire) {
+                return Ok(0);
+            }
+            match self.from.read(into) {
+                Err(error) if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) => {}
+                result => return result,
+            }
+        }
+    }
+}
+
+fn open(address: &str, closed: Arc<AtomicBool>) -> io::Result<Wires> {
     match path(address) {
         #[cfg(unix)]
         Some(path) if is_device(path) => {
@@ -119,14 +187,18 @@ fn open(address: &str) -> io::Result<(Box<dyn Read + Send>, Box<dyn Write + Send
         #[cfg(unix)]
         Some(path) => {
             let stream = std::os::unix::net::UnixStream::connect(path)?;
-            Ok((Box::new(stream.try_clone()?), Box::new(stream)))
+            stream.set_read_timeout(Some(LOOK))?;
+            stream.set_write_timeout(Some(PATIENCE))?;
+            Ok((Box::new(Patient { from: stream.try_clone()?, closed }), Box::new(stream)))
         }
         #[cfg(not(unix))]
         Some(_) => Err(io::Error::new(io::ErrorKind::Unsupported, "choose an address `HOST:PORT`")),
         None => {
             let stream = TcpStream::connect(address)?;
             stream.set_nodelay(true)?;
-            Ok((Box::new(stream.try_clone()?), Box::new(stream)))
+            stream.set_read_timeout(Some(LOOK))?;
+            stream.set_write_timeout(Some(PATIENCE))?;
+            Ok((Box::new(Patient { from: stream.try_clone()?, closed }), Box::new(stream)))
         }
     }
 }

@@ -5,7 +5,7 @@ use super::{
     shared::{Shared, Turn},
     times::Times,
 };
-use crate::{Info, Observer, Parameters, Time, record::Codec, remote::ServedRequests};
+use crate::{Info, Next, Observer, Parameters, Time, record::Codec, requests::ServedRequests};
 use core::{
     fmt::{Debug, Display},
     time::Duration,
@@ -15,7 +15,7 @@ use std::{
     format,
     string::{String, ToString as _},
     sync::{
-        Arc, PoisonError,
+        Arc,
         atomic::Ordering::{Acquire, Relaxed},
     },
     thread,
@@ -93,7 +93,7 @@ impl Stream {
                     }
                     break;
                 }
-                Turn::Wait => self.requests.serve(params),
+                Turn::Wait => self.requests.serve_all(params),
                 Turn::GoBack(goal) => self.beside(|checkpoints, server| checkpoints.go_back(server, goal)),
             }
         }
@@ -124,10 +124,21 @@ impl Observer for Option<Stream> {
         let Some(stream) = self else { return };
         stream.send_times();
         stream.now = now.as_nanos();
-        stream.requests.serve(params);
+        match stream.shared.pace {
+            Some(_) => stream.requests.serve_all(params),
+            None => stream.requests.serve(params),
+        }
         let (group, now) = (stream.group, stream.now);
         stream.wait(params);
+        stream.shared.beats.get(group as usize).inspect(|beat| beat.begin());
         stream.send(|| Report::Reaction { group, now });
+    }
+
+    #[inline]
+    fn after_reaction(&mut self, _next: Next) {
+        if let Some(stream) = self {
+            stream.shared.beats.get(stream.group as usize).inspect(|beat| beat.end());
+        }
     }
 
     #[inline]
@@ -225,7 +236,8 @@ impl Observer for Option<Stream> {
         if !wanted.is.load(Relaxed) {
             return;
         }
-        let mut latest = wanted.latest.lock().unwrap_or_else(PoisonError::into_inner);
+        // The thread that talks to viewers has the lock for a moment: this token is then not sent.
+        let Ok(mut latest) = wanted.latest.try_lock() else { return };
         latest.bytes.clear();
         latest.is_new = (codec.write)(token, &mut latest.bytes);
         latest.now = stream.now;

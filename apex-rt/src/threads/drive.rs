@@ -10,8 +10,8 @@ use crate::{
     CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock,
     end::{Driven, is_asked},
     ports::Ways,
-    remote::ServedRequests,
-    run::{Lateness, react},
+    requests::ServedRequests,
+    run::Lateness,
 };
 use std::{
     panic::resume_unwind,
@@ -239,7 +239,7 @@ impl Run {
         let observer = WatchdogObserver { observer, pulse, info: self.info };
         match self.time {
             Timing::Paced(pace) => {
-                let part = Driven::new(part);
+                let part = Driven::new(part, true);
                 let _stops = pace.stopped.map(Switch::listen);
                 let bell = ways.as_ref().map(Ways::bell);
                 let _listens = (bell.as_ref().map(|bell| bell.listen()), self.requests.shared.listen());
@@ -256,17 +256,17 @@ impl Run {
         mut driven: Driven<G>,
         mut observer: O,
     ) {
-        let part = &mut driven.program;
         let (mut clock, mut short) = (member.pace.clock, false);
         let (is_watched, mut lateness) = (self.is_watched(), Lateness::default());
-        member.exchange(part, &self.sleep);
+        member.exchange(&mut driven.program, &self.sleep);
         while !self.is_over(member.pace) {
             self.sleep.begin(member.group);
             if is_watched && self.sleep.wakes_watch() {
                 self.off.stir();
             }
             let now = clock.now();
-            let next = react(part, now, &mut observer, &mut || clock.now().since(now));
+            let next = driven.react(now, &mut observer, &mut || clock.now().since(now));
+            let part = &mut driven.program;
             lateness.look(next, now, &mut observer, || clock.now().since(now));
             member.requests.serve(part);
             let came = member.exchange(part, &self.sleep);

@@ -25,10 +25,27 @@ fn set(group: &GroupInfo) -> Result<(), String> {
         Some(priority) => {
             let policy = if group.round_robin { "rr" } else { "fifo" };
             set_priority(priority, group.round_robin)
-                .map_err(|error| format!("cannot have priority {priority} ({policy}): {error}"))
+                .map_err(|error| format!("cannot have priority {priority} ({policy}): {error}"))?;
+            lock_memory()
         }
         None => Ok(()),
     }
+}
+
+/// Keeps all memory of the process from being paged out: a page fault would cost a real-time thread milliseconds. With
+/// a limit, later allocations could fail, so that nothing is locked then.
+#[cfg(all(feature = "realtime", target_os = "linux"))]
+fn lock_memory() -> Result<(), String> {
+    use nix::sys::{
+        mman::{MlockAllFlags, mlockall},
+        resource::{RLIM_INFINITY, Resource, getrlimit},
+    };
+    let is_limited = getrlimit(Resource::RLIMIT_MEMLOCK).map_or(true, |(soft, _)| soft != RLIM_INFINITY);
+    if is_limited && !nix::unistd::geteuid().is_root() {
+        return Err("cannot lock its memory: the limit of locked memory (`ulimit -l`) is not `unlimited`".to_owned());
+    }
+    mlockall(MlockAllFlags::MCL_CURRENT | MlockAllFlags::MCL_FUTURE)
+        .map_err(|error| format!("cannot lock its memory: {error}"))
 }
 
 #[cfg(all(feature = "realtime", target_os = "linux"))]

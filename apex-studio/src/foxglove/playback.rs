@@ -4,7 +4,10 @@ use super::{
     Seen,
     messages::{Control, Frame, Moment, State, Status, nanos},
 };
-use crate::live::{Live, Run};
+use crate::{
+    lane::limited,
+    live::{Live, Run},
+};
 use apex_rt::studio::message::Command;
 
 /// Time in ns that a simulation has on the time bar of an app, at least: it has no end.
@@ -57,7 +60,7 @@ impl Playback {
         if live.travels {
             return vec![Frame::error("the robot repeats its run, and obeys nobody meanwhile")];
         }
-        let target = seek.map(|time| i64::try_from(time).unwrap_or(i64::MAX));
+        let target = seek.map(|time| limited(i64::try_from(time).unwrap_or(i64::MAX)));
         if target.is_some_and(|target| target < live.now) && !seen.travels {
             return vec![Frame::error("this robot cannot go back in time")];
         }

@@ -90,6 +90,9 @@ impl Viewer {
         if !self.channels.iter().any(|channel| channel.id == channel_id) {
             return Some(Frame::error(format!("there is no channel {channel_id}")));
         }
+        if self.seen.readonly && channels::port(channel_id).is_some() {
+            return Some(Frame::warning("this studio may only look, and asks the robot for no tokens".to_owned()));
+        }
         if self.subscribed.contains_key(&id) || self.subscribed.values().any(|channel| *channel == channel_id) {
             return Some(Frame::warning(format!("there is a subscription {id}, or one to channel {channel_id}")));
         }

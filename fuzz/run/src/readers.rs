@@ -203,7 +203,7 @@ impl Objective for Sum {
 pub fn journals() -> Box<dyn Target> {
     let text = |method| {
         let (study, file) = (study(method), file("journal", &[]));
-        let mut journal = Journal::open(&file, &study.description()).expect("a new journal");
+        let mut journal = Journal::open(&file, &study).expect("a new journal");
         study.run(&Sum, &mut journal, (0, 1), &mut |_| ()).expect("a study");
         let text = fs::read(&file).expect("the journal");
         let _ = fs::remove_file(file);

@@ -24,8 +24,7 @@ impl Labelled {
     pub fn is_leg(&self, segment: &Segment) -> bool {
         match &self.legs {
             Truth::Beams(beams) => {
-                let range = usize::from(segment.first)..=usize::from(segment.last);
-                let measured = range.filter(|beam| self.scan.range(*beam).is_some());
+                let measured = segment.beams(beams.len()).filter(|beam| self.scan.range(*beam).is_some());
                 let hits = measured.filter(|beam| beams.get(*beam) == Some(&true)).count();
                 2 * hits > usize::from(segment.points)
             }

@@ -98,7 +98,7 @@ impl ScanFigure<'_> {
 
     fn draw_segments(&self, chart: &mut Chart<'_, '_>) -> Drawn {
         let colour = |beam: usize| {
-            let index = self.segments.iter().position(|s| (usize::from(s.first)..=usize::from(s.last)).contains(&beam));
+            let index = self.segments.iter().position(|segment| segment.contains(beam));
             index.map(|i| SEGMENTS[i % SEGMENTS.len()])
         };
         let points =

@@ -1,5 +1,5 @@
 use super::{ReadError, lines::Lines};
-use crate::scan::{MAX_BEAMS, Pose2, Scan};
+use crate::scan::{Pose2, Scan};
 use apex_rt::{Ctx, Event, Out, Time, node};
 use core::f32::consts::PI;
 use std::path::Path;
@@ -138,7 +138,7 @@ fn fill<'a>(scan: &mut Scan, cells: impl Iterator<Item = &'a str>) -> Result<(),
     scan.ranges.clear();
     for (beam, cell) in cells.enumerate() {
         let range = cell.trim().parse().map_err(|_| format!("beam {beam}: `{cell}` is no range"))?;
-        scan.ranges.push(range).map_err(|_| format!("more than {MAX_BEAMS} beams"))?;
+        scan.ranges.push(range).map_err(|e| e.to_string())?;
     }
     Ok(())
 }
@@ -286,12 +286,12 @@ mod tests {
 
     #[test]
     fn wrong_lines_are_errors_with_their_place() {
-        let many = format!("1,1{}", ",1.0".repeat(MAX_BEAMS + 1));
+        let many = format!("1,1{}", ",1.0".repeat(crate::scan::MAX_BEAMS + 1));
         let cases = [
             ("a.csv", "x,1,1.0", "number: `x` is no valid number"),
             ("b.csv", "1", "source number is missing"),
             ("c.csv", "1,1,1.0,?", "beam 1: `?` is no range"),
-            ("d.csv", many.as_str(), "more than 1536 beams"),
+            ("d.csv", many.as_str(), "more than 65535 beams"),
             ("e.log", "FLASER", "number of beams is missing"),
             ("f.log", "FLASER -1", "number of beams: `-1` is no valid number"),
             ("g.log", "FLASER 5 1 2", "5 beams announced, 2 found"),

@@ -25,7 +25,8 @@ pub fn not(a: &bool) -> bool {
     !*a
 }
 
-/// Threshold with hysteresis: `true` from `high` on, `false` again below `low`. Starts as `false`.
+/// Threshold with hysteresis: `true` from `high` on, `false` again below `low`. Starts as `false`. NaN does not change
+/// it.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Hysteresis<T> {
@@ -68,5 +69,6 @@ mod tests {
         let mut node = Hysteresis::construct((1.0, 2.0));
         let states = [1.5, 2.0, 1.5, 0.9, 1.5].map(|x| node.process(&x));
         assert_eq!(states, [false, true, true, false, false]);
+        assert_eq!([f64::NAN, 3.0, f64::NAN].map(|x| node.process(&x)), [false, true, true]);
     }
 }

@@ -5,7 +5,8 @@ use num_traits::Float;
 /// Maximum window of a [`MovingAverage`].
 pub const MAX_WINDOW: usize = 64;
 
-/// Mean of the last `window` values, or of all values while there are fewer.
+/// Mean of the last `window` values, or of all values while there are fewer. It is a number again when the last value
+/// that is none, NaN or infinite, has left the window.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MovingAverage<T> {
@@ -35,7 +36,8 @@ impl<T: Float> MovingAverage<T> {
     }
 }
 
-/// Exponential smoothing: `y ← y + weight · (x − y)`. The first output is the first value.
+/// Exponential smoothing: `y ← y + weight · (x − y)`. The first output is the first value. An output that is not
+/// finite, because a value is NaN or infinite, is not remembered: the next one is computed from the last finite one.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LowPass {
@@ -49,7 +51,9 @@ pub struct LowPass {
 impl LowPass {
     fn process(&mut self, x: &f64) -> f64 {
         let y = self.state.map_or(*x, |y| y + self.weight * (*x - y));
-        self.state = Some(y);
+        if y.is_finite() {
+            self.state = Some(y);
+        }
         y
     }
 
@@ -60,26 +64,44 @@ impl LowPass {
     }
 }
 
-/// Limits the rate of change of a value, for example of a velocity to a limited acceleration.
+/// Limits the rate of change of a value, for example of a velocity to a limited acceleration. The output begins at
+/// `initial`, also if the first value is another one, and is continuous: a pause does not allow a jump.
+///
+/// NaN passes as NaN and changes nothing else.
 #[node]
 #[derive(Debug, Clone)]
 pub struct RateLimit {
     /// Maximum change per second, in units of the value.
     #[param(range = 0.0..)]
     rate: f64,
+    /// First output, in units of the value.
+    #[param(default = 0.0)]
+    initial: f64,
+    /// Longest time between two values that counts. A value that comes later changes the output by no more than one
+    /// that comes after this time.
+    #[param(unit = "s", default = 0.2, range = 0.0..=3600.0)]
+    max_pause: f64,
     last: Option<(Time, f64)>,
 }
 
 #[node]
 impl RateLimit {
     fn process(&mut self, ctx: &Ctx, x: &f64) -> f64 {
-        let y = self.last.map_or(*x, |(then, y)| {
-            let step = self.rate * ctx.now().since(then).as_secs_f64();
-            // Not `f64::clamp`, which panics if the step is NaN.
-            (*x - y).min(step).max(-step) + y
-        });
+        if x.is_nan() {
+            return *x;
+        }
+        let (then, y) = self.last.unwrap_or((ctx.now(), self.initial));
+        let step = self.rate * ctx.now().since(then).as_secs_f64().min(self.max_pause);
+        // Not `f64::clamp`, which panics if the step is NaN.
+        let y = (*x - y).min(step).max(-step) + y;
         self.last = Some((ctx.now(), y));
         y
+    }
+
+    /// Restarts at `initial`.
+    #[slot]
+    fn reset(&mut self) {
+        self.last = None;
     }
 }
 
@@ -113,12 +135,49 @@ mod tests {
     }
 
     #[test]
+    fn low_pass_forgets_what_is_not_finite() {
+        for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut node = LowPass::construct((0.5,));
+            assert!(!node.process(&odd).is_finite());
+            assert_eq!(node.process(&2.0), 2.0);
+            assert!(!node.process(&odd).is_finite());
+            assert_eq!(node.process(&4.0), 3.0);
+        }
+    }
+
+    #[test]
     fn rate_limit_is_per_second() {
-        let mut node = RateLimit::construct((2.0,));
+        let mut node = RateLimit::construct((2.0, 0.0, 1.0));
         let at = |ms| Ctx::new(Time::from_millis(ms));
         assert_eq!(node.process(&at(0), &0.0), 0.0);
         assert_eq!(node.process(&at(500), &10.0), 1.0);
         assert_eq!(node.process(&at(1000), &-10.0), 0.0);
-        assert_eq!(node.process(&at(9000), &3.0), 3.0);
+        assert_eq!(node.process(&at(2000), &1.5), 1.5);
+    }
+
+    #[test]
+    fn the_rate_is_limited_at_the_start_and_after_a_pause_too() {
+        let mut node = RateLimit::construct((1.0, 0.0, 0.5));
+        let at = |ms| Ctx::new(Time::from_millis(ms));
+        assert_eq!([0, 100].map(|ms| node.process(&at(ms), &1.0)), [0.0, 0.1]);
+        assert_eq!(node.process(&at(10_000), &1.0), 0.6);
+        node.reset();
+        assert_eq!(node.process(&at(10_100), &1.0), 0.0);
+        let mut node = RateLimit::construct((1.0, 3.0, 0.5));
+        assert_eq!([0, 500].map(|ms| node.process(&at(ms), &1.0)), [3.0, 2.5]);
+    }
+
+    #[test]
+    fn the_rate_is_limited_after_nan_and_towards_infinity() {
+        let mut node = RateLimit::construct((1.0, 0.0, 0.5));
+        let at = |ms| Ctx::new(Time::from_millis(ms));
+        assert!(node.process(&at(0), &f64::NAN).is_nan());
+        assert_eq!(node.process(&at(100), &0.0), 0.0);
+        for ms in 2..100 {
+            assert!(node.process(&at(100 * ms), &f64::NAN).is_nan());
+        }
+        assert_eq!(node.process(&at(10_000), &9.0), 0.5);
+        assert_eq!(node.process(&at(10_500), &f64::INFINITY), 1.0);
+        assert_eq!(node.process(&at(11_000), &f64::NEG_INFINITY), 0.5);
     }
 }

@@ -40,7 +40,9 @@ pub fn median<T: Float, const N: usize>(values: [&T; N]) -> T {
         return T::nan();
     }
     let (low, high) = (sorted[(count - 1) / 2], sorted[count / 2]);
-    low + (high - low) / (T::one() + T::one())
+    let two = T::one() + T::one();
+    // Not by the difference: that of two infinite values is not a number.
+    if low == high { low } else { low / two + high / two }
 }
 
 /// Logical and: `true` if all inputs are `true`.
@@ -81,6 +83,9 @@ mod tests {
         assert_eq!([median([&1.0, &100.0, &2.0]), median([&4.0, &1.0]), median([&7.0])], [2.0, 2.5, 7.0]);
         assert_eq!(median([&NAN, &3.0, &-NAN, &1.0]), 2.0);
         assert!(median([&NAN, &NAN]).is_nan());
+        let far = f64::INFINITY;
+        assert_eq!([median([&far, &far, &2.0]), median([&far, &2.0]), median([&-far, &2.0])], [far, far, -far]);
+        assert_eq!((median([&f64::MAX, &f64::MAX]), median([&-f64::MAX, &f64::MAX])), (f64::MAX, 0.0));
     }
 
     #[test]

@@ -1,5 +1,10 @@
-use super::{FollowingLaw, Path, Pid, Projection, Twist, latest::fresh, path::nearest_on, twist::Halt};
-use crate::scan::{Point2, Pose2, Scan};
+use super::{
+    FollowingLaw, Path, Pid, Projection, Twist,
+    latest::{any_far, fresh},
+    path::nearest_on,
+    twist::Halt,
+};
+use crate::scan::{FarFromOrigin, Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
 use libm::remainderf;
@@ -11,16 +16,21 @@ const TURN: f32 = 0.1;
 
 /// Follows a path with an omnidirectional robot until it is at the goal (thesis 4.3.6, eqs. 4.2 to 4.5).
 ///
+/// The robot passes the points of the path in their order. It rounds corners, and turns back at a sharp one, of more
+/// than 100°, once it is within `tolerance` of it. So a path may cross itself and lead back the way it came.
+///
 /// A new path replaces the current one. `pose` is in the frame of the path; while there is none that is younger than
-/// `max_age`, the robot stands still. `scan` is in the frame of the robot; before the first one, no obstacle is known. That
-/// the robot stops before obstacles, and without scans, is the task of a [`SafetyField`](super::SafetyField). The node sends twists while it has a path,
+/// `max_age`, the robot stands still. `scan` is in the frame of the robot; before the first one, no obstacle is known.
+/// That the robot stops before obstacles, and without scans, is the task of a [`SafetyField`](super::SafetyField). The
+/// node sends twists while it has a path,
 /// and drops the path when the robot
 /// * has `reached` the goal,
 /// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path ahead or the robot makes no progress,
 /// * is `off_path`: farther than `max_offset` from the path,
 /// * is deactivated: the node is no longer active.
 ///
-/// Obstacles around the goal do not count as standing on the path, as a goal may be close to a wall.
+/// Stops and fails while the pose is more than 100 km from the origin. Obstacles around the goal do not count as
+/// standing on the path, as a goal may be close to a wall.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PathFollower {
@@ -70,7 +80,7 @@ pub struct PathFollower {
     /// path.
     #[param(unit = "m", default = 1.0, range = 0.0..=1000.0)]
     turn_within: f32,
-    /// Tolerance of the position at the goal.
+    /// Tolerance of the position at the goal, and at corners of more than 100°.
     #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
     tolerance: f32,
     /// Tolerance of the heading at the goal.
@@ -136,14 +146,27 @@ impl PathFollower {
         reached: Event<()>,
         #[failure] blocked: Event<()>,
         #[failure] off_path: Event<()>,
-    ) -> Option<Twist> {
+    ) -> Result<Option<Twist>, FarFromOrigin> {
         if let Some(path) = path {
             self.begin(path);
         }
+        if !self.path.points.is_empty() && any_far([pose]) {
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, pose, scan, [reached, blocked, off_path]))
+    }
+
+    fn step(
+        &mut self,
+        ctx: &Ctx,
+        pose: Option<&Pose2>,
+        scan: Option<&Scan>,
+        [reached, blocked, off_path]: [Event<()>; 3],
+    ) -> Option<Twist> {
         let Some(goal) = self.path.goal() else { return self.halt.rest() };
         // Without a pose, or with one that is of no use, the robot waits for a better one.
         let Some(pose) = fresh(ctx, pose, self.max_age) else { return self.halt.drive(Twist::ZERO) };
-        let projection = self.path.project(pose.position(), self.progress.segment, self.reach());
+        let projection = self.path.project(pose.position(), self.progress.segment, self.tolerance);
         let Some(projection) = projection else { return self.halt.drive(Twist::ZERO) };
         self.progress.segment = projection.segment;
         if let Some(scan) = fresh(ctx, scan, self.max_age) {
@@ -151,7 +174,7 @@ impl PathFollower {
         }
         match self.end(pose, goal, &projection, ctx.now()) {
             None => {
-                let twist = self.drive(pose, goal, &projection, ctx.now());
+                let twist = self.drive(pose, &projection, ctx.now());
                 return self.halt.drive(twist);
             }
             Some(End::Reached) => reached.emit(()),
@@ -179,14 +202,10 @@ impl PathFollower {
         self.motion.heading.reset();
     }
 
-    /// Length of the path on which the projection is searched, in m. A robot moves less than that between two poses.
-    fn reach(&self) -> f32 {
-        self.max_offset + self.look_ahead
-    }
-
-    /// Returns `true` on the last piece of the path, where the robot drives straight to the goal.
+    /// Returns `true` on the last piece of the path before a sharp corner or the goal, where the robot drives straight
+    /// to it.
     fn is_arriving(&self, projection: &Projection) -> bool {
-        projection.remaining <= 2.0 * self.tolerance
+        projection.to_stop <= 2.0 * self.tolerance
     }
 
     fn look(&mut self, scan: &Scan, pose: &Pose2, projection: &Projection, now: Time) {
@@ -223,17 +242,16 @@ impl PathFollower {
     }
 
     fn end(&mut self, pose: &Pose2, goal: Point2, projection: &Projection, now: Time) -> Option<End> {
-        let distance = (goal - pose.position()).norm();
+        let to_goal = (goal - pose.position()).norm();
         let turn = remainderf(self.path.heading - pose.theta, TAU).abs();
-        let arriving = self.is_arriving(projection);
-        if arriving && distance <= self.tolerance && turn <= self.heading_tolerance {
+        let is_last = self.is_arriving(projection) && projection.stop + 1 == self.path.points.len();
+        if is_last && to_goal <= self.tolerance && turn <= self.heading_tolerance {
             return Some(End::Reached);
         }
-        if projection.offset.abs() > self.max_offset {
+        if projection.distance > self.max_offset {
             return Some(End::OffPath);
         }
-        let left =
-            if arriving { distance + TURN * turn } else { projection.remaining + projection.offset.abs() + TURN * PI };
+        let left = self.left(pose, projection) + TURN * if is_last { turn } else { PI };
         if self.progress.least.is_none_or(|(least, _)| left < least - PROGRESS) {
             self.progress.least = Some((left, now));
         }
@@ -242,13 +260,22 @@ impl PathFollower {
         (too_long(self.progress.obstructed_since) || too_long(stuck_since)).then_some(End::Blocked)
     }
 
-    fn drive(&mut self, pose: &Pose2, goal: Point2, projection: &Projection, now: Time) -> Twist {
+    /// Length of the way to the goal, in m.
+    fn left(&self, pose: &Pose2, projection: &Projection) -> f32 {
+        if self.is_arriving(projection) {
+            let to_stop = (self.path.points[projection.stop] - pose.position()).norm();
+            return to_stop + projection.remaining - projection.to_stop;
+        }
+        projection.distance + projection.remaining
+    }
+
+    fn drive(&mut self, pose: &Pose2, projection: &Projection, now: Time) -> Twist {
         let dt = self.motion.at.replace(now).map_or(0.0, |last| now.since(last).as_secs_f32());
         let heading = if projection.remaining <= self.turn_within { self.path.heading } else { projection.tangent };
         let rotation = self.rotation(remainderf(heading - pose.theta, TAU), dt);
         let most = self.rotation_acceleration * dt;
         self.motion.rotation += (rotation - self.motion.rotation).clamp(-most, most);
-        let change = self.velocity(pose, goal, projection) - self.motion.velocity;
+        let change = self.velocity(pose, projection) - self.motion.velocity;
         let share = (self.acceleration * dt / change.norm().max(f32::MIN_POSITIVE)).min(1.0);
         self.motion.velocity = self.motion.velocity + change.scaled(share);
         let velocity = Pose2::new(0.0, 0.0, pose.theta).to_inner(self.motion.velocity);
@@ -263,22 +290,22 @@ impl PathFollower {
         pid.step(error, dt)
     }
 
-    /// Desired velocity in the frame of the path, in m/s.
-    fn velocity(&self, pose: &Pose2, goal: Point2, projection: &Projection) -> Point2 {
-        let to_goal = goal - pose.position();
+    /// Desired velocity in the frame of the path, in m/s. A sharp corner is approached like the goal.
+    fn velocity(&self, pose: &Pose2, projection: &Projection) -> Point2 {
         let turning = self.path.turning(projection, self.look_ahead);
         let obstacle = self.progress.obstacle.unwrap_or(f32::INFINITY);
         let law = self.law();
         if !self.is_arriving(projection) {
-            let speed = law.speed(turning, self.motion.rotation, obstacle, projection.remaining);
+            let speed = law.speed(turning, self.motion.rotation, obstacle, projection.to_stop);
             return Point2::polar(speed, law.direction(projection));
         }
-        let distance = to_goal.norm();
+        let way = self.path.points[projection.stop] - pose.position();
+        let distance = way.norm();
         // At the goal already: only the turn is left.
         if distance <= 0.5 * self.tolerance {
             return Point2::default();
         }
-        to_goal.scaled(law.speed(turning, self.motion.rotation, obstacle, distance) / distance)
+        way.scaled(law.speed(turning, self.motion.rotation, obstacle, distance) / distance)
     }
 
     fn law(&self) -> FollowingLaw {
@@ -337,7 +364,7 @@ mod tests {
             self.step += 1;
             let scan = scan.map(|scan| Scan { stamp: ctx.now(), ..scan.clone() });
             let (a, b, c) = (apex_rt::event(&mut reached), apex_rt::event(&mut blocked), apex_rt::event(&mut off_path));
-            let twist = self.node.process(&ctx, Some(&self.pose), path, scan.as_ref(), a, b, c);
+            let twist = self.node.process(&ctx, Some(&self.pose), path, scan.as_ref(), a, b, c).unwrap_or(None);
             let ends = [(reached, End::Reached), (blocked, End::Blocked), (off_path, End::OffPath)];
             let end = ends.into_iter().find_map(|(event, end)| event.map(|()| end));
             (twist, end)
@@ -468,6 +495,20 @@ mod tests {
         assert_eq!(robot.react(Some(&Path::default()), None), (None, None));
     }
 
+    #[test]
+    fn far_from_the_origin_it_stops_and_says_so() {
+        let way = path(&[(0.0, 0.0), (3.0, 0.0)], 0.0);
+        let mut node = follower();
+        let mut ask = |x: f32, path| {
+            let (mut a, mut b, mut c) = (None, None, None);
+            let [a, b, c] = [&mut a, &mut b, &mut c].map(apex_rt::event);
+            node.process(&Ctx::new(Time::ZERO), Some(&Pose2::new(x, 0.0, 0.0)), path, None, a, b, c)
+        };
+        assert_eq!(ask(5e6, None), Ok(None), "it has no path");
+        assert!(ask(0.0, Some(&way)).is_ok_and(|twist| twist.is_some()));
+        assert_eq!(ask(5e6, None), Err(FarFromOrigin));
+    }
+
     /// A hall of 8 m by 6 m with posts in it, and the same with all obstacles grown by 20 cm.
     fn posts(random: &mut Random) -> [Grid<Occupancy>; 2] {
         let raster = Raster { resolution: 0.1, width: 80, height: 60, ..Raster::default() };
@@ -551,7 +592,9 @@ mod tests {
             let mut robot = Robot::new(follower(), start);
             let (mut worst, mut squares, mut steps) = (0.0_f32, 0.0, 0);
             let end = robot.follow(&way, |pose, _| {
-                let offset = way.project(pose.position(), 0, f32::INFINITY).expect("a point").offset.abs();
+                let to_segment =
+                    |ends: &[Point2]| (pose.position() - nearest_on(ends[0], ends[1], pose.position())).norm();
+                let offset = way.points.windows(2).map(to_segment).fold(f32::INFINITY, f32::min);
                 worst = worst.max(offset);
                 squares += offset * offset;
                 steps += 1;

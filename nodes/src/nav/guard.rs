@@ -19,7 +19,7 @@ pub struct OdometryGuard {
     /// Commanded speed up to which the robot counts as standing.
     #[param(unit = "m/s", default = 0.05, range = 0.0..=10.0)]
     min_speed: f32,
-    /// Commanded angular velocity up to which the robot counts as standing.
+    /// Commanded angular velocity up to which the robot counts as not turning.
     #[param(unit = "rad/s", default = 0.1, range = 0.0..=20.0)]
     min_rotation: f32,
     /// Maximum age of a twist and of the odometry.

@@ -151,7 +151,7 @@ impl MarkHazards {
         hazard: Option<&Hazard>,
         marked: &mut Out<Grid<Occupancy>>,
     ) {
-        if let Some((hazard, pose)) = hazard.zip(pose.filter(|pose| pose.is_finite())) {
+        if let Some((hazard, pose)) = hazard.zip(pose.filter(|pose| pose.is_usable())) {
             self.remember(Hazard { position: pose.to_outer(hazard.position), ..*hazard }, ctx.now());
         }
         let Some(map) = map else { return };

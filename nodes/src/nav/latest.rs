@@ -46,6 +46,11 @@ pub(super) fn fresh<'a, T: Measured>(ctx: &Ctx, token: Option<&'a T>, max_age: f
     })
 }
 
+/// Returns `true` if one of these poses is too far from the origin to compute with.
+pub(super) fn any_far<const N: usize>(poses: [Option<&Pose2>; N]) -> bool {
+    poses.into_iter().flatten().any(Pose2::is_far)
+}
+
 /// Newest token of an input that is ⊥ from time to time.
 #[derive(Debug, Clone)]
 pub(super) struct Latest<T>(Option<Kept<T>>);

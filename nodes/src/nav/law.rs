@@ -60,7 +60,17 @@ mod tests {
 
     #[test]
     fn it_drives_back_to_the_path() {
-        let at = |offset| Projection { segment: 0, point: Point2::default(), tangent: 1.0, offset, remaining: 5.0 };
+        let start = Projection {
+            segment: 0,
+            point: Point2::default(),
+            tangent: 1.0,
+            offset: 0.0,
+            distance: 0.0,
+            remaining: 5.0,
+            stop: 1,
+            to_stop: 5.0,
+        };
+        let at = |offset| Projection { offset, ..start };
         assert_eq!(LAW.direction(&at(0.0)), 1.0);
         // To the left of the path it turns right.
         assert_eq!(LAW.direction(&at(0.5)), 1.0 - core::f32::consts::FRAC_PI_4);

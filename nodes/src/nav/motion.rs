@@ -1,8 +1,12 @@
 //! Motion relative to sensor data, without a map (thesis 8.1.1). These nodes move the robot while they are active.
 //! A node that is interrupted sends a twist of zero, then ⊥. One that does not know when to stop sends zero.
 
-use super::{Twist, latest::fresh, twist::Halt};
-use crate::scan::{Point2, Pose2, Scan};
+use super::{
+    Twist,
+    latest::{any_far, fresh},
+    twist::Halt,
+};
+use crate::scan::{FarFromOrigin, Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
 use libm::{remainderf, sqrtf};
@@ -21,8 +25,9 @@ fn braking_speed(distance: f32, speed: f32, deceleration: f32) -> f32 {
 /// Moves a robot by a distance in a direction, relative to its pose at activation, and keeps its heading (thesis
 /// 8.1.1).
 ///
-/// `pose` is in any fixed frame, such as that of odometry. `done` comes with a twist of zero. Without a pose, or with
-/// one that is not finite, very far from the origin or older than `max_age`, the robot stands still until there is one.
+/// `pose` is in any fixed frame, such as that of odometry. `done` comes with a twist of zero. Without a pose that is younger
+/// than `max_age`, the robot stands still until there is one. Stops and fails if the pose is more than 100 km from the
+/// origin.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MoveRobot {
@@ -47,7 +52,14 @@ pub struct MoveRobot {
 
 #[node]
 impl MoveRobot {
-    fn process(&mut self, ctx: &Ctx, pose: Option<&Pose2>, done: Event<()>) -> Option<Twist> {
+    fn process(&mut self, ctx: &Ctx, pose: Option<&Pose2>, done: Event<()>) -> Result<Option<Twist>, FarFromOrigin> {
+        if ctx.active() && any_far([pose]) {
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, pose, done))
+    }
+
+    fn step(&mut self, ctx: &Ctx, pose: Option<&Pose2>, done: Event<()>) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();
         }
@@ -222,7 +234,7 @@ mod tests {
             let start = Pose2::new(1.0, 2.0, 0.3);
             let (mut pose, mut last, mut done) = (start, 0.0, None);
             for step in 0..2000 {
-                let twist = node.process(&active(step), Some(&pose), apex_rt::event(&mut done)).expect("it is active");
+                let twist = node.step(&active(step), Some(&pose), apex_rt::event(&mut done)).expect("it is active");
                 let speed = twist.velocity().norm();
                 assert!(done.is_some() || (speed <= 0.5 + 1e-5 && (speed - last).abs() < 0.04), "{speed} after {last}");
                 if done.is_some() {
@@ -244,7 +256,7 @@ mod tests {
         let (pose, mut scan) = (Pose2::default(), Scan::default());
         scan.ranges.push(1.0).expect("there is room");
         let mut on = MoveRobot::construct((1.0, 0.0, 0.5, 0.5, 0.5));
-        assert_eq!(on.process(&ctx, Some(&pose), Event::unconnected()), None);
+        assert_eq!(on.step(&ctx, Some(&pose), Event::unconnected()), None);
         let mut ahead = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5, 0.5));
         assert_eq!(ahead.process(&ctx, Some(&scan), Event::unconnected()), None);
         let mut position = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0, 0.5));
@@ -255,7 +267,7 @@ mod tests {
     fn a_motion_that_is_interrupted_ends_with_a_twist_of_zero() {
         let (rest, pose) = (Ctx::new(Time::ZERO), Pose2::default());
         let mut node = MoveRobot::construct((1.0, 0.0, 0.5, 0.5, 0.5));
-        let mut twist = |ctx: &Ctx, pose: Option<&Pose2>| node.process(ctx, pose, Event::unconnected());
+        let mut twist = |ctx: &Ctx, pose: Option<&Pose2>| node.step(ctx, pose, Event::unconnected());
         assert!(twist(&active(0), Some(&pose)).is_some_and(|twist| twist.x > 0.0));
         assert_eq!([twist(&rest, None), twist(&rest, Some(&pose))], [Some(Twist::ZERO), None]);
     }
@@ -264,14 +276,14 @@ mod tests {
     fn without_a_pose_the_robot_stands_and_goes_on_afterwards() {
         let mut node = MoveRobot::construct((1.0, 0.0, 0.5, 0.5, 0.5));
         let mut speed = |step, pose: Option<Pose2>| {
-            node.process(&active(step), pose.as_ref(), Event::unconnected()).expect("it is active").x
+            node.step(&active(step), pose.as_ref(), Event::unconnected()).expect("it is active").x
         };
         let at = |x| Some(Pose2::new(x, 0.0, 0.0));
         assert!(speed(0, at(0.0)) > 0.0);
         assert_eq!([speed(1, None), speed(2, at(f32::NAN)), speed(3, at(5e6))], [0.0; 3]);
         assert!(speed(4, at(0.5)) > 0.4, "it is half way");
         let old = active(100).since(Time::from_millis(1500));
-        assert_eq!(node.process(&old, Some(&Pose2::default()), Event::unconnected()), Some(Twist::ZERO));
+        assert_eq!(node.step(&old, Some(&Pose2::default()), Event::unconnected()), Some(Twist::ZERO));
     }
 
     #[test]

@@ -20,11 +20,21 @@ pub struct Projection {
     pub point: Point2,
     /// Direction of the path at the projection, in rad (θ_t).
     pub tangent: f32,
-    /// Signed distance of the position from the path, in m, positive to the left (x_n).
+    /// Signed distance of the position from the straight line through the segment, in m, positive to the left (x_n).
     pub offset: f32,
+    /// Distance of the position from the projected point, in m. It is more than the offset before the beginning of the
+    /// segment and behind its end.
+    pub distance: f32,
     /// Length of the path from the projection to the goal, in m.
     pub remaining: f32,
+    /// Next point that a robot has to come near to: index of the next sharp corner, or of the goal.
+    pub stop: usize,
+    /// Length of the path from the projection to that point, in m.
+    pub to_stop: f32,
 }
+
+/// Cosine of the angle, 100°, from which on a corner is sharp: more than a right angle, also after rounding.
+const SHARP: f32 = -0.173_648;
 
 impl Path {
     /// The last point, or `None` if the path is empty.
@@ -37,66 +47,100 @@ impl Path {
         length(&self.points)
     }
 
-    /// Projects a position onto the nearest point of the path, searched on `reach` m of the path from the point with
-    /// the index `from` on. So a robot stays on its part of a path that comes back to itself.
+    /// Projects the position of a robot that was on the segment with the index `from`. The robot leaves a segment once
+    /// it is beyond its end. It has to come within `tolerance` m of a sharp corner, and passes the points on the last
+    /// piece before a stop, twice that long, together: there it drives straight to the stop.
     ///
-    /// Returns `None` if the path has no points there, or if a coordinate is not finite.
-    pub fn project(&self, position: Point2, from: usize, reach: f32) -> Option<Projection> {
-        let from = from.min(self.points.len().saturating_sub(2));
-        let mut nearest: Option<(f32, usize, Point2)> = None;
-        let mut passed = 0.0;
-        for (segment, ends) in self.points.windows(2).enumerate().skip(from) {
-            let point = nearest_on(ends[0], ends[1], position);
-            let distance = (position - point).norm_squared();
-            if distance.is_finite() && nearest.is_none_or(|(least, ..)| distance < least) {
-                nearest = Some((distance, segment, point));
+    /// So the projection advances with the robot alone. It does not jump to another part of the path that comes near,
+    /// leaves no part out, and does not go back to an earlier segment. Beyond a corner, it is at the beginning of the
+    /// next segment, so that its tangent leads round the corner.
+    ///
+    /// Returns `None` if the path has less than two points, or if a coordinate is not finite.
+    pub fn project(&self, position: Point2, from: usize, tolerance: f32) -> Option<Projection> {
+        let last = self.points.len().checked_sub(2)?;
+        let mut segment = from.min(last);
+        loop {
+            while segment < last && !self.is_sharp(segment + 1) && self.is_beyond(segment, position) {
+                segment += 1;
             }
-            passed += (ends[1] - ends[0]).norm();
-            if passed > reach {
-                break;
+            let projection = self.project_on(position, segment);
+            let stop = projection.stop;
+            let is_before_stop = segment + 1 == stop;
+            if !is_before_stop && projection.to_stop <= 2.0 * tolerance {
+                segment = stop - 1;
+            } else if is_before_stop && stop <= last && (position - self.points[stop]).norm() <= tolerance {
+                segment = stop;
+            } else {
+                return (projection.distance + projection.remaining).is_finite().then_some(projection);
             }
         }
-        let (_, segment, point) = nearest?;
-        let end = self.points[segment + 1];
-        let along = end - self.points[segment];
-        let side = along.perpendicular().dot(position - point);
-        let offset = (position - point).norm().copysign(side);
-        let remaining = (end - point).norm() + length(&self.points[segment + 1..]);
-        remaining.is_finite().then_some(Projection { segment, point, tangent: along.angle(), offset, remaining })
     }
 
-    /// Total turning of the path within `reach` m after a projection, in rad, regardless of the side: the sum over the
-    /// curvatures of its points, each multiplied by the length of path that the point stands for.
+    /// Projects a position onto a segment.
+    fn project_on(&self, position: Point2, segment: usize) -> Projection {
+        let (start, end) = (self.points[segment], self.points[segment + 1]);
+        let point = nearest_on(start, end, position);
+        let tangent = (end - start).angle();
+        let goal = self.points.len() - 1;
+        let stop = (segment + 1..goal).find(|i| self.is_sharp(*i)).unwrap_or(goal);
+        let to_stop = (end - point).norm() + length(&self.points[segment + 1..=stop]);
+        Projection {
+            segment,
+            point,
+            tangent,
+            offset: Point2::polar(1.0, tangent).perpendicular().dot(position - start),
+            distance: (position - point).norm(),
+            remaining: to_stop + length(&self.points[stop..]),
+            stop,
+            to_stop,
+        }
+    }
+
+    /// Returns `true` if a position is beyond the end of a segment.
+    fn is_beyond(&self, segment: usize, position: Point2) -> bool {
+        let (start, end) = (self.points[segment], self.points[segment + 1]);
+        (position - end).dot(end - start) >= 0.0
+    }
+
+    /// Returns `true` if the path turns by more than 100° at a point.
+    fn is_sharp(&self, i: usize) -> bool {
+        let Some((before, after)) = self.legs(i) else { return false };
+        before.dot(after) < SHARP * before.norm() * after.norm()
+    }
+
+    /// Total turning of the path within `reach` m after a projection and before its stop, in rad, regardless of the
+    /// side.
     pub fn turning(&self, projection: &Projection, reach: f32) -> f32 {
         let mut passed = 0.0;
         let mut turning = 0.0;
         let mut last = projection.point;
-        for (i, point) in self.points.iter().enumerate().skip(projection.segment + 1) {
+        for (i, point) in self.points.iter().enumerate().take(projection.stop).skip(projection.segment + 1) {
             passed += (*point - last).norm();
             if passed > reach {
                 break;
             }
-            turning += fabsf(self.curvature(i)) * self.share(i);
+            turning += fabsf(self.turn(i));
             last = *point;
         }
         turning
     }
 
-    /// Curvature at a point, in rad/m, positive to the left: the angle between the segments before and after it,
-    /// divided by the length of path that the point stands for. It is 0 at both ends and where points coincide.
-    pub fn curvature(&self, i: usize) -> f32 {
-        let around = i.checked_sub(1).and_then(|first| self.points.get(first..)).and_then(|rest| rest.first_chunk());
-        let Some([before, at, after]) = around else { return 0.0 };
-        let (a, b) = (*at - *before, *after - *at);
-        if a.norm_squared() == 0.0 || b.norm_squared() == 0.0 {
-            return 0.0;
-        }
-        remainderf(b.angle() - a.angle(), core::f32::consts::TAU) / self.share(i)
+    /// Angle by which the path turns at a point, in rad, positive to the left. It is 0 at both ends. Of points that
+    /// coincide, it is that of the first one.
+    pub fn turn(&self, i: usize) -> f32 {
+        let Some((before, after)) = self.legs(i) else { return 0.0 };
+        remainderf(after.angle() - before.angle(), core::f32::consts::TAU)
     }
 
-    /// Length of path that a point stands for, in m: half of the two segments at the point.
-    fn share(&self, i: usize) -> f32 {
-        0.5 * length(&self.points[i.saturating_sub(1)..(i + 2).min(self.points.len())])
+    /// Segment that ends at a point, and the next one that has a length.
+    fn legs(&self, i: usize) -> Option<(Point2, Point2)> {
+        let at = *self.points.get(i)?;
+        let before = at - self.points[i.checked_sub(1)?];
+        if before == Point2::default() {
+            return None;
+        }
+        let next = self.points[i + 1..].iter().find(|point| **point != at)?;
+        Some((before, *next - at))
     }
 }
 
@@ -136,11 +180,15 @@ mod tests {
     #[test]
     fn projections_are_orthogonal() {
         let path = path(&[(0.0, 0.0), (2.0, 0.0), (2.0, 3.0)]);
-        let left = path.project(Point2::new(0.5, 0.25), 0, 10.0).expect("a point");
+        let left = path.project(Point2::new(0.5, 0.25), 0, 0.1).expect("a point");
         assert_eq!((left.segment, left.point, left.tangent), (0, Point2::new(0.5, 0.0), 0.0));
-        assert_eq!((left.offset, left.remaining, path.length()), (0.25, 4.5, 5.0));
-        let right = path.project(Point2::new(2.5, 1.0), 0, 10.0).expect("a point");
-        assert_eq!((right.segment, right.tangent, right.offset, right.remaining), (1, FRAC_PI_2, -0.5, 2.0));
+        assert_eq!((left.offset, left.distance, left.remaining, path.length()), (0.25, 0.25, 4.5, 5.0));
+        let right = path.project(Point2::new(2.5, 1.0), 0, 0.1).expect("a point");
+        assert_eq!((right.segment, right.tangent, right.remaining), (1, FRAC_PI_2, 2.0));
+        assert!((right.offset + 0.5).abs() < 1e-6);
+        // Before the beginning, on the line through the first segment.
+        let before = path.project(Point2::new(-1.0, 0.0), 0, 0.1).expect("a point");
+        assert_eq!((before.segment, before.offset, before.distance, before.remaining), (0, 0.0, 1.0, 5.0));
     }
 
     #[test]
@@ -148,30 +196,58 @@ mod tests {
         // There and back, 10 cm apart.
         let path = path(&[(0.0, 0.0), (5.0, 0.0), (5.0, 0.1), (0.0, 0.1)]);
         let at = Point2::new(1.0, 0.08);
-        assert_eq!(path.project(at, 0, 2.0).map(|p| p.segment), Some(0));
-        assert_eq!(path.project(at, 0, 20.0).map(|p| p.segment), Some(2));
-        assert_eq!(path.project(at, 2, 2.0).map(|p| p.segment), Some(2));
-        assert_eq!(path.project(at, 99, 2.0).map(|p| p.segment), Some(2));
+        for (from, segment) in [(0, 0), (1, 1), (2, 2), (99, 2)] {
+            assert_eq!(path.project(at, from, 0.1).map(|p| p.segment), Some(segment));
+        }
+        // Beside the end of the way there, beyond that of the way across.
+        assert_eq!(path.project(Point2::new(5.1, 0.3), 0, 0.1).map(|p| p.segment), Some(2));
     }
 
     #[test]
-    fn odd_paths_have_no_projection_and_no_curvature() {
+    fn a_segment_is_left_at_its_end_however_long_it_is() {
+        let path = path(&[(0.0, 0.0), (20.0, 0.0), (20.0, 20.0)]);
+        let segment = |x, y| path.project(Point2::new(x, y), 0, 0.1).map(|p| (p.segment, p.point.x));
+        assert_eq!(segment(19.9, 0.3), Some((0, 19.9)));
+        assert_eq!(segment(20.1, 0.3), Some((1, 20.0)));
+    }
+
+    #[test]
+    fn a_sharp_corner_is_passed_within_the_tolerance() {
+        // The corner stands there twice.
+        let path = path(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, 0.1), (0.0, 5.0)]);
+        let at = |x, y| path.project(Point2::new(x, y), 0, 0.05).expect("a point");
+        for (x, y) in [(0.5, 0.05), (0.94, 0.0), (1.1, 0.0), (1.0, 0.06)] {
+            let (segment, stop) = (at(x, y).segment, at(x, y).stop);
+            assert_eq!((segment, stop), (0, 1), "({x}, {y})");
+        }
+        assert!((at(0.94, 0.0).to_stop - 0.06).abs() < 1e-6);
+        for (x, y) in [(0.96, 0.0), (1.04, 0.0), (1.0, -0.04)] {
+            assert_eq!((at(x, y).segment, at(x, y).stop), (2, 4), "({x}, {y})");
+        }
+        // Beyond the corner, the tangent leads back.
+        assert!(at(1.04, 0.0).tangent > FRAC_PI_2);
+        // The turn at the second corner is less than a right angle.
+        assert!((path.turn(3) + 1.471).abs() < 1e-3 && path.turn(2) == 0.0 && path.turn(1) > 3.0);
+    }
+
+    #[test]
+    fn odd_paths_have_no_projection_and_do_not_turn() {
         for odd in [path(&[]), path(&[(1.0, 1.0)]), path(&[(0.0, 0.0), (f32::NAN, 0.0)])] {
-            assert_eq!(odd.project(Point2::default(), 0, 1.0), None);
-            assert_eq!((odd.curvature(0), odd.curvature(1), odd.curvature(usize::MAX)), (0.0, 0.0, 0.0));
+            assert_eq!(odd.project(Point2::default(), 0, 0.1), None);
+            assert_eq!((odd.turn(0), odd.turn(1), odd.turn(usize::MAX)), (0.0, 0.0, 0.0));
         }
         let point = path(&[(1.0, 1.0), (1.0, 1.0), (1.0, 1.0)]);
-        assert_eq!(point.project(Point2::default(), 0, 1.0).map(|p| p.remaining), Some(0.0));
-        assert_eq!(point.curvature(1), 0.0);
-        assert_eq!(path(&[(0.0, 0.0), (1.0, 0.0)]).project(Point2::new(f32::NAN, 0.0), 0, 1.0), None);
+        assert_eq!(point.project(Point2::default(), 0, 0.1).map(|p| p.remaining), Some(0.0));
+        assert_eq!(point.turn(1), 0.0);
+        assert_eq!(path(&[(0.0, 0.0), (1.0, 0.0)]).project(Point2::new(f32::NAN, 0.0), 0, 0.1), None);
     }
 
     #[test]
-    fn a_circle_has_the_curvature_of_its_radius() {
+    fn a_circle_turns_by_the_angle_of_its_arc() {
         let circle =
             Path { points: (0..=100).map(|i| Point2::polar(4.0, 0.5 * PI * i as f32 / 100.0)).collect(), heading: 0.0 };
-        assert!((1..100).all(|i| (circle.curvature(i) - 0.25).abs() < 1e-3));
-        let start = circle.project(Point2::new(4.0, 0.0), 0, 1.0).expect("a point");
+        assert!((1..100).all(|i| (circle.turn(i) - 0.005 * PI).abs() < 1e-3));
+        let start = circle.project(Point2::new(4.0, 0.0), 0, 0.1).expect("a point");
         // 2 m of the circle are half a radian.
         assert!((circle.turning(&start, 2.0) - 0.5).abs() < 0.02);
         assert!((circle.turning(&start, 100.0) - FRAC_PI_2).abs() < 0.02);

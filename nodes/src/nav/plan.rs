@@ -38,6 +38,9 @@ impl Planner {
     ) -> Result<(), NoPath> {
         path.points.clear();
         path.heading = goal.theta;
+        if start.is_far() || goal.is_far() {
+            return Err(NoPath::FarFromOrigin);
+        }
         let raster = terrain.map.raster();
         let from = raster.cell(start.position()).ok_or(NoPath::StartOutside)?;
         let to = raster.cell(goal.position()).ok_or(NoPath::GoalOutside)?;
@@ -166,6 +169,7 @@ mod tests {
         };
         assert_eq!(ask(Pose2::new(0.0, 2.0, 0.0)), (false, Some(NoPath::Unreachable)));
         assert_eq!(ask(Pose2::new(0.0, 0.05, 0.0)), (false, Some(NoPath::GoalBlocked)));
+        assert_eq!(ask(Pose2::new(5e6, 0.0, 0.0)), (false, Some(NoPath::FarFromOrigin)));
         assert_eq!(ask(Pose2::new(f32::NAN, 0.0, 0.0)), (false, Some(NoPath::GoalOutside)));
         assert_eq!(ask(Pose2::new(4.0, -1.0, 0.0)), (true, None));
     }

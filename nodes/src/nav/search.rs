@@ -48,6 +48,8 @@ pub enum NoPath {
     Unreachable,
     /// The raster of the costs differs from that of the map.
     OtherRaster,
+    /// The start or the goal is more than 100 km from the origin of the map: an `f32` has no centimetres there.
+    FarFromOrigin,
 }
 
 impl fmt::Display for NoPath {
@@ -59,6 +61,9 @@ impl fmt::Display for NoPath {
             Self::GoalBlocked => "the goal is in a cell that is not free",
             Self::Unreachable => "nothing leads from the start to the goal",
             Self::OtherRaster => "the costs lie on another raster than the map",
+            Self::FarFromOrigin => {
+                "the start or the goal is more than 100 km from the origin of the map: shift the origin to the place of work"
+            }
         })
     }
 }

@@ -1,5 +1,5 @@
 use super::latest::is_young;
-use crate::scan::Point2;
+use crate::scan::{FarFromOrigin, Point2};
 use apex_rt::{Ctx, Time, Units};
 #[cfg(feature = "std")]
 use libm::fmaxf;
@@ -79,6 +79,12 @@ impl Halt {
     pub(super) fn drive(&mut self, twist: Twist) -> Option<Twist> {
         self.is_moving = twist != Twist::ZERO;
         Some(twist)
+    }
+
+    /// Returns the result of a node that cannot compute with a pose: a twist of zero if the last one was not, then an
+    /// error.
+    pub(super) fn far(&mut self) -> Result<Option<Twist>, FarFromOrigin> {
+        self.rest().map(Some).ok_or(FarFromOrigin)
     }
 
     /// Returns the twist of a node that does not drive: zero if the last one was not, then none.

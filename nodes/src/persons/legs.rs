@@ -95,7 +95,7 @@ pub struct LegPairs {
 #[node]
 impl LegPairs {
     fn process(&mut self, legs: &Legs, pose: &Pose2, persons: &mut Out<Detections>) {
-        if !pose.is_finite() {
+        if !pose.is_usable() {
             return;
         }
         let persons = persons.get_mut();

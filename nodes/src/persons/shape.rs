@@ -31,7 +31,7 @@ pub fn leg_features(scan: &Scan, segments: &Segments, at: usize) -> Option<[f32;
     let [radius, roundness] = circle(points().map(|p| p - centre));
     let [contour, unevenness, turn] = contour(points());
     let [before, behind] = background(scan, segment);
-    let beams = f32::from(segment.last.saturating_sub(segment.first)) + 1.0;
+    let beams = segment.counted(scan.ranges.len()).count() as f32;
     Some([
         count,
         count / beams,
@@ -54,7 +54,7 @@ pub fn leg_features(scan: &Scan, segments: &Segments, at: usize) -> Option<[f32;
 }
 
 fn points<'a>(scan: &'a Scan, segment: &Segment) -> impl Iterator<Item = Point2> + Clone + use<'a> {
-    let beams = usize::from(segment.first)..=usize::from(segment.last);
+    let beams = segment.beams(scan.ranges.len());
     beams.filter_map(|beam| scan.range(beam).map(|range| Point2::polar(range, scan.angle(beam))))
 }
 
@@ -121,8 +121,9 @@ fn bulge(points: impl Iterator<Item = Point2>, first: Point2, last: Point2) -> f
 /// Distances by which the points next to a segment are farther than its ends.
 fn background(scan: &Scan, segment: &Segment) -> [f32; 2] {
     let (first, last) = (usize::from(segment.first), usize::from(segment.last));
-    let before = (first.saturating_sub(MARGIN)..first).rev().find_map(|beam| scan.range(beam));
-    let behind = (last + 1..=last + MARGIN).find_map(|beam| scan.range(beam));
+    let beside = |beam: isize| scan.beam_around(beam).and_then(|beam| scan.range(beam));
+    let before = (1..=MARGIN as isize).find_map(|i| beside(first as isize - i));
+    let behind = (1..=MARGIN as isize).find_map(|i| beside(last as isize + i));
     let jump = |end: usize, other: Option<f32>| match (scan.range(end), other) {
         (Some(end), Some(other)) => (other - end).clamp(-FAR, FAR),
         _ => FAR,

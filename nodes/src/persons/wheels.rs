@@ -22,7 +22,7 @@ impl DropWheels {
     fn process(&mut self, legs: &Legs, pose: &Pose2, containers: Option<&Containers>, rest: &mut Out<Legs>) {
         let rest = rest.get_mut();
         rest.clone_from(legs);
-        if let Some(containers) = containers.filter(|_| pose.is_finite()) {
+        if let Some(containers) = containers.filter(|_| pose.is_usable()) {
             rest.list.retain(|leg| !self.is_wheel(pose.to_outer(leg.position), containers));
         }
     }

@@ -97,7 +97,11 @@ impl BoxModel {
         let (Some(from), Some(to)) = (scan.beam_towards(a.bearing), scan.beam_towards(b.bearing)) else { return 1.0 };
         let (mut free, mut all) = (0_u16, 0_u16);
         let across = b.centre - a.centre;
-        for beam in from.min(to) + 1..from.max(to) {
+        let (from, to, count) = (from.min(to), from.max(to), scan.ranges.len());
+        // The shorter way: across the seam of a full turn, if it is there.
+        let crosses = scan.is_full_turn() && 2 * (to - from) > count;
+        let between = if crosses { to + 1..from + count } else { from + 1..to };
+        for beam in between.filter_map(|beam| scan.beam_around(beam as isize)) {
             let Some(range) = scan.range(beam) else { continue };
             // Distance along the beam to the line between the wheels.
             let direction = Point2::polar(1.0, scan.angle(beam));

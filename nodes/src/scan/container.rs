@@ -1,6 +1,7 @@
 use super::{
-    MAX_BEAMS, MAX_SEGMENTS, Point2, Pose2, Scan, Segments,
+    MAX_SEGMENTS, Point2, Pose2, Scan, Segments,
     consensus::{BoxModel, Consensus, Sighting},
+    ranges::PerBeam,
     wheel::{Sums, View, WheelShape},
 };
 use apex_rt::node;
@@ -68,7 +69,7 @@ pub fn best_container<const N: usize>(containers: [Option<&Container>; N]) -> Op
 /// selects between several models.
 ///
 /// Cost: O(s²) for s segments, and for each pair at the right distance the beams that can hit the model. Allocates
-/// nothing.
+/// nothing after the first scans.
 #[node]
 #[derive(Debug, Clone)]
 pub struct ContainerSearch {
@@ -132,7 +133,7 @@ pub struct ContainerSearch {
     #[param(default = 0)]
     model: u16,
     /// Points of the scan by beam; NaN where nothing was measured.
-    points: Vec<Point2, MAX_BEAMS>,
+    points: PerBeam<Point2>,
     /// Segments, seen as wheels.
     views: Vec<View, MAX_SEGMENTS>,
 }
@@ -276,7 +277,7 @@ mod tests {
             boxes: BOXES,
             boards: &[],
             model: 7,
-            points: Vec::new(),
+            points: PerBeam::new(),
             views: Vec::new(),
         }
     }

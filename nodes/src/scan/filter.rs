@@ -1,9 +1,10 @@
-use super::{Point2, Scan, Segments};
+use super::{Point2, Scan, Segment, Segments};
 use apex_rt::{Out, node};
 use heapless::Vec;
 
-/// Marks invalid ranges as not measured (NaN): NaN, zero, infinite, or outside the limits of the scanner or of this
-/// node.
+/// Marks invalid ranges as not measured (NaN): zero, minus infinity, outside the limits of the scanner, or less than
+/// the minimum of this node. A range beyond the maximum of this node becomes infinity, as nothing is within range, and
+/// infinity stays.
 ///
 /// Beams keep their index, so that their angles stay right.
 #[node]
@@ -22,10 +23,12 @@ impl RangeFilter {
     fn process(&mut self, scan: &Scan, filtered: &mut Out<Scan>) {
         let filtered = filtered.get_mut();
         filtered.clone_from(scan);
-        for range in &mut filtered.ranges {
-            if !scan.is_measured(*range) || *range < self.min || *range > self.max {
-                *range = f32::NAN;
-            }
+        for (beam, range) in filtered.ranges.iter_mut().enumerate() {
+            *range = match scan.sight(beam) {
+                seen if seen < self.min => f32::NAN,
+                seen if seen > self.max => f32::INFINITY,
+                seen => seen,
+            };
         }
     }
 }
@@ -48,32 +51,50 @@ impl ShortSegmentFilter {
     fn process(&mut self, scan: &Scan, segments: &Segments, filtered: &mut Out<Scan>) {
         let filtered = filtered.get_mut();
         filtered.clone_from(scan);
-        let end = |beam: u16| scan.range(beam.into()).map(|r| Point2::polar(r, scan.angle(beam.into())));
-        for segment in segments {
-            let length = end(segment.first).zip(end(segment.last)).map_or(0.0, |(a, b)| (a - b).norm());
-            if length < self.min_length {
-                let beams = filtered.ranges.iter_mut().take(usize::from(segment.last) + 1);
-                beams.skip(segment.first.into()).for_each(|range| *range = f32::NAN);
+        for segment in segments.iter().filter(|segment| length(scan, segment) < self.min_length) {
+            for beam in segment.beams(scan.ranges.len()) {
+                if let Some(range) = filtered.ranges.get_mut(beam) {
+                    *range = f32::NAN;
+                }
             }
         }
     }
 }
 
-/// Passes a scan in which enough beams have measured something; ⊥ otherwise. So a covered or broken scanner is not
-/// taken for free space.
+/// Distance between the ends of a segment, in m. One that surrounds the scanner has none: it is as long as its bounding
+/// box.
+fn length(scan: &Scan, segment: &Segment) -> f32 {
+    let end = |beam: u16| scan.range(beam.into()).map(|r| Point2::polar(r, scan.angle(beam.into())));
+    let ends = end(segment.first).zip(end(segment.last)).map_or(0.0, |(a, b)| (a - b).norm());
+    let is_around = segment.counted(scan.ranges.len()).count() + 1 >= scan.ranges.len() && scan.is_full_turn();
+    if is_around { ends.max(segment.size()) } else { ends }
+}
+
+/// Passes a scan in which enough beams have measured something, or that nothing is within range (infinity); ⊥
+/// otherwise. So a covered or broken scanner is not taken for free space, and the robot may drive in the open.
+///
+/// Some scanners report infinity when they are covered. Where walls are always within range, `min_seen` detects that.
 #[node]
 #[derive(Debug, Clone)]
 pub struct EnoughBeams {
-    /// Minimum share of beams with a measurement.
+    /// Minimum share of beams with a measurement, also of nothing in range.
     #[param(default = 0.3, range = 0.0..=1.0)]
     min_share: f32,
+    /// Minimum share of beams that see something within range.
+    #[param(default = 0.0, range = 0.0..=1.0)]
+    min_seen: f32,
 }
 
 #[node]
 impl EnoughBeams {
     fn process(&mut self, scan: &Scan, seen: &mut Out<Scan>) {
-        let measured = scan.ranges.iter().filter(|range| scan.is_measured(**range)).count();
-        if measured > 0 && measured as f32 >= self.min_share * scan.ranges.len() as f32 {
+        let (mut answered, mut near) = (0, 0);
+        for sight in (0..scan.ranges.len()).map(|beam| scan.sight(beam)) {
+            answered += u32::from(!sight.is_nan());
+            near += u32::from(sight.is_finite());
+        }
+        let share = |count: u32| count as f32 / scan.ranges.len() as f32;
+        if answered > 0 && share(answered) >= self.min_share && share(near) >= self.min_seen {
             seen.get_mut().clone_from(scan);
         }
     }
@@ -84,8 +105,9 @@ const MAX_WINDOW: usize = 15;
 
 /// Replaces each measured range by the median of the measured ranges in a window of beams around it.
 ///
-/// Removes single wrong beams and keeps edges. Beams without a measurement stay without one. With an even number of
-/// ranges in the window, the lower of the two middle ones is taken, so that every range is a measured one.
+/// Removes single wrong beams and keeps edges. Beams without a measurement, and those that see nothing within range,
+/// stay as they are. With an even number of ranges in the window, the lower of the two middle ones is taken, so that
+/// every range is a measured one. The window crosses the seam of a full turn.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MedianFilter {
@@ -99,12 +121,11 @@ impl MedianFilter {
     fn process(&mut self, scan: &Scan, filtered: &mut Out<Scan>) {
         let filtered = filtered.get_mut();
         filtered.clone_from(scan);
-        let reach = self.reach.min(MAX_WINDOW / 2);
+        let reach = self.reach.min(MAX_WINDOW / 2) as isize;
         for (beam, range) in filtered.ranges.iter_mut().enumerate() {
             if scan.is_measured(*range) {
-                let first = beam.saturating_sub(reach);
-                let last = (beam + reach).min(scan.ranges.len() - 1);
-                *range = median((first..=last).filter_map(|b| scan.range(b))).unwrap_or(*range);
+                let window = (-reach..=reach).filter_map(|i| scan.beam_around(beam as isize + i));
+                *range = median(window.filter_map(|b| scan.range(b))).unwrap_or(*range);
             }
         }
     }
@@ -123,8 +144,8 @@ mod tests {
 
     #[test]
     fn a_blind_scanner_sends_nothing() {
-        let mut node = EnoughBeams::construct((0.3,));
-        let mut passes = |measured: usize, other: f32| {
+        let passes = |min_seen: f32, measured: usize, other: f32| {
+            let mut node = EnoughBeams::construct((0.3, min_seen));
             let mut scan = Scan { range_min: 0.05, range_max: 20.0, ..Scan::default() };
             scan.ranges.extend((0..100).map(|beam| if beam < measured { 3.0 } else { other }));
             let mut out = Out::new();
@@ -133,12 +154,12 @@ mod tests {
             assert!(out.get().is_none_or(|passed| bits(passed) == bits(&scan)));
             out.get().is_some()
         };
-        for other in [f32::NAN, f32::INFINITY, 0.0] {
-            assert_eq!(
-                [passes(0, other), passes(29, other), passes(31, other), passes(100, other)],
-                [false, false, true, true]
-            );
+        for (min_seen, other) in [(0.0, f32::NAN), (0.0, f32::NEG_INFINITY), (0.0, 0.0), (0.3, f32::INFINITY)] {
+            let passed = [0, 29, 31, 100].map(|measured| passes(min_seen, measured, other));
+            assert_eq!(passed, [false, false, true, true], "{min_seen}, {other}");
         }
+        // Nothing is within range, in all directions: the robot is in the open.
+        assert_eq!([0, 29, 31, 100].map(|measured| passes(0.0, measured, f32::INFINITY)), [true; 4]);
     }
     use apex_rt::Construct;
 
@@ -160,6 +181,9 @@ mod tests {
         expected[2] = Some(0.5);
         expected[3] = Some(10.0);
         assert_eq!(measured(&out), expected);
+        // Nothing within range, as seen by the scanner or up to the maximum.
+        let infinite = out.get().expect("a scan").ranges.iter().map(|range| *range == f32::INFINITY);
+        assert!(infinite.eq([false, false, false, false, true, false, true, false, false]));
     }
 
     #[test]
@@ -176,6 +200,38 @@ mod tests {
         let mut out = Out::new();
         node.process(&scan(&[1.0, 1.0, 9.0, 1.0, 1.0, 5.0, 5.0, 5.0]), &mut out);
         assert_eq!(measured(&out), [1.0, 1.0, 1.0, 1.0, 1.0, 5.0, 5.0, 5.0].map(Some));
+    }
+
+    #[test]
+    fn the_median_crosses_the_seam_of_a_full_turn() {
+        let mut node = MedianFilter::construct((1,));
+        let mut out = Out::new();
+        let turn =
+            Scan { angle_increment: 0.25 * core::f32::consts::PI, ..scan(&[9.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]) };
+        node.process(&turn, &mut out);
+        assert_eq!(measured(&out), [Some(1.0); 8]);
+    }
+
+    #[test]
+    fn a_wall_across_the_seam_is_kept_and_one_thing_all_around_too() {
+        use super::super::JumpDistance;
+        let kept = |distance: &dyn Fn(f32) -> f32| {
+            let mut turn =
+                Scan { angle_increment: 0.5_f32.to_radians(), angle_min: -core::f32::consts::PI, ..Scan::default() };
+            turn.ranges
+                .extend((0..720).map(|beam| distance(-core::f32::consts::PI + 0.5_f32.to_radians() * beam as f32)));
+            let (mut segments, mut out) = (Out::new(), Out::new());
+            JumpDistance::construct((0.3, 1)).process(&turn, &mut segments).expect("few segments");
+            let segments = segments.get().expect("segments");
+            ShortSegmentFilter::construct((1.2,)).process(&turn, segments, &mut out);
+            measured(&out).iter().flatten().count()
+        };
+        // A wall of 2 m, 1.5 m behind the scanner.
+        let wall = |angle: f32| {
+            let distance = -1.5 / libm::cosf(angle);
+            if distance > 0.0 && (distance * libm::sinf(angle)).abs() <= 1.0 { distance } else { f32::INFINITY }
+        };
+        assert_eq!((kept(&wall), kept(&|_| 2.0)), (135, 720));
     }
 
     #[test]

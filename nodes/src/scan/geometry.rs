@@ -1,6 +1,7 @@
 use apex_rt::Units;
 use core::{
     f32::consts::{PI, TAU},
+    fmt,
     ops::{Add, Sub},
 };
 
@@ -81,6 +82,22 @@ impl Sub for Point2 {
     }
 }
 
+/// Error of a pose that is too far from the origin to compute with, for example in UTM coordinates
+/// (see [`Pose2::is_usable`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FarFromOrigin;
+
+impl fmt::Display for FarFromOrigin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(
+            "a pose is more than 100 km from the origin of its frame, where an `f32` has no centimetres: \
+             shift the origin to the place of work, before the pose becomes an `f32`",
+        )
+    }
+}
+
+impl core::error::Error for FarFromOrigin {}
+
 /// Pose in the plane: position and orientation of a frame in an outer frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Units)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -112,11 +129,17 @@ impl Pose2 {
         self.x.is_finite() && self.y.is_finite() && self.theta.is_finite()
     }
 
-    /// Returns `true` if all components are numbers, and at most 1,000,000 m or rad: an `f32` does not have centimetres
-    /// farther away.
+    /// Returns `true` if all components are numbers, and at most 100,000 m or rad: an `f32` has steps of 8 mm there,
+    /// and does not have centimetres farther away.
     pub const fn is_usable(&self) -> bool {
-        const FARTHEST: f32 = 1e6;
+        const FARTHEST: f32 = 1e5;
         self.x.abs() <= FARTHEST && self.y.abs() <= FARTHEST && self.theta.abs() <= FARTHEST
+    }
+
+    /// Returns `true` if all components are numbers, but too large to compute with. The error of a node that gets such
+    /// a pose is [`FarFromOrigin`].
+    pub const fn is_far(&self) -> bool {
+        self.is_finite() && !self.is_usable()
     }
 
     /// Transforms a point from this frame to the outer frame.
@@ -181,6 +204,16 @@ mod tests {
         assert!(close(pose.to_outer(Point2::new(1.0, 0.0)), Point2::new(1.0, 3.0)));
         let p = Point2::new(-0.3, 0.8);
         assert!(close(pose.to_inner(pose.to_outer(p)), p));
+    }
+
+    #[test]
+    fn what_is_far_away_has_no_centimetres() {
+        let at = |x| Pose2::new(x, 0.0, 0.0);
+        assert!([0.0, -1e5].into_iter().all(|x| at(x).is_usable() && !at(x).is_far()));
+        assert!([1.1e5, -5e6, f32::MAX].into_iter().all(|x| !at(x).is_usable() && at(x).is_far()));
+        assert!([f32::NAN, f32::INFINITY].into_iter().all(|x| !at(x).is_usable() && !at(x).is_far()));
+        // One centimetre is a step up to there.
+        assert!((1e5_f32 + 0.01) - 1e5 > 0.0 && (1.4e5_f32 + 0.005) - 1.4e5 == 0.0);
     }
 
     #[test]

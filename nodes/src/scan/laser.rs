@@ -1,13 +1,9 @@
-use super::Point2;
+use super::{Point2, Ranges};
 use apex_rt::Time;
-use heapless::Vec;
-
-/// Maximum number of beams of a [`Scan`]. Holds a full turn at 0.25° (1440 beams) and common 270° scanners (1081
-/// beams).
-pub const MAX_BEAMS: usize = 1536;
+use core::f32::consts::TAU;
 
 /// One sweep of a plane laser scanner, in the frame of the scanner.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Scan {
     /// Direction of beam 0, in rad, counter-clockwise from the x axis.
     pub angle_min: f32,
@@ -19,8 +15,10 @@ pub struct Scan {
     pub range_max: f32,
     /// Time of the measurement.
     pub stamp: Time,
-    /// Ranges in m, by beam. NaN, infinite, or outside `range_min..=range_max` means that nothing was measured.
-    pub ranges: Vec<f32, MAX_BEAMS>,
+    /// Ranges in m, by beam, with the values of REP 117 of ROS: infinity means that nothing is within range, NaN that
+    /// nothing was measured, because the beam is covered, broken or filtered away. A range outside
+    /// `range_min..=range_max` (minus infinity: too near) counts as not measured, too.
+    pub ranges: Ranges,
 }
 
 impl Scan {
@@ -30,6 +28,29 @@ impl Scan {
         self.ranges.get(beam).copied().filter(|&r| self.is_measured(r))
     }
 
+    /// Range of a beam as far as it is known, in m: infinity if nothing is within range, and NaN if nothing was
+    /// measured.
+    #[inline]
+    pub fn sight(&self, beam: usize) -> f32 {
+        let range = self.ranges.get(beam).copied().unwrap_or(f32::NAN);
+        if self.is_measured(range) || range == f32::INFINITY { range } else { f32::NAN }
+    }
+
+    /// Returns `true` if the scan is a full turn: its first beam is next to its last one.
+    pub fn is_full_turn(&self) -> bool {
+        let step = self.angle_increment.abs();
+        // Up to a beam more, as some scanners repeat the first direction at the end, or less.
+        self.ranges.len() > 2 && (self.ranges.len() as f32 * step - TAU).abs() <= 1.5 * step
+    }
+
+    /// Index of a beam that is counted on beyond either end of the scan: across the seam of a full turn, or `None`
+    /// outside the field of view.
+    pub fn beam_around(&self, beam: isize) -> Option<usize> {
+        let count = self.ranges.len() as isize;
+        let is_inside = (0..count).contains(&beam);
+        (is_inside || self.is_full_turn()).then(|| beam.rem_euclid(count) as usize)
+    }
+
     /// Returns `true` if a range is finite and between `range_min` and `range_max`.
     #[inline]
     pub fn is_measured(&self, range: f32) -> bool {
@@ -37,10 +58,10 @@ impl Scan {
         range.is_finite() && range >= self.range_min && range <= self.range_max
     }
 
-    /// Returns `true` if a beam has measured something, or that nothing is in its range (∞, or beyond `range_max`). A
-    /// scan without beams, or of NaN only, is that of a scanner that has failed.
+    /// Returns `true` if a beam has measured something, or that nothing is within range (infinity). A scan without beams,
+    /// or of NaN only, is that of a scanner that has failed.
     pub fn measures_anything(&self) -> bool {
-        self.ranges.iter().any(|range| *range >= self.range_min)
+        (0..self.ranges.len()).any(|beam| !self.sight(beam).is_nan())
     }
 
     /// Direction of a beam, in rad.
@@ -50,7 +71,7 @@ impl Scan {
 
     /// Index of the beam nearest to a direction in rad, or `None` outside the field of view.
     pub fn beam_towards(&self, angle: f32) -> Option<usize> {
-        let turn = core::f32::consts::TAU;
+        let turn = TAU;
         // Relative to the middle of the field of view, so that multiples of a full turn in `angle` do not matter.
         let middle = self.angle(self.ranges.len()) * 0.5 + self.angle_min * 0.5;
         let beam = (middle + libm::remainderf(angle - middle, turn) - self.angle_min) / self.angle_increment;
@@ -75,6 +96,19 @@ impl Scan {
     }
 }
 
+/// Copies into a scan use the memory of its ranges again.
+impl Clone for Scan {
+    fn clone(&self) -> Self {
+        Self { ranges: self.ranges.clone(), ..*self }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        let mut ranges = core::mem::take(&mut self.ranges);
+        ranges.clone_from(&other.ranges);
+        *self = Self { ranges, ..*other };
+    }
+}
+
 /// A scan without beams. Any positive finite range counts as measured.
 impl Default for Scan {
     fn default() -> Self {
@@ -84,7 +118,7 @@ impl Default for Scan {
             range_min: f32::MIN_POSITIVE,
             range_max: f32::MAX,
             stamp: Time::ZERO,
-            ranges: Vec::new(),
+            ranges: Ranges::new(),
         }
     }
 }
@@ -110,9 +144,35 @@ mod tests {
             scan.ranges.extend(ranges.iter().copied());
             scan.measures_anything()
         };
-        assert!([[f32::NAN, 1.0], [f32::NAN, f32::INFINITY], [0.0, 11.0]].iter().all(|ranges| measures(ranges)));
+        assert!([[f32::NAN, 1.0], [f32::NAN, f32::INFINITY]].iter().all(|ranges| measures(ranges)));
         let failed: [&[f32]; 3] = [&[], &[f32::NAN; 3], &[0.0, -1.0, f32::NEG_INFINITY]];
         assert!(!failed.iter().any(|ranges| measures(ranges)));
+    }
+
+    #[test]
+    fn nothing_in_range_is_not_the_same_as_no_measurement() {
+        let mut scan = Scan { range_min: 0.1, range_max: 10.0, ..Scan::default() };
+        scan.ranges.extend([1.0, f32::INFINITY, f32::NAN, f32::NEG_INFINITY, 11.0, 0.05]);
+        let seen: std::vec::Vec<f32> = (0..7).map(|beam| scan.sight(beam)).collect();
+        assert_eq!(seen[..2], [1.0, f32::INFINITY]);
+        assert!(seen[2..].iter().all(|range| range.is_nan()), "{seen:?}");
+    }
+
+    #[test]
+    fn beams_are_counted_across_the_seam_of_a_full_turn_alone() {
+        for step in [1.0_f32, -1.0, 0.25] {
+            for (angle, is_full) in [(360.0, true), (361.0, true), (360.0 - step.abs(), true), (270.0, false)] {
+                let count = (angle / step.abs()) as usize;
+                let mut scan = Scan { angle_increment: step.to_radians(), ..Scan::default() };
+                scan.ranges.extend((0..count).map(|_| 1.0));
+                // One beam more is the first direction again; 361° at a quarter of a degree is more than a turn.
+                let is_full = is_full && (step != 0.25 || angle != 361.0);
+                assert_eq!(scan.is_full_turn(), is_full, "{count} beams of {step}°");
+                let ends = [-1, 0, count as isize].map(|beam| scan.beam_around(beam));
+                assert_eq!(ends, if is_full { [Some(count - 1), Some(0), Some(0)] } else { [None, Some(0), None] });
+            }
+        }
+        assert!(!Scan::default().is_full_turn() && Scan::default().beam_around(0).is_none());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! ROS 2 messages of scans and poses, which Foxglove and Python can show.
 
-use super::{Point2, Pose2, Scan};
+use super::{Point2, Pose2, Ranges, Scan};
 use apex_rt::{
     Time,
     record::{
@@ -74,7 +74,7 @@ float32[] intensities";
             range_min: message.f32()?,
             range_max: message.f32()?,
             stamp,
-            ranges: heapless::Vec::new(),
+            ranges: Ranges::new(),
         };
         for _ in 0..message.u32()? {
             scan.ranges.push(message.f32()?).ok()?;

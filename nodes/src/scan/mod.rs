@@ -1,6 +1,7 @@
 //! Plane laser scans: cleaning, segmentation, and the detection of containers by their wheels (thesis 6.6.1).
 //!
-//! The types have fixed capacities and need no heap.
+//! The types have fixed capacities and need no heap, except that with the feature `std` scans grow on it
+//! ([`Ranges`]).
 
 mod confirm;
 mod consensus;
@@ -12,6 +13,7 @@ mod laser;
 #[cfg(feature = "record")]
 pub(crate) mod message;
 mod mount;
+mod ranges;
 mod remember;
 mod segment;
 mod wheel;
@@ -19,9 +21,10 @@ mod wheel;
 pub use confirm::ConfirmContainer;
 pub use container::{Container, ContainerSearch, best_container};
 pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};
-pub use geometry::{Point2, Pose2};
+pub use geometry::{FarFromOrigin, Point2, Pose2};
 pub use hide::HideBox;
-pub use laser::{MAX_BEAMS, Scan};
+pub use laser::Scan;
 pub use mount::{MergeScans, MountScan, OtherBeams};
+pub use ranges::{MAX_BEAMS, Ranges, TooManyBeams};
 pub use remember::{Containers, RememberContainers};
 pub use segment::{JumpDistance, MAX_SEGMENTS, Segment, SegmentFilter, Segments, TooManySegments};

@@ -12,7 +12,8 @@ const BEAMS: usize = 720;
 /// merged.
 ///
 /// The result is in the frame of the robot and covers a full turn from −π on, with 720 beams. The range of a beam is
-/// the distance to the nearest point in its direction.
+/// the distance to the nearest point in its direction; infinity if the scanner sees nothing within range there, and NaN
+/// if it does not measure there.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MountScan {
@@ -39,11 +40,17 @@ impl MountScan {
         mounted.ranges.clear();
         mounted.ranges.extend([f32::NAN; BEAMS]);
         let mount = Pose2::new(self.x, self.y, self.heading);
+        let towards = |angle: f32| libm::roundf((angle + PI) / (TAU / BEAMS as f32)) as usize % BEAMS;
+        for beam in (0..scan.ranges.len()).filter(|beam| scan.sight(*beam) == f32::INFINITY) {
+            // What is far away is in this direction from any place on the robot.
+            let direction = libm::remainderf(scan.angle(beam) + self.heading, TAU);
+            mounted.ranges[towards(direction)] = f32::INFINITY;
+        }
         for (_, point) in scan.points() {
             let point = mount.to_outer(point);
-            let beam = libm::roundf((point.angle() + PI) / mounted.angle_increment) as usize % BEAMS;
+            let range = &mut mounted.ranges[towards(point.angle())];
             // `min` ignores the NaN of a beam without a point.
-            mounted.ranges[beam] = mounted.ranges[beam].min(point.norm());
+            *range = range.min(point.norm());
         }
     }
 }
@@ -83,8 +90,8 @@ impl MergeScans {
         merged.range_max = first.range_max.max(second.range_max);
         merged.stamp = first.stamp.min(second.stamp);
         for (beam, range) in merged.ranges.iter_mut().enumerate() {
-            let nothing = f32::NAN;
-            *range = first.range(beam).unwrap_or(nothing).min(second.range(beam).unwrap_or(nothing));
+            // `min` ignores the NaN of a scanner that does not measure there.
+            *range = first.sight(beam).min(second.sight(beam));
         }
         Ok(())
     }
@@ -120,6 +127,19 @@ mod tests {
             let nearest = points.iter().map(|q| (*q - p).norm()).fold(f32::MAX, f32::min);
             assert!(nearest < 0.02, "{p:?} is {nearest} m away from all points");
         }
+    }
+
+    #[test]
+    fn nothing_in_range_stays_nothing_in_range() {
+        let seen = mounted((0.3, -0.2, 2.5), &half_turn(f32::INFINITY));
+        let count = |test: fn(&f32) -> bool| seen.ranges.iter().filter(|range| test(range)).count();
+        assert_eq!((count(|range| range.is_infinite()), count(|range| range.is_nan())), (361, 359));
+        let mut out = Out::new();
+        let near = mounted((0.0, 0.0, -0.6), &half_turn(1.0));
+        MergeScans.process(Some(&seen), Some(&near), &mut out).expect("the same beams");
+        let merged = out.get().expect("a scan");
+        assert!((0..720).all(|beam| near.range(beam).is_none() || merged.range(beam).is_some()));
+        assert!(merged.ranges.iter().any(|range| range.is_infinite()));
     }
 
     #[test]

@@ -54,8 +54,8 @@ impl RememberContainers {
     ) {
         let memory = self.memory;
         self.known.retain(|known| ctx.now().since(known.seen).as_secs_f32() <= memory);
-        if pose.is_finite() {
-            let outer = |inner: &Pose2| inner.is_finite().then(|| pose.compose(inner));
+        if pose.is_usable() {
+            let outer = |inner: &Pose2| inner.is_usable().then(|| pose.compose(inner));
             let load = load.and_then(outer);
             let set_down = core::mem::replace(&mut self.load, load).filter(|_| load.is_none());
             let seen = container.and_then(|container| outer(&container.pose));

@@ -1,6 +1,6 @@
 use super::{Point2, Scan};
 use apex_rt::{Out, node};
-use core::fmt;
+use core::{fmt, ops::RangeInclusive};
 use heapless::Vec;
 
 /// Maximum number of segments of a scan.
@@ -10,6 +10,9 @@ pub const MAX_SEGMENTS: usize = 512;
 pub type Segments = Vec<Segment, MAX_SEGMENTS>;
 
 /// Segment of a scan: neighbouring points that belong together, with the range of their beams and their bounding box.
+///
+/// In a scan that is a full turn, a segment may cross the seam from the last beam to the first one. Then its first beam
+/// has a greater index than its last one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Segment {
@@ -39,6 +42,32 @@ impl Segment {
         self.max = Point2::new(self.max.x.max(point.x), self.max.y.max(point.y));
     }
 
+    /// Takes the points of the segment that follows across the seam of a full turn.
+    fn join(&mut self, next: &Self) {
+        self.last = next.last;
+        self.points = self.points.saturating_add(next.points);
+        self.min = Point2::new(self.min.x.min(next.min.x), self.min.y.min(next.min.y));
+        self.max = Point2::new(self.max.x.max(next.max.x), self.max.y.max(next.max.y));
+    }
+
+    /// Beams of the segment in a scan of `count` beams, in their order. They are counted on beyond the last beam of the
+    /// scan if the segment crosses the seam of a full turn: their indices are the remainders of a division by `count`.
+    pub fn counted(&self, count: usize) -> RangeInclusive<usize> {
+        let (first, last) = (usize::from(self.first), usize::from(self.last));
+        first..=if first <= last { last } else { last + count }
+    }
+
+    /// Beams of the segment in a scan of `count` beams, in their order.
+    pub fn beams(&self, count: usize) -> impl Iterator<Item = usize> + Clone + use<> {
+        self.counted(count).map(move |beam| if beam < count { beam } else { beam - count })
+    }
+
+    /// Returns `true` if a beam belongs to the segment, with or without a measurement.
+    pub fn contains(&self, beam: usize) -> bool {
+        let (is_behind, is_before) = (beam >= usize::from(self.first), beam <= usize::from(self.last));
+        if self.first <= self.last { is_behind && is_before } else { is_behind || is_before }
+    }
+
     /// Mid-range of the points: the centre of their bounding box (thesis eq. 6.11).
     ///
     /// The equation is printed with a minus between maximum and minimum, which would be half the extent; the text calls
@@ -66,7 +95,8 @@ impl fmt::Display for TooManySegments {
 
 impl core::error::Error for TooManySegments {}
 
-/// Splits a scan into segments where neighbouring ranges jump (thesis 6.6.1).
+/// Splits a scan into segments where neighbouring ranges jump (thesis 6.6.1). What stands across the seam of a full
+/// turn, between its last and its first beam, is one segment, which is the last one.
 ///
 /// Fails on a scan of more than [`MAX_SEGMENTS`] segments.
 #[node]
@@ -88,8 +118,7 @@ impl JumpDistance {
         let mut last: Option<(usize, f32)> = None;
         for (beam, point) in scan.points() {
             let range = scan.ranges[beam];
-            let joins =
-                last.is_some_and(|(before, r)| beam - before <= self.max_gap_beams + 1 && (range - r).abs() < self.gap);
+            let joins = last.is_some_and(|(before, r)| self.joins(beam - before, range - r));
             last = Some((beam, range));
             match list.last_mut() {
                 Some(segment) if joins => segment.push(beam as u16, point),
@@ -101,7 +130,24 @@ impl JumpDistance {
                 }
             }
         }
+        self.close(scan, list);
         Ok(())
+    }
+
+    /// Returns `true` if two points belong together whose beams and ranges differ by so much.
+    fn joins(&self, beams: usize, ranges: f32) -> bool {
+        beams <= self.max_gap_beams + 1 && ranges.abs() < self.gap
+    }
+
+    /// Joins the last segment of a full turn with the first one, if they belong together.
+    fn close(&self, scan: &Scan, list: &mut Segments) {
+        let [first, .., last] = &**list else { return };
+        let ends = scan.range(first.first.into()).zip(scan.range(last.last.into()));
+        let beams = usize::from(first.first) + scan.ranges.len() - usize::from(last.last);
+        if scan.is_full_turn() && ends.is_some_and(|(a, b)| self.joins(beams, a - b)) {
+            let first = list.remove(0);
+            list.last_mut().into_iter().for_each(|last| last.join(&first));
+        }
     }
 }
 
@@ -150,6 +196,33 @@ mod tests {
     #[test]
     fn splits_where_ranges_jump() {
         assert_eq!(split(&[1.0, 1.1, 1.2, 2.0, 2.1, 1.0], 0.15, 0), [(0, 2, 3), (3, 4, 2), (5, 5, 1)]);
+    }
+
+    /// Scan of a full turn.
+    fn turn(ranges: &[f32]) -> Scan {
+        let angle_increment = core::f32::consts::TAU / ranges.len() as f32;
+        Scan { angle_increment, ranges: ranges.iter().copied().collect(), ..Scan::default() }
+    }
+
+    #[test]
+    fn what_stands_across_the_seam_is_one_segment() {
+        let split = |ranges: &[f32]| {
+            let mut out = Out::new();
+            JumpDistance::construct((0.15, 1)).process(&turn(ranges), &mut out).expect("few segments");
+            out.get().expect("segments").clone()
+        };
+        let parts =
+            |ranges: &[f32]| split(ranges).iter().map(|s| (s.first, s.last, s.points)).collect::<std::vec::Vec<_>>();
+        assert_eq!(parts(&[1.0, 1.0, 2.0, 2.0, 1.0, 1.0]), [(2, 3, 2), (4, 1, 4)]);
+        // A beam without a measurement at the seam; a gap of two; another range; one thing all around.
+        assert_eq!(parts(&[f32::NAN, 1.0, 2.0, 2.0, 1.0, 1.0]), [(2, 3, 2), (4, 1, 3)]);
+        assert_eq!(parts(&[f32::NAN, 1.0, 2.0, 2.0, 1.0, f32::NAN]).len(), 3);
+        assert_eq!(parts(&[3.0, 3.0, 2.0, 2.0, 1.0, 1.0]).len(), 3);
+        assert_eq!(parts(&[1.0; 6]), [(0, 5, 6)]);
+        let across = split(&[1.0, 1.0, 2.0, 2.0, 1.0, 1.0])[1];
+        assert!(across.beams(6).eq([4, 5, 0, 1]) && across.counted(6).eq(4..=7));
+        assert!((0..6).map(|beam| across.contains(beam)).eq([true, true, false, false, true, true]));
+        assert!((across.max.y - 0.866).abs() < 1e-3 && (across.min.y + 0.866).abs() < 1e-3, "{across:?}");
     }
 
     #[test]

@@ -39,8 +39,10 @@ pub(super) struct View {
 impl WheelShape {
     /// View of a segment.
     pub fn view(&self, segment: &Segment, scan: &Scan) -> View {
-        let beams = usize::from(segment.first)..=usize::from(segment.last);
-        let ranges = || beams.clone().filter_map(|beam| scan.range(beam).map(|range| (beam, range)));
+        // Counted on beyond the seam of a full turn.
+        let beams = segment.counted(scan.ranges.len());
+        let measured = |beam: usize| scan.beam_around(beam as isize).and_then(|beam| scan.range(beam));
+        let ranges = || beams.clone().filter_map(|beam| measured(beam).map(|range| (beam, range)));
         let nearest = ranges().map(|(_, range)| range).fold(f32::INFINITY, f32::min);
         let (mut first, mut last, mut sum, mut points) = (None, 0, 0.0, 0_u16);
         for (beam, range) in ranges().filter(|(_, range)| range - nearest <= self.diagonal()) {
@@ -51,9 +53,10 @@ impl WheelShape {
         let (bearing, range) = (0.5 * (scan.angle(first) + scan.angle(last)), sum / f32::from(points));
         let extent = range * (last - first + 1) as f32 * scan.angle_increment.abs();
         let centre = Point2::polar(range + self.depth(self.turn(extent)), bearing);
-        let beyond = |beam: usize| scan.range(beam).is_none_or(|r| r > nearest);
-        let is_whole = first.checked_sub(1).is_none_or(beyond) && beyond(last + 1);
-        let end = |beam: usize| Point2::polar(scan.range(beam).unwrap_or(range), scan.angle(beam));
+        let beside = |beam: isize| scan.beam_around(beam).and_then(|beam| scan.range(beam));
+        let beyond = |beam: isize| beside(beam).is_none_or(|r| r > nearest);
+        let is_whole = beyond(first as isize - 1) && beyond(last as isize + 1);
+        let end = |beam: usize| Point2::polar(measured(beam).unwrap_or(range), scan.angle(beam));
         let ends = [end(*beams.start()), end(*beams.end())];
         View { bearing, range, extent, points, centre, ends, is_whole }
     }

@@ -156,7 +156,7 @@ mod tests {
             let hit = along - (0.16 - aside * aside).max(0.0).sqrt();
             if aside.abs() < 0.4 && along > 0.0 { hit.min(walls) } else { walls }
         };
-        let ranges: heapless::Vec<f32, { crate::scan::MAX_BEAMS }> = (0..200).map(range).collect();
+        let ranges: crate::scan::Ranges = (0..200).map(range).collect();
         scan.ranges = ranges;
         scan
     }

@@ -27,17 +27,52 @@ pub fn write(message: &impl Serialize, out: &mut Vec<u8>) {
     *out = all;
 }
 
-/// Takes the first message from `bytes`. Returns `None` if it is not complete yet.
-///
-/// # Errors
-/// Bytes that are not such a message.
-pub fn take<T: DeserializeOwned>(bytes: &mut Vec<u8>) -> io::Result<Option<T>> {
-    let Some(length) = bytes.first_chunk::<LENGTH>() else { return Ok(None) };
-    let end = checked(*length)? + LENGTH;
-    let Some(message) = bytes.get(LENGTH..end) else { return Ok(None) };
-    let message = decoded(message)?;
-    bytes.drain(..end);
-    Ok(Some(message))
+/// Bytes that have come, from which messages are taken. The time for that grows with the number of bytes only.
+#[cfg(feature = "studio")]
+#[derive(Default)]
+pub struct Frames {
+    bytes: Vec<u8>,
+    /// Number of bytes that have been taken.
+    at: usize,
+}
+
+#[cfg(feature = "studio")]
+impl Frames {
+    /// Appends bytes.
+    pub fn extend(&mut self, bytes: &[u8]) {
+        // Each byte is moved once for each time that as many have been taken.
+        if self.at > self.bytes.len() / 2 {
+            self.bytes.drain(..self.at);
+            self.at = 0;
+        }
+        self.bytes.extend_from_slice(bytes);
+    }
+
+    /// Number of bytes that have not been taken.
+    pub fn waiting(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
+    /// `true` if a message can be taken, or is wrong.
+    pub fn is_ready(&self) -> bool {
+        let rest = &self.bytes[self.at..];
+        rest.first_chunk::<LENGTH>()
+            .is_some_and(|length| checked(*length).map_or(true, |size| rest.len() >= size + LENGTH))
+    }
+
+    /// Takes the first message. Returns `None` if it is not complete yet.
+    ///
+    /// # Errors
+    /// Bytes that are not such a message.
+    pub fn take<T: DeserializeOwned>(&mut self) -> io::Result<Option<T>> {
+        let rest = &self.bytes[self.at..];
+        let Some(length) = rest.first_chunk::<LENGTH>() else { return Ok(None) };
+        let end = checked(*length)? + LENGTH;
+        let Some(message) = rest.get(LENGTH..end) else { return Ok(None) };
+        let message = decoded(message)?;
+        self.at += end;
+        Ok(Some(message))
+    }
 }
 
 /// Reads a message. Returns `None` at the end of the stream.
@@ -154,13 +189,39 @@ mod tests {
         let mut from = &bytes[..];
         let read: Vec<Report> = core::iter::from_fn(|| read(&mut from).unwrap()).collect();
         assert_eq!(read, sent);
-        // In pieces, as a socket delivers them.
-        let (mut came, mut got) = (std::vec![], std::vec![]);
+    }
+
+    #[cfg(feature = "studio")]
+    #[test]
+    fn messages_come_in_pieces_as_a_socket_delivers_them() {
+        let sent = [Report::Fired(7), Report::Failed { node: 3, error: "no <scan>".into() }, Report::Ended];
+        let mut bytes = std::vec![];
+        sent.iter().for_each(|message| write(message, &mut bytes));
+        let (mut came, mut got) = (Frames::default(), std::vec![]);
         for byte in bytes {
-            came.push(byte);
-            got.extend(take::<Report>(&mut came).unwrap());
+            assert!(!came.is_ready());
+            came.extend(&[byte]);
+            got.extend(came.take::<Report>().unwrap());
         }
-        assert_eq!(got, sent);
+        assert_eq!((got, came.waiting()), (sent.into(), 0));
+    }
+
+    /// Time for 2.4 MB of the smallest messages, as a viewer may send them. Taking each from the beginning of a buffer
+    /// would move terabytes.
+    #[cfg(feature = "studio")]
+    #[test]
+    fn many_small_messages_are_read_in_linear_time() {
+        let mut bytes = std::vec![];
+        write(&Command::Measure(true), &mut bytes);
+        let count = 2_400_000 / bytes.len();
+        let start = std::time::Instant::now();
+        let (mut came, mut got) = (Frames::default(), 0);
+        came.extend(&bytes.repeat(count));
+        while let Some(Command::Measure(true)) = came.take().unwrap() {
+            got += 1;
+        }
+        assert_eq!((got, came.waiting()), (count, 0));
+        assert!(start.elapsed().as_secs() < 5, "it took {:?}", start.elapsed());
     }
 
     #[cfg(feature = "studio")]
@@ -209,7 +270,16 @@ mod tests {
     fn hostile_bytes_are_errors() {
         assert!(read::<Report>(&mut &[0xff, 0xff, 0xff, 0xff, 1][..]).is_err());
         assert!(read::<Report>(&mut &[9, 0, 0, 0, 1][..]).is_err());
-        assert!(take::<Command>(&mut std::vec![1, 0, 0, 0, 200]).is_err());
         assert!(read::<Report>(&mut &[][..]).unwrap().is_none());
+    }
+
+    #[cfg(feature = "studio")]
+    #[test]
+    fn hostile_bytes_of_a_viewer_are_errors() {
+        for bytes in [&[1, 0, 0, 0, 200][..], &[0xff, 0xff, 0xff, 0xff]] {
+            let mut came = Frames::default();
+            came.extend(bytes);
+            assert!(came.is_ready() && came.take::<Command>().is_err());
+        }
     }
 }

@@ -259,6 +259,9 @@ fn check(terrain: &Terrain<'_>, start: &Pose2, goals: &[Goal]) -> Result<(), NoP
     if terrain.costs.is_some_and(|costs| costs.raster() != raster) {
         return Err(NoPath::OtherRaster);
     }
+    if start.is_far() || goals.iter().any(|goal| goal.pose.is_far()) {
+        return Err(NoPath::FarFromOrigin);
+    }
     let from = raster.cell(start.position()).ok_or(NoPath::StartOutside)?;
     if !(terrain.is_open(from) && start.theta.is_finite()) {
         return Err(NoPath::StartBlocked);

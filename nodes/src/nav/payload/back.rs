@@ -1,8 +1,12 @@
 use super::vehicle::{Articulated, backing_twist};
 use crate::{
     math::normalize_angle,
-    nav::{Twist, latest::fresh, twist::Halt},
-    scan::Pose2,
+    nav::{
+        Twist,
+        latest::{any_far, fresh},
+        twist::Halt,
+    },
+    scan::{FarFromOrigin, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
 use heapless::Deque;
@@ -50,7 +54,20 @@ pub struct BackUp {
 
 #[node]
 impl BackUp {
-    fn process(&mut self, ctx: &Ctx, base: Option<&Pose2>, trailer: Option<&Pose2>, done: Event<()>) -> Option<Twist> {
+    fn process(
+        &mut self,
+        ctx: &Ctx,
+        base: Option<&Pose2>,
+        trailer: Option<&Pose2>,
+        done: Event<()>,
+    ) -> Result<Option<Twist>, FarFromOrigin> {
+        if ctx.active() && any_far([base, trailer]) {
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, base, trailer, done))
+    }
+
+    fn step(&mut self, ctx: &Ctx, base: Option<&Pose2>, trailer: Option<&Pose2>, done: Event<()>) -> Option<Twist> {
         let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
         let bend = axes.map(|(base, trailer)| normalize_angle(&(base.theta - trailer.theta)));
         if let Some(((base, _), bend)) = axes.zip(bend) {
@@ -124,7 +141,7 @@ mod tests {
             for step in 0..2000 {
                 let ctx = Ctx::new(Time::from_millis(20 * step)).of_node(true);
                 let trailer = Articulated::PATSY.trailer(&base, heading);
-                let twist = node.process(&ctx, Some(&base), Some(&trailer), apex_rt::event(&mut done));
+                let twist = node.step(&ctx, Some(&base), Some(&trailer), apex_rt::event(&mut done));
                 let twist = twist.expect("it is active");
                 if done.is_some() {
                     break;
@@ -148,7 +165,7 @@ mod tests {
             let (ctx, axis) =
                 (Ctx::new(Time::from_millis(20 * step)).of_node(is_back), vehicle.trailer(&base, heading));
             let mut done = None;
-            let sent = node.process(&ctx, Some(&base), Some(&axis), apex_rt::event(&mut done));
+            let sent = node.step(&ctx, Some(&base), Some(&axis), apex_rt::event(&mut done));
             if done.is_some() {
                 break;
             }
@@ -169,7 +186,7 @@ mod tests {
     fn it_rests_without_activity_and_stops_without_a_pose() {
         let (mut node, at) = (BackUp::construct((1.0, 0.2, 0.6, Articulated::PATSY, 0.5)), Pose2::default());
         let idle = Ctx::new(Time::ZERO);
-        let mut fire = |ctx: &Ctx, base: Option<&Pose2>| node.process(ctx, base, Some(&at), Event::unconnected());
+        let mut fire = |ctx: &Ctx, base: Option<&Pose2>| node.step(ctx, base, Some(&at), Event::unconnected());
         assert_eq!(fire(&idle, Some(&at)), None);
         for odd in [None, Some(&Pose2::new(f32::NAN, 0.0, 0.0)), Some(&Pose2::new(5e6, 0.0, 0.0))] {
             assert_eq!(fire(&idle.of_node(true), odd), Some(Twist::ZERO));

@@ -1,8 +1,12 @@
 use super::vehicle::{Articulated, backing_twist};
 use crate::{
     math::normalize_angle,
-    nav::{Twist, latest::fresh, twist::Halt},
-    scan::Pose2,
+    nav::{
+        Twist,
+        latest::{any_far, fresh},
+        twist::Halt,
+    },
+    scan::{FarFromOrigin, Pose2},
 };
 use apex_rt::{Ctx, Event, Time, node};
 use std::vec::Vec;
@@ -99,10 +103,29 @@ impl BackFollower {
         path: Option<&BackPath>,
         reached: Event<()>,
         #[failure] blocked: Event<()>,
+    ) -> Result<Option<Twist>, FarFromOrigin> {
+        let is_driving = path.is_some() || !self.path.pieces.is_empty();
+        if is_driving && any_far([base, trailer]) {
+            path.into_iter().for_each(|path| self.begin(path));
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, [base, trailer], path, [reached, blocked]))
+    }
+
+    fn begin(&mut self, path: &BackPath) {
+        self.give_up();
+        self.path.clone_from(path);
+    }
+
+    fn step(
+        &mut self,
+        ctx: &Ctx,
+        [base, trailer]: [Option<&Pose2>; 2],
+        path: Option<&BackPath>,
+        [reached, blocked]: [Event<()>; 2],
     ) -> Option<Twist> {
         if let Some(path) = path {
-            self.give_up();
-            self.path.clone_from(path);
+            self.begin(path);
         }
         if self.path.pieces.is_empty() {
             return self.halt.rest();
@@ -181,7 +204,8 @@ pub(in crate::nav) mod tests {
             let trailer = Articulated::PATSY.trailer(base, heading);
             let ctx = Ctx::new(self.now).of_node(true);
             let (path, ends) = (self.path.take(), (apex_rt::event(&mut reached), apex_rt::event(&mut blocked)));
-            let twist = self.node.process(&ctx, Some(base), Some(&trailer), path.as_ref(), ends.0, ends.1);
+            let axes = [Some(base), Some(&trailer)];
+            let twist = self.node.step(&ctx, axes, path.as_ref(), [ends.0, ends.1]);
             (twist, [reached, blocked])
         }
     }

@@ -1,7 +1,11 @@
 use super::vehicle::{Arrival, Articulated, arrival};
 use crate::{
-    nav::{Twist, latest::fresh, twist::Halt},
-    scan::{Point2, Pose2},
+    nav::{
+        Twist,
+        latest::{any_far, fresh},
+        twist::Halt,
+    },
+    scan::{FarFromOrigin, Point2, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
 use libm::{atan2f, fmaxf, fminf, sqrtf, tanf};
@@ -71,6 +75,19 @@ impl ReactiveApproach {
         container: Option<&Pose2>,
         reached: Event<()>,
         #[failure] missed: Event<()>,
+    ) -> Result<Option<Twist>, FarFromOrigin> {
+        if ctx.active() && any_far([base, trailer, container]) {
+            return self.halt.far();
+        }
+        Ok(self.step(ctx, [base, trailer], container, [reached, missed]))
+    }
+
+    fn step(
+        &mut self,
+        ctx: &Ctx,
+        [base, trailer]: [Option<&Pose2>; 2],
+        container: Option<&Pose2>,
+        [reached, missed]: [Event<()>; 2],
     ) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();

@@ -2,7 +2,7 @@
 
 use apex_nodes::{
     io::{Bag, BagMessage, CsvReader},
-    scan::{MAX_BEAMS, Pose2, Scan},
+    scan::{Pose2, Scan},
 };
 use apex_sim::Random;
 use flate2::read::MultiGzDecoder;
@@ -54,7 +54,7 @@ fn table(path: &Path) -> Result<Recording, String> {
     let mut reader = CsvReader::open(path, false).map_err(|e| e.message)?;
     let (mut row, mut records) = (Vec::new(), Vec::new());
     while reader.read(&mut row).map_err(|e| e.message)? {
-        if row.len() < 11 || row.len() > 10 + MAX_BEAMS {
+        if row.len() < 11 {
             return Err(format!("row {}: {} numbers", records.len() + 1, row.len()));
         }
         let pose = |i: usize| Pose2::new(row[i] as f32, row[i + 1] as f32, row[i + 2] as f32);
@@ -65,7 +65,8 @@ fn table(path: &Path) -> Result<Recording, String> {
             range_max: 30.0,
             ..Scan::default()
         };
-        scan.ranges.extend(row[10..].iter().map(|range| *range as f32));
+        let ranges = row[10..].iter().map(|range| *range as f32);
+        scan.ranges.try_extend(ranges).map_err(|e| format!("row {}: {e}", records.len() + 1))?;
         records.push(Record { odometry: pose(2), scan, truth: pose(5), is_scored: !(row[0] as u64).is_multiple_of(5) });
     }
     Ok(Recording { records, mount: MOUNT })
@@ -87,7 +88,8 @@ fn graph(path: &Path) -> Result<Recording, String> {
             Some("ROBOTLASER1") if row.len() >= 9 => {
                 let (angle_min, angle_increment) = (row[2], row[4]);
                 let mut scan = Scan { angle_min, angle_increment, range_min: 0.05, range_max: 40.0, ..Scan::default() };
-                scan.ranges.extend(row[9..].iter().copied().take((row[8] as usize).min(MAX_BEAMS)));
+                let ranges = row[9..].iter().copied().take(row[8] as usize);
+                scan.ranges.try_extend(ranges).map_err(|e| format!("scan {}: {e}", vertices.len() + 1))?;
                 vertices.push((at, scan));
             }
             Some("EDGE2") if row.len() >= 6 && row[2] == row[1] + 1.0 => {
