@@ -26,6 +26,7 @@ const TURN: f32 = 0.1;
 /// and drops the path when the robot
 /// * has `reached` the goal,
 /// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path ahead or the robot makes no progress,
+///   or the path is not finite,
 /// * is `off_path`: farther than `max_offset` from the path,
 /// * is deactivated: the node is no longer active.
 ///
@@ -164,10 +165,17 @@ impl PathFollower {
         [reached, blocked, off_path]: [Event<()>; 3],
     ) -> Option<Twist> {
         let Some(goal) = self.path.goal() else { return self.halt.rest() };
-        // Without a pose, or with one that is of no use, the robot waits for a better one.
-        let Some(pose) = fresh(ctx, pose, self.max_age) else { return self.halt.drive(Twist::ZERO) };
+        let Some(pose) = fresh(ctx, pose, self.max_age) else {
+            self.wait();
+            return self.halt.drive(Twist::ZERO);
+        };
         let projection = self.path.project(pose.position(), self.progress.segment, self.tolerance);
-        let Some(projection) = projection else { return self.halt.drive(Twist::ZERO) };
+        let Some(projection) = projection else {
+            // The path is not finite.
+            blocked.emit(());
+            self.give_up();
+            return self.halt.drive(Twist::ZERO);
+        };
         self.progress.segment = projection.segment;
         if let Some(scan) = fresh(ctx, scan, self.max_age) {
             self.look(scan, pose, &projection, ctx.now());
@@ -183,6 +191,12 @@ impl PathFollower {
         }
         self.give_up();
         self.halt.drive(Twist::ZERO)
+    }
+
+    /// Stops until there is a better pose. The time that this takes is no time without progress.
+    fn wait(&mut self) {
+        self.motion = Motion::default();
+        (self.progress.least, self.progress.obstructed_since) = (None, None);
     }
 
     /// Drops the path.
@@ -493,6 +507,24 @@ mod tests {
         robot.node.give_up();
         assert_eq!(robot.react(None, None), (None, None));
         assert_eq!(robot.react(Some(&Path::default()), None), (None, None));
+    }
+
+    #[test]
+    fn it_waits_for_a_pose_and_accelerates_again() {
+        let mut robot = Robot::new(follower(), Pose2::default());
+        robot.react(Some(&path(&[(0.0, 0.0), (9.0, 0.0)], 0.0)), None);
+        let drive = |robot: &mut Robot| {
+            let twist = robot.react(None, None).0.expect("it drives");
+            robot.drive(twist);
+            twist.x
+        };
+        let fast = (0..100).map(|_| drive(&mut robot)).last();
+        assert!(fast > Some(0.5));
+        let here = core::mem::replace(&mut robot.pose, Pose2::new(f32::NAN, 0.0, 0.0));
+        assert!((0..200).all(|_| robot.react(None, None) == (Some(Twist::ZERO), None)), "it is not blocked");
+        robot.pose = here;
+        let slow: Vec<f32> = (0..3).map(|_| drive(&mut robot)).collect();
+        assert!(slow[0] == 0.0 && slow[2] > 0.0 && slow[2] < 0.1, "{slow:?}");
     }
 
     #[test]

@@ -55,6 +55,11 @@ impl Twist {
         self.slowed_to(braking_speed(gap.max(0.0), deceleration, latency))
     }
 
+    /// The twist, or zero if it is not finite.
+    fn finite(self) -> Self {
+        if self.is_finite() { self } else { Self::ZERO }
+    }
+
     /// Returns `true` if all components are finite.
     pub const fn is_finite(&self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.omega.is_finite()
@@ -75,8 +80,9 @@ pub(super) struct Halt {
 }
 
 impl Halt {
-    /// Returns `twist`, which the node sends while it drives.
+    /// Returns `twist`, which the node sends while it drives: zero if it is not finite.
     pub(super) fn drive(&mut self, twist: Twist) -> Option<Twist> {
+        let twist = twist.finite();
         self.is_moving = twist != Twist::ZERO;
         Some(twist)
     }
@@ -115,7 +121,7 @@ impl Command {
     /// Returns the twist to send for what the node makes of the command: never one that is not finite, and ⊥ if no
     /// command has come and nothing has changed.
     pub(super) fn send(&mut self, twist: Twist) -> Option<Twist> {
-        let twist = if twist.is_finite() { twist } else { Twist::ZERO };
+        let twist = twist.finite();
         let is_news = self.is_new || twist != self.sent;
         self.sent = twist;
         is_news.then_some(twist)

@@ -63,7 +63,7 @@ impl BackPath {
 /// axes in one fixed frame such as that of odometry: distances are measured with them, and where the path leads is not
 /// corrected, so a path should be a few metres long. A new path replaces the current one. The node sends twists while
 /// it has a path. It drops the path when the vehicle has `reached` its end, when it is `blocked`, so that it makes no
-/// progress for longer than `blocked_timeout`, and when it is deactivated. Without both poses, or with poses older than
+/// progress for longer than `blocked_timeout` or the path is not finite, and when it is deactivated. Without both poses, or with poses older than
 /// `max_age`, the vehicle stands still.
 #[node]
 #[derive(Debug, Clone)]
@@ -131,7 +131,16 @@ impl BackFollower {
             return self.halt.rest();
         }
         let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
-        let Some((base, trailer)) = axes else { return self.halt.drive(Twist::ZERO) };
+        let Some((base, trailer)) = axes else {
+            // Time without a pose is no time without progress.
+            self.progress = None;
+            return self.halt.drive(Twist::ZERO);
+        };
+        if !self.path.length().is_finite() {
+            self.give_up();
+            blocked.emit(());
+            return self.halt.drive(Twist::ZERO);
+        }
         let last = self.last.replace(*base).unwrap_or(*base);
         self.driven -= base.relative_to(&last).x;
         let Some(wanted) = self.path.bend_at(self.driven) else {
