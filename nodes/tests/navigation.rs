@@ -87,7 +87,9 @@ impl Arena {
         let Hall { world, map: walls, pose: at } = &self.hall;
         let laser = Laser { range_min: 0.01, ..Laser::default() };
         let random = self.random.get_or_insert_with(|| Random::new(self.seed));
-        laser.measure(world, at, random, scan.get_mut());
+        let scan = scan.get_mut();
+        scan.stamp = ctx.now();
+        laser.measure(world, at, random, scan);
         map.get_mut().clone_from(walls);
         pose.set(*at);
         if self.is_in_contact() {

@@ -26,6 +26,7 @@ mod prose;
 mod rates;
 mod readme;
 mod recording;
+mod safety;
 mod silence;
 mod studio;
 mod texts;
@@ -188,6 +189,7 @@ fn what_the_documentation_shows_of_the_compiler_is_real() {
 fn the_rust_in_the_documentation_is_compiled_here() {
     assert_eq!(blocks(&page("README.md"), "rust"), [include_str!("readme.rs")]);
     assert_eq!(blocks(&page("docs/nodes.md"), "rust"), [include_str!("nodes.rs"), include_str!("silence.rs")]);
+    assert_eq!(blocks(&page("docs/safety.md"), "rust"), [include_str!("safety.rs")]);
     assert_eq!(blocks(&page("docs/language.md"), "rust"), [include_str!("language.rs"), include_str!("rates.rs")]);
     assert_eq!(blocks(&page("docs/embedding.md"), "rust"), embedding::BLOCKS);
     assert_eq!(blocks(&page("docs/from/copper.md"), "rust"), [include_str!("from/copper.rs")]);

@@ -24,6 +24,7 @@ texts! {
     fusion "texts/fusion.afg"
     both "texts/both.afg"
     gate "texts/gate.afg"
+    guarded "texts/guarded.afg"
     help "texts/help.afg"
     hours "texts/hours.afg"
     join "texts/join.afg"

@@ -1,4 +1,9 @@
-use super::{Articulated, Twist, outline::Outline};
+use super::{
+    Articulated, Twist,
+    latest::fresh,
+    outline::{Axes, Outline},
+    twist::Command,
+};
 use crate::{
     persons::{Person, Persons},
     scan::{Point2, Pose2},
@@ -21,7 +26,7 @@ const LEFT: f32 = 0.5;
 ///
 /// Distances are those of the middle of a person from the outline of the vehicle with its load. `persons`, `pose` of
 /// the tractor and `trailer` are in one frame. Without them, for example before the first scan, the robot keeps to
-/// `min_speed`. Persons who stand do not count if the robot drives away from them. It still moves with persons beside
+/// `min_speed`. It stops if the last twist is older than `max_age`. Persons who stand do not count if the robot drives away from them. It still moves with persons beside
 /// it: that it stops before them is the task of a [`TrailerField`](super::TrailerField).
 #[node]
 #[derive(Debug, Clone)]
@@ -58,6 +63,10 @@ pub struct PersonCaution {
     /// Additional speed per metre of distance beyond `near`.
     #[param(unit = "1/s", default = 0.3, range = 0.0..=100.0)]
     gain: f32,
+    /// Maximum age of a twist, and of persons and poses by the time at which they were computed.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
+    command: Command,
     kept: Vec<Kept, MAX_KEPT>,
 }
 
@@ -73,19 +82,26 @@ impl PersonCaution {
     fn process(
         &mut self,
         ctx: &Ctx,
-        twist: &Twist,
+        twist: Option<&Twist>,
         pose: Option<&Pose2>,
         trailer: Option<&Pose2>,
         persons: Option<&Persons>,
-    ) -> Twist {
-        let Some(((base, trailer), persons)) = pose.zip(trailer).zip(persons) else {
-            return twist.slowed_to(self.min_speed);
+    ) -> Option<Twist> {
+        let twist = self.command.update(ctx, twist, self.max_age);
+        let axes = fresh(ctx, pose, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let speed = match axes.zip(persons) {
+            Some(((base, trailer), persons)) => self.speed(ctx.now(), &twist, [*base, *trailer], persons),
+            None => self.min_speed,
         };
-        let now = [*base, *trailer];
+        self.command.send(twist.slowed_to(speed))
+    }
+
+    /// Highest speed of a vehicle whose axes are at `now`.
+    fn speed(&mut self, time: Time, twist: &Twist, now: Axes, persons: &Persons) -> f32 {
         let outline = Outline::new(self.vehicle, [self.load_length, self.load_width]);
         let next = self.vehicle.places(&now, twist, STEP).next().unwrap_or(now);
         let is_left = |place| outline.distance(&next, place) > outline.distance(&now, place) + LEFT * STEP;
-        self.forget(ctx.now(), persons);
+        self.forget(time, persons);
         let mut hidden = self.kept.iter().map(|kept| kept.place);
         let meets_hidden = hidden.any(|place| outline.distance(&now, place) < self.beside && !is_left(place));
         let mut speed = if meets_hidden { self.min_speed } else { f32::INFINITY };
@@ -93,13 +109,13 @@ impl PersonCaution {
             let distance = outline.distance(&now, person.position);
             if distance < self.beside {
                 // Does not matter if it is full: the robot is slow already.
-                let _ = self.kept.push(Kept { place: person.position, seen: ctx.now() });
+                let _ = self.kept.push(Kept { place: person.position, seen: time });
             }
             if !(self.stands(person) && is_left(person.position)) {
                 speed = fminf(speed, self.speed_at(distance, person));
             }
         }
-        twist.slowed_to(speed)
+        speed
     }
 
     /// Highest speed at a distance from a person.
@@ -132,7 +148,7 @@ mod tests {
     /// At most 0.1 m/s within 0.5 m, 0.3 m/s beside those who stand but not within 0.2 m, and 0.4 m/s more at each
     /// further metre.
     fn node([length, width]: [f32; 2]) -> PersonCaution {
-        PersonCaution::construct((Articulated::PATSY, length, width, 0.5, 0.1, 0.3, 0.2, 2.0, 0.2, 0.4))
+        PersonCaution::construct((Articulated::PATSY, length, width, 0.5, 0.1, 0.3, 0.2, 2.0, 0.2, 0.4, 0.5))
     }
 
     /// Person at a place in the frame of the tractor, who walks at `velocity` m/s.
@@ -147,7 +163,8 @@ mod tests {
             Person { position, velocity, ..Person::default() }
         };
         let persons: Persons = persons.iter().map(person).collect();
-        node.process(&Ctx::new(Time::from_millis(ms)), &twist, Some(&base), Some(&trailer), Some(&persons))
+        let ctx = Ctx::new(Time::from_millis(ms));
+        node.process(&ctx, Some(&twist), Some(&base), Some(&trailer), Some(&persons)).expect("a command")
     }
 
     fn speed(load: [f32; 2], twist: f32, person: At) -> f32 {
@@ -172,10 +189,15 @@ mod tests {
     #[test]
     fn without_persons_or_a_pose_it_is_slow() {
         let (twist, at, none) = (Twist::new(1.0, 0.0, 0.0), Pose2::default(), Persons::default());
-        let fire = |base, trailer, persons| node(LOAD).process(&Ctx::new(Time::ZERO), &twist, base, trailer, persons).x;
+        let fire = |base, trailer, persons| {
+            let limited = node(LOAD).process(&Ctx::new(Time::ZERO), Some(&twist), base, trailer, persons);
+            limited.expect("a command").x
+        };
         assert_eq!(fire(Some(&at), Some(&at), Some(&none)), 1.0);
         assert_eq!(fire(None, Some(&at), Some(&none)), 0.1);
         assert_eq!(fire(Some(&at), None, Some(&none)), 0.1);
+        let nan = Pose2 { x: f32::NAN, ..at };
+        assert_eq!(fire(Some(&nan), Some(&at), Some(&none)), 0.1);
         assert_eq!(fire(Some(&at), Some(&at), None), 0.1);
     }
 

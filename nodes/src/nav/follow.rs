@@ -1,4 +1,9 @@
-use super::{FollowingLaw, Path, Pid, Projection, Twist, path::nearest_on, twist::Halt};
+use super::{
+    FollowingLaw, Path, Pid, Projection, Twist,
+    latest::{any_far, fresh},
+    path::nearest_on,
+    twist::Halt,
+};
 use crate::scan::{FarFromOrigin, Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
@@ -14,11 +19,14 @@ const TURN: f32 = 0.1;
 /// The robot passes the points of the path in their order. It rounds corners, and turns back at a sharp one, of more
 /// than 100°, once it is within `tolerance` of it. So a path may cross itself and lead back the way it came.
 ///
-/// A new path replaces the current one. `pose` is in the frame of the path; it is ⊥ while no pose is known. `scan` is
-/// in the frame of the robot; before the first one, no obstacle is known. The node sends twists while it has a path,
+/// A new path replaces the current one. `pose` is in the frame of the path; while there is none that is younger than
+/// `max_age`, the robot stands still. `scan` is in the frame of the robot; before the first one, no obstacle is known.
+/// That the robot stops before obstacles, and without scans, is the task of a [`SafetyField`](super::SafetyField). The
+/// node sends twists while it has a path,
 /// and drops the path when the robot
 /// * has `reached` the goal,
 /// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path ahead or the robot makes no progress,
+///   or the path is not finite,
 /// * is `off_path`: farther than `max_offset` from the path,
 /// * is deactivated: the node is no longer active.
 ///
@@ -88,6 +96,9 @@ pub struct PathFollower {
     /// Time that an obstacle may stand on the path, and time that the robot may go without progress.
     #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
     blocked_timeout: f32,
+    /// Maximum age of a pose and of a scan.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     path: Path,
     progress: Progress,
     motion: Motion,
@@ -140,7 +151,7 @@ impl PathFollower {
         if let Some(path) = path {
             self.begin(path);
         }
-        if !self.path.points.is_empty() && pose.is_some_and(Pose2::is_far) {
+        if !self.path.points.is_empty() && any_far([pose]) {
             return self.halt.far();
         }
         Ok(self.step(ctx, pose, scan, [reached, blocked, off_path]))
@@ -154,14 +165,19 @@ impl PathFollower {
         [reached, blocked, off_path]: [Event<()>; 3],
     ) -> Option<Twist> {
         let Some(goal) = self.path.goal() else { return self.halt.rest() };
-        let pose = pose?;
+        let Some(pose) = fresh(ctx, pose, self.max_age) else {
+            self.wait();
+            return self.halt.drive(Twist::ZERO);
+        };
         let projection = self.path.project(pose.position(), self.progress.segment, self.tolerance);
-        // A pose or a projection that is not finite is useless: the robot waits for a better one.
-        let Some(projection) = projection.filter(|_| pose.is_finite()) else {
+        let Some(projection) = projection else {
+            // The path is not finite.
+            blocked.emit(());
+            self.give_up();
             return self.halt.drive(Twist::ZERO);
         };
         self.progress.segment = projection.segment;
-        if let Some(scan) = scan {
+        if let Some(scan) = fresh(ctx, scan, self.max_age) {
             self.look(scan, pose, &projection, ctx.now());
         }
         match self.end(pose, goal, &projection, ctx.now()) {
@@ -175,6 +191,12 @@ impl PathFollower {
         }
         self.give_up();
         self.halt.drive(Twist::ZERO)
+    }
+
+    /// Stops until there is a better pose. The time that this takes is no time without progress.
+    fn wait(&mut self) {
+        self.motion = Motion::default();
+        (self.progress.least, self.progress.obstructed_since) = (None, None);
     }
 
     /// Drops the path.
@@ -330,7 +352,7 @@ mod tests {
         let limits = (1.0, 3.0, 1.5);
         PathFollower::construct((
             2.0, 1.0, 0.05, gains.0, gains.1, gains.2, gains.3, 1.5, limits.0, limits.1, limits.2, 2.0, 0.0, 0.0, 1.0,
-            0.05, 0.05, 1.0, 0.3, 2.0,
+            0.05, 0.05, 1.0, 0.3, 2.0, 0.5,
         ))
     }
 
@@ -354,8 +376,9 @@ mod tests {
             let (mut reached, mut blocked, mut off_path) = (None, None, None);
             let ctx = Ctx::new(Time::from_millis(20 * self.step));
             self.step += 1;
+            let scan = scan.map(|scan| Scan { stamp: ctx.now(), ..scan.clone() });
             let (a, b, c) = (apex_rt::event(&mut reached), apex_rt::event(&mut blocked), apex_rt::event(&mut off_path));
-            let twist = self.node.process(&ctx, Some(&self.pose), path, scan, a, b, c).unwrap_or(None);
+            let twist = self.node.process(&ctx, Some(&self.pose), path, scan.as_ref(), a, b, c).unwrap_or(None);
             let ends = [(reached, End::Reached), (blocked, End::Blocked), (off_path, End::OffPath)];
             let end = ends.into_iter().find_map(|(event, end)| event.map(|()| end));
             (twist, end)
@@ -438,11 +461,13 @@ mod tests {
         let after = |steps: i64, ranges: &[f32]| {
             let mut scan = Scan { angle_increment: FRAC_PI_2, ..Scan::default() };
             scan.ranges.extend(ranges.iter().copied());
+            let mut free = Scan::default();
+            free.ranges.push(f32::INFINITY).expect("room");
             let mut robot = Robot::new(follower(), Pose2::default());
             let way = path(&[(0.0, 0.0), (20.0, 0.0)], 0.0);
             let mut end = robot.react(Some(&way), Some(&scan)).1;
             while end.is_none() && robot.step < 150 {
-                let scan = if robot.step < steps { &scan } else { &Scan::default() };
+                let scan = if robot.step < steps { &scan } else { &free };
                 let (twist, now) = robot.react(None, Some(scan));
                 robot.drive(twist.expect("it drives"));
                 end = now;
@@ -482,6 +507,24 @@ mod tests {
         robot.node.give_up();
         assert_eq!(robot.react(None, None), (None, None));
         assert_eq!(robot.react(Some(&Path::default()), None), (None, None));
+    }
+
+    #[test]
+    fn it_waits_for_a_pose_and_accelerates_again() {
+        let mut robot = Robot::new(follower(), Pose2::default());
+        robot.react(Some(&path(&[(0.0, 0.0), (9.0, 0.0)], 0.0)), None);
+        let drive = |robot: &mut Robot| {
+            let twist = robot.react(None, None).0.expect("it drives");
+            robot.drive(twist);
+            twist.x
+        };
+        let fast = (0..100).map(|_| drive(&mut robot)).last();
+        assert!(fast > Some(0.5));
+        let here = core::mem::replace(&mut robot.pose, Pose2::new(f32::NAN, 0.0, 0.0));
+        assert!((0..200).all(|_| robot.react(None, None) == (Some(Twist::ZERO), None)), "it is not blocked");
+        robot.pose = here;
+        let slow: Vec<f32> = (0..3).map(|_| drive(&mut robot)).collect();
+        assert!(slow[0] == 0.0 && slow[2] > 0.0 && slow[2] < 0.1, "{slow:?}");
     }
 
     #[test]

@@ -1,10 +1,10 @@
-use super::Twist;
+use super::{Twist, latest::fresh, twist::Command};
 use crate::scan::Pose2;
 use apex_rt::{Ctx, Time, node};
 
-/// Stops a robot whose odometry does not change while the robot is commanded to drive or to turn: the odometry is
-/// frozen, or the wheels do not turn. Such a robot would no longer know its position. It is also stopped, at once,
-/// without odometry, and by odometry that is not a number.
+/// Stops a robot whose odometry does not change while the robot is commanded to move: the odometry is frozen, or the
+/// wheels do not turn. Such a robot would no longer know its position. It stops at once if there is no odometry, or if
+/// that is not finite or very far from the origin, and if the last twist is older than `max_age`.
 ///
 /// After a pause the robot may move again for a short time. It goes on if the odometry changes.
 #[node]
@@ -22,27 +22,36 @@ pub struct OdometryGuard {
     /// Commanded angular velocity up to which the robot counts as not turning.
     #[param(unit = "rad/s", default = 0.1, range = 0.0..=20.0)]
     min_rotation: f32,
+    /// Maximum age of a twist and of the odometry.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
+    command: Command,
     /// Last odometry, and the time since which it has not changed while the robot was commanded to move.
     frozen: Option<(Pose2, Time)>,
 }
 
 #[node]
 impl OdometryGuard {
-    /// Stops the robot at once if there is no odometry.
-    fn process(&mut self, ctx: &Ctx, twist: &Twist, odometry: Option<&Pose2>) -> Twist {
-        let Some(odometry) = odometry.filter(|pose| pose.is_finite()) else { return Twist::ZERO };
+    fn process(&mut self, ctx: &Ctx, twist: Option<&Twist>, odometry: Option<&Pose2>) -> Option<Twist> {
+        let twist = self.command.update(ctx, twist, self.max_age);
+        let limited = match fresh(ctx, odometry, self.max_age) {
+            Some(odometry) if !self.is_frozen(ctx.now(), &twist, odometry) => twist,
+            _ => Twist::ZERO,
+        };
+        self.command.send(limited)
+    }
+
+    /// Returns `true` if the odometry has not changed for too long. After the pause, the time begins again.
+    fn is_frozen(&mut self, now: Time, twist: &Twist, odometry: &Pose2) -> bool {
         let is_moving = twist.velocity().norm() > self.min_speed || twist.omega.abs() > self.min_rotation;
         let since = match self.frozen {
             Some((last, since)) if last == *odometry => since,
-            _ => ctx.now(),
+            _ => now,
         };
-        let waited = ctx.now().since(since).as_secs_f32();
-        if !is_moving && waited <= self.start_timeout || waited > self.start_timeout + self.pause {
-            self.frozen = None;
-            return *twist;
-        }
-        self.frozen = Some((*odometry, since));
-        if waited > self.start_timeout { Twist::ZERO } else { *twist }
+        let waited = now.since(since).as_secs_f32();
+        let is_over = !is_moving && waited <= self.start_timeout || waited > self.start_timeout + self.pause;
+        self.frozen = (!is_over).then_some((*odometry, since));
+        !is_over && waited > self.start_timeout
     }
 }
 
@@ -55,10 +64,10 @@ mod tests {
 
     /// For each of these positions, 100 ms apart: `true` if the robot may move.
     fn moves(places: impl IntoIterator<Item = f32>, twist: Twist) -> Vec<bool> {
-        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05, 0.1));
+        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05, 0.1, 0.5));
         let step = |(i, x): (usize, f32)| {
             let ctx = Ctx::new(Time::from_millis(100 * i as i64));
-            node.process(&ctx, &twist, Some(&Pose2::new(x, 0.0, 0.0))) == twist
+            node.process(&ctx, Some(&twist), Some(&Pose2::new(x, 0.0, 0.0))) == Some(twist)
         };
         places.into_iter().enumerate().map(step).collect()
     }
@@ -67,17 +76,16 @@ mod tests {
     fn a_robot_that_moves_or_stands_is_left_alone() {
         assert!(moves((0..50).map(|i| 0.1 * i as f32), AHEAD).iter().all(|m| *m));
         assert!(moves([1.0; 50], Twist::ZERO).iter().all(|m| *m));
-        assert!(moves([1.0; 50], Twist::new(0.02, 0.0, 0.05)).iter().all(|m| *m), "slower than wheels measure");
+        assert!(moves([1.0; 50], Twist::new(0.04, 0.0, 0.05)).iter().all(|m| *m), "it hardly moves");
     }
 
     #[test]
     fn frozen_odometry_stops_it_until_it_tries_again() {
-        for twist in [AHEAD, Twist::new(0.0, 0.0, 1.0), Twist::new(0.0, 0.0, -0.2)] {
+        for twist in [AHEAD, Twist::new(0.0, 0.0, -1.0)] {
             let seen = moves([1.0; 40], twist);
-            assert_eq!(seen.iter().position(|m| !m), Some(5), "{twist:?}");
-            assert!(seen[5..15].iter().all(|m| !m) && seen[15..20].iter().all(|m| *m), "{twist:?}: {seen:?}");
+            assert_eq!(seen.iter().position(|m| !m), Some(5));
+            assert!(seen[5..15].iter().all(|m| !m) && seen[15..20].iter().all(|m| *m), "{seen:?}");
         }
-        assert!(moves([f32::NAN; 40], AHEAD).iter().all(|m| !m), "it does not know where it is");
     }
 
     #[test]
@@ -85,7 +93,14 @@ mod tests {
         let places = [1.0; 8].into_iter().chain((0..10).map(|i| 2.0 + 0.1 * i as f32));
         let seen = moves(places, AHEAD);
         assert!(!seen[7] && seen[8..].iter().all(|m| *m), "{seen:?}");
-        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05, 0.1));
-        assert_eq!(node.process(&Ctx::new(Time::ZERO), &AHEAD, None), Twist::ZERO);
+    }
+
+    #[test]
+    fn without_odometry_it_stops() {
+        let nan = Pose2 { theta: f32::NAN, ..Pose2::default() };
+        for odd in [None, Some(nan), Some(Pose2::new(0.0, 5e6, 0.0))] {
+            let mut node = OdometryGuard::construct((0.4, 1.0, 0.05, 0.1, 0.5));
+            assert_eq!(node.process(&Ctx::new(Time::ZERO), Some(&AHEAD), odd.as_ref()), Some(Twist::ZERO));
+        }
     }
 }

@@ -5,7 +5,7 @@
 //! Planning and following keep paths of any length and need the feature `std`. Motion without a map does not.
 //!
 //! A node that moves the robot sends a [`Twist`] in each firing while it moves, a twist of zero at the end, and ⊥
-//! otherwise.
+//! otherwise. The page docs/safety.md says what movements and guards do when an input fails.
 
 #[cfg(feature = "std")]
 mod careful;

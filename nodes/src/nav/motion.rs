@@ -1,7 +1,11 @@
 //! Motion relative to sensor data, without a map (thesis 8.1.1). These nodes move the robot while they are active.
-//! A node that is interrupted sends a twist of zero, then ⊥.
+//! A node that is interrupted sends a twist of zero, then ⊥. One that does not know when to stop sends zero.
 
-use super::{Twist, twist::Halt};
+use super::{
+    Twist,
+    latest::{any_far, fresh},
+    twist::Halt,
+};
 use crate::scan::{FarFromOrigin, Point2, Pose2, Scan};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
@@ -21,8 +25,9 @@ fn braking_speed(distance: f32, speed: f32, deceleration: f32) -> f32 {
 /// Moves a robot by a distance in a direction, relative to its pose at activation, and keeps its heading (thesis
 /// 8.1.1).
 ///
-/// `pose` is in any fixed frame, such as that of odometry. `done` comes with a twist of zero. Stops and fails if the
-/// pose is more than 100 km from the origin.
+/// `pose` is in any fixed frame, such as that of odometry. `done` comes with a twist of zero. Without a pose that is younger
+/// than `max_age`, the robot stands still until there is one. Stops and fails if the pose is more than 100 km from the
+/// origin.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MoveRobot {
@@ -38,26 +43,27 @@ pub struct MoveRobot {
     /// Acceleration and deceleration.
     #[param(unit = "m/s^2", default = 0.5, range = 0.01..=100.0)]
     acceleration: f32,
+    /// Maximum age of a pose.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     start: Option<Pose2>,
     halt: Halt,
 }
 
 #[node]
 impl MoveRobot {
-    fn process(&mut self, ctx: &Ctx, pose: &Pose2, done: Event<()>) -> Result<Option<Twist>, FarFromOrigin> {
-        if ctx.active() && pose.is_far() {
+    fn process(&mut self, ctx: &Ctx, pose: Option<&Pose2>, done: Event<()>) -> Result<Option<Twist>, FarFromOrigin> {
+        if ctx.active() && any_far([pose]) {
             return self.halt.far();
         }
         Ok(self.step(ctx, pose, done))
     }
 
-    fn step(&mut self, ctx: &Ctx, pose: &Pose2, done: Event<()>) -> Option<Twist> {
+    fn step(&mut self, ctx: &Ctx, pose: Option<&Pose2>, done: Event<()>) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();
         }
-        if !pose.is_finite() {
-            return None;
-        }
+        let Some(pose) = fresh(ctx, pose, self.max_age) else { return self.halt.drive(Twist::ZERO) };
         let start = *self.start.get_or_insert(*pose);
         let goal = start.to_outer(Point2::polar(self.distance, self.direction));
         let course = Point2::polar(1.0, start.theta + self.direction);
@@ -87,7 +93,7 @@ impl MoveRobot {
 /// zero.
 ///
 /// The scan is in the frame of the robot. While nothing is measured ahead, the robot stands still, as the distance to
-/// stop at is unknown. A `SafetyField` behind this node needs a margin below `distance`; otherwise the robot never gets
+/// stop at is unknown, and while there is no scan that is younger than `max_age`, by its stamp. A `SafetyField` behind this node needs a margin below `distance`; otherwise the robot never gets
 /// there.
 #[node]
 #[derive(Debug, Clone)]
@@ -107,16 +113,20 @@ pub struct MoveToObstacle {
     /// Deceleration before the obstacle.
     #[param(unit = "m/s^2", default = 0.5, range = 0.01..=100.0)]
     deceleration: f32,
+    /// Maximum age of a scan.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     halt: Halt,
 }
 
 #[node]
 impl MoveToObstacle {
-    fn process(&mut self, ctx: &Ctx, scan: &Scan, done: Event<()>) -> Option<Twist> {
+    fn process(&mut self, ctx: &Ctx, scan: Option<&Scan>, done: Event<()>) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();
         }
-        let ahead = scan.points().map(|(_, p)| p).filter(|p| p.x > 0.0 && p.y.abs() <= self.half_width);
+        let points = fresh(ctx, scan, self.max_age).into_iter().flat_map(Scan::points).map(|(_, p)| p);
+        let ahead = points.filter(|p| p.x > 0.0 && p.y.abs() <= self.half_width);
         let Some(nearest) = ahead.map(|p| p.x).reduce(f32::min) else { return self.halt.drive(Twist::ZERO) };
         let gap = nearest - self.front - self.distance;
         if gap <= 0.0 {
@@ -156,6 +166,9 @@ pub struct PositionToTarget {
     /// Time that the target may be out of sight.
     #[param(unit = "s", default = 2.0, range = 0.0..=600.0)]
     lost_timeout: f32,
+    /// Maximum age of the pose of the target.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     seen: Option<Time>,
     halt: Halt,
 }
@@ -172,8 +185,8 @@ impl PositionToTarget {
         if !ctx.active() {
             return self.halt.rest();
         }
-        let place = target.map(|target| target.compose(&Pose2::new(self.distance, 0.0, PI)));
-        let Some(place) = place.filter(Pose2::is_finite) else {
+        let target = fresh(ctx, target, self.max_age);
+        let Some(place) = target.map(|target| target.compose(&Pose2::new(self.distance, 0.0, PI))) else {
             if ctx.now().since(*self.seen.get_or_insert(ctx.now())).as_secs_f32() > self.lost_timeout {
                 self.forget();
                 lost.emit(());
@@ -217,11 +230,11 @@ mod tests {
     #[test]
     fn a_robot_moves_by_a_distance() {
         for (direction, distance) in [(0.0, 2.0), (PI, 1.0), (0.7, 0.01), (-FRAC_PI_2, 0.0)] {
-            let mut node = MoveRobot::construct((distance, direction, 0.5, 0.5));
+            let mut node = MoveRobot::construct((distance, direction, 0.5, 0.5, 0.5));
             let start = Pose2::new(1.0, 2.0, 0.3);
             let (mut pose, mut last, mut done) = (start, 0.0, None);
             for step in 0..2000 {
-                let twist = node.step(&active(step), &pose, apex_rt::event(&mut done)).expect("it is active");
+                let twist = node.step(&active(step), Some(&pose), apex_rt::event(&mut done)).expect("it is active");
                 let speed = twist.velocity().norm();
                 assert!(done.is_some() || (speed <= 0.5 + 1e-5 && (speed - last).abs() < 0.04), "{speed} after {last}");
                 if done.is_some() {
@@ -242,48 +255,78 @@ mod tests {
         let ctx = Ctx::new(Time::ZERO);
         let (pose, mut scan) = (Pose2::default(), Scan::default());
         scan.ranges.push(1.0).expect("there is room");
-        assert_eq!(MoveRobot::construct((1.0, 0.0, 0.5, 0.5)).step(&ctx, &pose, Event::unconnected()), None);
-        let mut ahead = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5));
-        assert_eq!(ahead.process(&ctx, &scan, Event::unconnected()), None);
-        let mut position = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
+        let mut on = MoveRobot::construct((1.0, 0.0, 0.5, 0.5, 0.5));
+        assert_eq!(on.step(&ctx, Some(&pose), Event::unconnected()), None);
+        let mut ahead = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5, 0.5));
+        assert_eq!(ahead.process(&ctx, Some(&scan), Event::unconnected()), None);
+        let mut position = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0, 0.5));
         assert_eq!(position.process(&ctx, Some(&pose), Event::unconnected(), Event::unconnected()), None);
     }
 
     #[test]
     fn a_motion_that_is_interrupted_ends_with_a_twist_of_zero() {
         let (rest, pose) = (Ctx::new(Time::ZERO), Pose2::default());
-        let mut node = MoveRobot::construct((1.0, 0.0, 0.5, 0.5));
-        let mut twist = |ctx: &Ctx| node.step(ctx, &pose, Event::unconnected());
-        assert!(twist(&active(0)).is_some_and(|twist| twist.x > 0.0));
-        assert_eq!([twist(&rest), twist(&rest)], [Some(Twist::ZERO), None]);
+        let mut node = MoveRobot::construct((1.0, 0.0, 0.5, 0.5, 0.5));
+        let mut twist = |ctx: &Ctx, pose: Option<&Pose2>| node.step(ctx, pose, Event::unconnected());
+        assert!(twist(&active(0), Some(&pose)).is_some_and(|twist| twist.x > 0.0));
+        assert_eq!([twist(&rest, None), twist(&rest, Some(&pose))], [Some(Twist::ZERO), None]);
+    }
+
+    #[test]
+    fn without_a_pose_the_robot_stands_and_goes_on_afterwards() {
+        let mut node = MoveRobot::construct((1.0, 0.0, 0.5, 0.5, 0.5));
+        let mut speed = |step, pose: Option<Pose2>| {
+            node.step(&active(step), pose.as_ref(), Event::unconnected()).expect("it is active").x
+        };
+        let at = |x| Some(Pose2::new(x, 0.0, 0.0));
+        assert!(speed(0, at(0.0)) > 0.0);
+        assert_eq!([speed(1, None), speed(2, at(f32::NAN)), speed(3, at(5e6))], [0.0; 3]);
+        assert!(speed(4, at(0.5)) > 0.4, "it is half way");
+        let old = active(100).since(Time::from_millis(1500));
+        assert_eq!(node.step(&old, Some(&Pose2::default()), Event::unconnected()), Some(Twist::ZERO));
     }
 
     #[test]
     fn a_robot_drives_up_to_a_wall() {
-        let mut node = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5));
+        let mut node = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5, 0.5));
         let (mut x, mut done) = (0.0, None);
         for step in 0..1000 {
             // A wall at 2 m, and an object beside the robot.
-            let mut scan = Scan { angle_min: -0.5, angle_increment: 0.05, range_max: 10.0, ..Scan::default() };
+            let stamp = active(step).now();
+            let mut scan = Scan { angle_min: -0.5, angle_increment: 0.05, range_max: 10.0, stamp, ..Scan::default() };
             scan.ranges.extend((0..21).map(|i| (2.0 - x) / libm::cosf(-0.5 + 0.05 * i as f32)));
             scan.ranges[20] = 0.7;
-            let twist = node.process(&active(step), &scan, apex_rt::event(&mut done)).expect("it is active");
+            let twist = node.process(&active(step), Some(&scan), apex_rt::event(&mut done)).expect("it is active");
             if done.is_some() {
                 break;
             }
             x += 0.02 * twist.x;
         }
         assert!(done.is_some() && (1.65..1.655).contains(&x), "{x}");
-        let mut nothing = Scan::default();
-        nothing.ranges.push(f32::NAN).expect("there is room");
-        assert_eq!(node.process(&active(0), &nothing, Event::unconnected()), Some(Twist::ZERO));
+    }
+
+    #[test]
+    fn a_robot_that_sees_no_wall_stands() {
+        let mut scan = Scan { angle_increment: 0.05, ..Scan::default() };
+        let mut node = MoveToObstacle::construct((0.05, 0.3, 0.3, 0.2, 0.5, 0.5));
+        let mut stands = |ms, scan: Option<&Scan>| {
+            let ctx = Ctx::new(Time::from_millis(ms)).of_node(true);
+            node.process(&ctx, scan, Event::unconnected()) == Some(Twist::ZERO)
+        };
+        assert!(stands(0, None) && stands(0, Some(&scan)));
+        scan.ranges.push(f32::NAN).expect("there is room");
+        assert!(stands(0, Some(&scan)));
+        scan.ranges[0] = 3.0;
+        assert!(!stands(400, Some(&scan)) && stands(500, Some(&scan)), "the scan is too old");
+        scan.stamp = Time::from_millis(1500);
+        assert!(stands(900, Some(&scan)) && !stands(1100, Some(&scan)), "the scan is from the future");
     }
 
     #[test]
     fn a_robot_is_centred_before_its_target() {
         // The target faces along −x of the world, towards a robot that comes from there.
         let target = Pose2::new(3.0, 1.0, PI);
-        let mut node = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
+        let mut node = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0, 0.5));
         let (mut pose, mut positioned) = (Pose2::new(1.5, 0.3, -0.6), None);
         for step in 0..1000 {
             let seen = target.relative_to(&pose);
@@ -302,7 +345,7 @@ mod tests {
 
     #[test]
     fn a_target_out_of_sight_is_lost_after_a_while() {
-        let mut node = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0));
+        let mut node = PositionToTarget::construct((0.5, 0.3, 0.8, 1.0, 0.02, 0.03, 2.0, 0.5));
         let mut react = |step, target: Option<Pose2>| {
             let mut lost = None;
             let twist = node.process(&active(step), target.as_ref(), Event::unconnected(), apex_rt::event(&mut lost));

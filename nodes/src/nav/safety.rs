@@ -1,4 +1,8 @@
-use super::{Twist, latest::Latest, twist::braking_speed};
+use super::{
+    Twist,
+    latest::Latest,
+    twist::{Command, braking_speed},
+};
 use crate::scan::{Point2, Scan};
 use apex_rt::{Ctx, node};
 use libm::{fmaxf, sqrtf};
@@ -53,8 +57,9 @@ impl ProtectiveField {
 
 /// Slows a robot down before obstacles in its driving direction, and stops it before it touches one (thesis 4.3.6).
 ///
-/// `scan` is in the frame of the robot. It may be ⊥, as scans come less often than twists. The robot stops if there
-/// is no scan or if the last one is older than `max_age`, so that a failed scanner is not taken for free space.
+/// `scan` is in the frame of the robot. It may be ⊥, as scans come less often than twists. The robot stops if no scan is
+/// younger than `max_age`, by its stamp, so that a failed scanner is not taken for free space; a scan that measures
+/// nothing is none. It stops, too, if the last twist is that old.
 #[node]
 #[derive(Debug, Clone)]
 pub struct SafetyField {
@@ -70,22 +75,24 @@ pub struct SafetyField {
     /// Delay before the robot begins to brake.
     #[param(unit = "s", default = 0.1, range = 0.0..=10.0)]
     latency: f32,
-    /// Maximum age of a scan.
-    #[param(unit = "s", default = 0.5, range = 0.0..=60.0)]
+    /// Maximum age of a scan and of a twist.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
     max_age: f32,
     last: Latest<Scan>,
+    command: Command,
 }
 
 #[node]
 impl SafetyField {
-    fn process(&mut self, ctx: &Ctx, twist: &Twist, scan: Option<&Scan>) -> Twist {
-        self.last.update(ctx.now(), scan);
-        let Self { radius, margin, deceleration, latency, .. } = *self;
+    fn process(&mut self, ctx: &Ctx, twist: Option<&Twist>, scan: Option<&Scan>) -> Option<Twist> {
+        let Self { radius, margin, deceleration, latency, max_age, .. } = *self;
         let field = ProtectiveField { radius, margin, deceleration, latency };
-        match self.last.young(ctx.now(), self.max_age) {
-            Some(scan) if twist.is_finite() => field.limit(twist, scan.points().map(|(_, point)| point)),
-            _ => Twist::ZERO,
-        }
+        self.last.update(ctx, scan, max_age);
+        let twist = self.command.update(ctx, twist, max_age);
+        self.command.send(match self.last.young(ctx, max_age) {
+            Some(scan) => field.limit(&twist, scan.points().map(|(_, point)| point)),
+            None => Twist::ZERO,
+        })
     }
 }
 
@@ -127,33 +134,46 @@ mod tests {
     #[test]
     fn a_robot_stops_before_a_wall_and_gets_away_again() {
         let ctx = |step: i64| Ctx::new(Time::from_millis(20 * step));
-        let scan = |x: f32| {
-            let mut scan = Scan { angle_min: -PI, angle_increment: TAU / 360.0, range_max: 10.0, ..Scan::default() };
+        let scan = |x: f32, step: i64| {
+            let stamp = Time::from_millis(20 * step);
+            let mut scan =
+                Scan { angle_min: -PI, angle_increment: TAU / 360.0, range_max: 10.0, stamp, ..Scan::default() };
             scan.ranges.extend((0..360).map(|i| (3.0 - x) / libm::cosf(-PI + i as f32 * TAU / 360.0)));
             scan
         };
         let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5));
         let (mut x, mut last) = (0.0, 1.0);
         for step in 0..1000 {
-            let twist = node.process(&ctx(step), &Twist::new(1.0, 0.0, 0.2), Some(&scan(x)));
+            let command = Twist::new(1.0, 0.0, 0.2);
+            let twist = node.process(&ctx(step), Some(&command), Some(&scan(x, step))).expect("a command");
             assert!(twist.omega == 0.2 && twist.x <= last + 1e-6 && last - twist.x < 0.05, "{twist:?} at {x}");
             last = twist.x;
             x += 0.02 * twist.x;
         }
         assert!((2.55..=2.6).contains(&x), "{x}");
         let away = Twist::new(-1.0, 0.0, 0.0);
-        assert_eq!(node.process(&ctx(1000), &away, Some(&scan(x))), away);
+        assert_eq!(node.process(&ctx(1000), Some(&away), Some(&scan(x, 1000))), Some(away));
     }
 
     #[test]
     fn without_a_scan_it_stands_still() {
-        let ctx = |ms| Ctx::new(Time::from_millis(ms));
         let mut node = SafetyField::construct((0.3, 0.1, 1.0, 0.1, 0.5));
         let twist = Twist::new(1.0, 0.0, 0.0);
-        assert_eq!(node.process(&ctx(0), &twist, None), Twist::ZERO);
-        assert_eq!(node.process(&ctx(100), &twist, Some(&Scan::default())), twist);
-        assert_eq!(node.process(&ctx(600), &twist, None), twist);
-        assert_eq!(node.process(&ctx(601), &twist, None), Twist::ZERO);
-        assert_eq!(node.process(&ctx(700), &Twist { y: f32::NAN, ..twist }, Some(&Scan::default())), Twist::ZERO);
+        // Scan with one beam, of a scanner that works, is covered, or sends nothing.
+        let scan = |ms: i64, ranges: &[f32]| {
+            let mut scan = Scan { stamp: Time::from_millis(ms), ..Scan::default() };
+            scan.ranges.extend(ranges.iter().copied());
+            Some(scan)
+        };
+        let mut fire = |ms: i64, twist: Twist, scan: Option<Scan>| {
+            node.process(&Ctx::new(Time::from_millis(ms)), Some(&twist), scan.as_ref()).expect("a command")
+        };
+        assert_eq!(fire(0, twist, None), Twist::ZERO);
+        assert_eq!(fire(50, twist, scan(50, &[])), Twist::ZERO);
+        assert_eq!(fire(50, twist, scan(50, &[f32::NAN])), Twist::ZERO);
+        assert_eq!(fire(100, twist, scan(100, &[f32::INFINITY])), twist);
+        assert_eq!([fire(599, twist, None), fire(600, twist, None)], [twist, Twist::ZERO]);
+        assert_eq!([fire(650, twist, scan(100, &[9.0])), fire(700, twist, scan(650, &[9.0]))], [Twist::ZERO, twist]);
+        assert_eq!(fire(700, Twist { y: f32::NAN, ..twist }, scan(700, &[9.0])), Twist::ZERO);
     }
 }

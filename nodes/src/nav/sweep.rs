@@ -1,7 +1,8 @@
 use super::{
     Articulated, Twist,
-    latest::Latest,
+    latest::{Latest, Measured, fresh},
     outline::{Axes, Part},
+    twist::Command,
 };
 use crate::{
     map::{Grid, Occupancy},
@@ -22,7 +23,7 @@ const STEP: f32 = 0.05;
 ///
 /// `base` and `trailer` are the poses of the two axes in the frame of the map, such as that of odometry. `map` may be
 /// ⊥, as clouds come less often than twists: the last map counts for `max_age`. The vehicle stops without such a map,
-/// so that a broken camera is not taken for free floor.
+/// so that a broken camera is not taken for free floor, at once without poses, and if the last twist is that old.
 #[node]
 #[derive(Debug, Clone)]
 pub struct SweepStop {
@@ -47,10 +48,18 @@ pub struct SweepStop {
     /// Angle of the camera's view across, about the x axis of the tractor.
     #[param(unit = "rad", default = 1.0, range = 0.0..=3.2)]
     view_angle: f32,
-    /// Maximum age of a map.
-    #[param(unit = "s", default = 0.6, range = 0.0..=60.0)]
+    /// Maximum age of a map and of a twist.
+    #[param(unit = "s", default = 0.6, range = 0.01..=60.0, silence)]
     max_age: f32,
     last: Latest<Grid<Occupancy>>,
+    command: Command,
+}
+
+/// A map without cells says nothing.
+impl Measured for Grid<Occupancy> {
+    fn is_usable(&self) -> bool {
+        !self.cells().is_empty()
+    }
 }
 
 #[node]
@@ -58,18 +67,21 @@ impl SweepStop {
     fn process(
         &mut self,
         ctx: &Ctx,
-        twist: &Twist,
+        twist: Option<&Twist>,
         map: Option<&Grid<Occupancy>>,
-        base: &Pose2,
-        trailer: &Pose2,
-    ) -> Twist {
-        self.last.update(ctx.now(), map);
-        let Some(map) = self.last.young(ctx.now(), self.max_age) else { return Twist::ZERO };
-        if !(twist.is_finite() && base.is_usable() && trailer.is_usable()) {
-            return Twist::ZERO;
-        }
-        let gap = self.gap(map, twist, [*base, *trailer]);
-        twist.stoppable(gap, self.deceleration, 0.0)
+        base: Option<&Pose2>,
+        trailer: Option<&Pose2>,
+    ) -> Option<Twist> {
+        self.last.update(ctx, map, self.max_age);
+        let twist = self.command.update(ctx, twist, self.max_age);
+        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let limited = match self.last.young(ctx, self.max_age).zip(axes) {
+            Some((map, (base, trailer))) => {
+                twist.stoppable(self.gap(map, &twist, [*base, *trailer]), self.deceleration, 0.0)
+            }
+            None => Twist::ZERO,
+        };
+        self.command.send(limited)
     }
 
     /// Distance that the vehicle can drive before it is too near to something that is not free, in m.
@@ -167,7 +179,8 @@ mod tests {
         let map = floor(Point2::new(place.0, place.1), cell);
         let base = Pose2::default();
         let trailer = Articulated::PATSY.trailer(&base, 0.0);
-        let limited = node().process(&Ctx::new(Time::ZERO), &twist, Some(&map), &base, &trailer);
+        let ctx = Ctx::new(Time::ZERO);
+        let limited = node().process(&ctx, Some(&twist), Some(&map), Some(&base), Some(&trailer)).expect("a command");
         assert!((limited.omega * twist.x - twist.omega * limited.x).abs() < 1e-5, "the same curve");
         limited.x
     }
@@ -200,7 +213,9 @@ mod tests {
         for step in 0..300 {
             let (base, ctx) = (Pose2::new(x, 0.0, 0.0), Ctx::new(Time::from_millis(80 * step)));
             let trailer = Articulated::PATSY.trailer(&base, 0.0);
-            speed = node.process(&ctx, &Twist::new(0.8, 0.0, 0.0), Some(map), &base, &trailer).x;
+            let twist = Twist::new(0.8, 0.0, 0.0);
+            let limited = node.process(&ctx, Some(&twist), Some(map), Some(&base), Some(&trailer));
+            speed = limited.expect("a command").x;
             x += 0.08 * speed;
         }
         (x, speed)
@@ -252,10 +267,15 @@ mod tests {
         let (mut node, twist) = (node(), Twist::new(0.5, 0.0, 0.1));
         let (base, trailer) = (Pose2::new(0.0, 0.0, FRAC_PI_2), Pose2::new(0.0, -0.65, FRAC_PI_2));
         let map = floor(Point2::new(2.9, 2.9), Occupancy::Occupied);
-        let mut at = |ms, map| node.process(&Ctx::new(Time::from_millis(ms)), &twist, map, &base, &trailer);
-        assert_eq!([at(0, None), at(100, Some(&map)), at(600, None)], [Twist::ZERO, twist, twist]);
-        assert_eq!(at(800, None), Twist::ZERO);
-        let nan = Pose2::new(f32::NAN, 0.0, 0.0);
-        assert_eq!(node.process(&Ctx::new(Time::ZERO), &twist, Some(&map), &nan, &trailer), Twist::ZERO);
+        let mut at = |ms: i64, map: Option<&Grid<Occupancy>>, base: Option<&Pose2>| {
+            let ctx = Ctx::new(Time::from_millis(ms));
+            node.process(&ctx, Some(&twist), map, base, Some(&trailer)).expect("a command")
+        };
+        assert_eq!(at(0, None, Some(&base)), Twist::ZERO);
+        assert_eq!(at(50, Some(&Grid::default()), Some(&base)), Twist::ZERO);
+        assert_eq!([at(100, Some(&map), Some(&base)), at(600, None, Some(&base))], [twist; 2]);
+        let odd = [Pose2::new(f32::NAN, 0.0, 0.0), Pose2::new(0.0, 5e6, 0.0)];
+        assert_eq!([at(650, None, Some(&odd[0])), at(650, None, Some(&odd[1])), at(650, None, None)], [Twist::ZERO; 3]);
+        assert_eq!([at(699, None, Some(&base)), at(700, None, Some(&base))], [twist, Twist::ZERO]);
     }
 }

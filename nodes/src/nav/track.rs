@@ -1,5 +1,6 @@
 //! Poses of stationary objects seen from a moving robot.
 
+use super::latest::is_young;
 use crate::{
     math::normalize_angle,
     scan::{FarFromOrigin, Pose2},
@@ -11,13 +12,13 @@ use core::f32::consts::PI;
 ///
 /// `robot` is the pose of the robot in any fixed frame, such as that of odometry. `seen` is the detected pose in the
 /// frame of the robot, and ⊥ between detections. The output is in the frame of the robot. Detections near each other
-/// are averaged; one farther away than `gate` replaces the mean. The output is ⊥ once the last detection is older
-/// than `max_age`. Fails on a pose that is more than 100 km from the origin.
+/// are averaged; one farther away than `gate` replaces the mean. The output is ⊥ once the last detection is as old as
+/// `max_age`, and while `robot` is not known. Fails on a pose that is more than 100 km from the origin.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TrackPose {
     /// Time for which the pose stays known without a detection.
-    #[param(unit = "s", default = 1.0, range = 0.0..=600.0)]
+    #[param(unit = "s", default = 1.0, range = 0.01..=600.0)]
     max_age: f32,
     /// Weight of a new detection in the mean.
     #[param(default = 0.4, range = 0.01..=1.0)]
@@ -42,10 +43,10 @@ impl TrackPose {
         if !robot.is_finite() {
             return None;
         }
-        if let Some(seen) = seen.filter(|pose| pose.is_finite()) {
-            self.known = Some((self.mean(robot.compose(seen)), ctx.now()));
+        if let Some(seen) = seen.filter(|pose| pose.is_usable()) {
+            self.known = Some((self.mean(robot.compose(seen)), ctx.stamp()));
         }
-        self.known = self.known.filter(|(_, at)| ctx.now().since(*at).as_secs_f32() <= self.max_age);
+        self.known = self.known.filter(|(_, stamp)| is_young(ctx, *stamp, self.max_age));
         self.known.map(|(pose, _)| pose.relative_to(robot))
     }
 
@@ -96,8 +97,8 @@ mod tests {
         assert!(close(node.track(&at(0), &Pose2::default(), Some(&thing)), thing));
         let robot = Pose2::new(0.5, -0.2, 0.7);
         assert!(close(node.track(&at(400), &robot, None), thing.relative_to(&robot)));
-        assert!(node.track(&at(1000), &robot, None).is_some());
-        assert_eq!(node.track(&at(1001), &robot, None), None, "it is too old");
+        assert!(node.track(&at(999), &robot, None).is_some());
+        assert_eq!(node.track(&at(1000), &robot, None), None, "it is too old");
     }
 
     #[test]

@@ -1,7 +1,8 @@
 use super::{
     Articulated, Twist,
-    latest::Latest,
+    latest::{Latest, fresh},
     outline::{Axes, Outline},
+    twist::Command,
 };
 use crate::scan::{Point2, Pose2, Scan};
 use apex_rt::{Ctx, node};
@@ -21,8 +22,9 @@ const GRAZE: f32 = 0.01;
 /// [`SafetyField`](super::SafetyField) of the shape of the vehicle with its load, whose corners swing out in curves.
 ///
 /// `ahead` and `behind` are scans in the frames of the tractor and of the trailer, without the load. They may be ⊥, as
-/// scans come less often than twists, but the vehicle stops if one of the two is older than `max_age`. `base` and
-/// `trailer` are the poses of the two axes in one fixed frame such as that of odometry.
+/// scans come less often than twists, but the vehicle stops if one of the two is older than `max_age`, by its stamp; a
+/// scan that measures nothing is none. `base` and `trailer` are the poses of the two axes in one fixed frame such as that
+/// of odometry. The vehicle stops at once without them, and if the last twist is older than `max_age`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TrailerField {
@@ -44,10 +46,11 @@ pub struct TrailerField {
     /// Delay before the vehicle begins to brake.
     #[param(unit = "s", default = 0.1, range = 0.0..=10.0)]
     latency: f32,
-    /// Maximum age of a scan.
-    #[param(unit = "s", default = 0.5, range = 0.0..=60.0)]
+    /// Maximum age of a scan and of a twist.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
     max_age: f32,
     last: [Latest<Scan>; 2],
+    command: Command,
     /// Points near the vehicle, and their distances from it.
     near: Vec<(Point2, f32)>,
 }
@@ -57,21 +60,24 @@ impl TrailerField {
     fn process(
         &mut self,
         ctx: &Ctx,
-        twist: &Twist,
+        twist: Option<&Twist>,
         ahead: Option<&Scan>,
         behind: Option<&Scan>,
-        base: &Pose2,
-        trailer: &Pose2,
-    ) -> Twist {
+        base: Option<&Pose2>,
+        trailer: Option<&Pose2>,
+    ) -> Option<Twist> {
         for (last, scan) in self.last.iter_mut().zip([ahead, behind]) {
-            last.update(ctx.now(), scan);
+            last.update(ctx, scan, self.max_age);
         }
-        let now = [*base, *trailer];
-        let is_usable = twist.is_finite() && now.iter().all(Pose2::is_usable);
-        if !(is_usable && self.find_near(ctx, &now)) {
-            return Twist::ZERO;
-        }
-        twist.stoppable(self.gap(twist, &now), self.deceleration, self.latency)
+        let twist = self.command.update(ctx, twist, self.max_age);
+        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let limited = match axes.map(|(base, trailer)| [*base, *trailer]) {
+            Some(now) if twist != Twist::ZERO && self.find_near(ctx, &now) => {
+                twist.stoppable(self.gap(&twist, &now), self.deceleration, self.latency)
+            }
+            _ => Twist::ZERO,
+        };
+        self.command.send(limited)
     }
 
     /// Finds the points near the vehicle. Returns `false` without young scans.
@@ -79,7 +85,7 @@ impl TrailerField {
         self.near.clear();
         let outline = self.outline();
         for (last, axis) in self.last.iter().zip(now) {
-            let Some(scan) = last.young(ctx.now(), self.max_age) else { return false };
+            let Some(scan) = last.young(ctx, self.max_age) else { return false };
             let points = scan.points().map(|(_, point)| axis.to_outer(point));
             let near = points.map(|point| (point, outline.distance(now, point)));
             self.near.extend(near.filter(|(_, distance)| *distance < self.margin + SWING * LOOK_AHEAD));
@@ -142,7 +148,9 @@ mod tests {
         let (front, rear): (Vec<Point2>, Vec<Point2>) = points.iter().partition(|point| point.x > -0.6);
         let rear: Vec<Point2> = rear.iter().map(|p| trailer.to_inner(base.to_outer(*p))).collect();
         let ctx = Ctx::new(Time::ZERO);
-        let limited = node(load).process(&ctx, &twist, Some(&scan(&front)), Some(&scan(&rear)), &base, &trailer);
+        let [front, rear] = [scan(&front), scan(&rear)];
+        let limited = node(load).process(&ctx, Some(&twist), Some(&front), Some(&rear), Some(&base), Some(&trailer));
+        let limited = limited.expect("a command");
         assert!((limited.omega * twist.x - twist.omega * limited.x).abs() < 1e-5, "the same curve");
         limited.x
     }
@@ -181,13 +189,16 @@ mod tests {
     fn it_stands_without_both_scans() {
         let (mut node, twist, at) = (node(LOAD), Twist::new(0.5, 0.0, 0.1), Pose2::default());
         let trailer = Articulated::PATSY.trailer(&at, 0.0);
-        let empty = Scan::default();
-        let mut fire = |ms, twist: &Twist, ahead, behind| {
-            node.process(&Ctx::new(Time::from_millis(ms)), twist, ahead, behind, &at, &trailer)
+        let mut fire = |ms: i64, ahead: bool, behind: bool, base: Option<&Pose2>| {
+            let seen = Scan { stamp: Time::from_millis(ms), ..scan(&[]) };
+            let (ahead, behind) = (ahead.then_some(&seen), behind.then_some(&seen));
+            let ctx = Ctx::new(Time::from_millis(ms));
+            node.process(&ctx, Some(&twist), ahead, behind, base, Some(&trailer)).expect("a command")
         };
-        assert_eq!([fire(0, &twist, None, None), fire(50, &twist, Some(&empty), None)], [Twist::ZERO; 2]);
-        assert_eq!([fire(100, &twist, None, Some(&empty)), fire(500, &twist, None, None)], [twist; 2]);
-        assert_eq!(fire(600, &twist, None, Some(&empty)), Twist::ZERO);
-        assert_eq!(fire(700, &Twist { x: f32::NAN, ..twist }, Some(&empty), Some(&empty)), Twist::ZERO);
+        let here = Some(&at);
+        assert_eq!([fire(0, false, false, here), fire(50, true, false, here)], [Twist::ZERO; 2]);
+        assert_eq!([fire(100, false, true, here), fire(500, false, false, here)], [twist; 2]);
+        assert_eq!([fire(520, true, true, None), fire(550, false, false, here)], [Twist::ZERO, twist]);
+        assert_eq!([fire(600, true, false, here), fire(1050, true, false, here)], [twist, Twist::ZERO]);
     }
 }

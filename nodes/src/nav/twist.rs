@@ -1,5 +1,6 @@
+use super::latest::is_young;
 use crate::scan::{FarFromOrigin, Point2};
-use apex_rt::Units;
+use apex_rt::{Ctx, Time, Units};
 #[cfg(feature = "std")]
 use libm::fmaxf;
 use libm::sqrtf;
@@ -54,6 +55,11 @@ impl Twist {
         self.slowed_to(braking_speed(gap.max(0.0), deceleration, latency))
     }
 
+    /// The twist, or zero if it is not finite.
+    fn finite(self) -> Self {
+        if self.is_finite() { self } else { Self::ZERO }
+    }
+
     /// Returns `true` if all components are finite.
     pub const fn is_finite(&self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.omega.is_finite()
@@ -74,8 +80,9 @@ pub(super) struct Halt {
 }
 
 impl Halt {
-    /// Returns `twist`, which the node sends while it drives.
+    /// Returns `twist`, which the node sends while it drives: zero if it is not finite.
     pub(super) fn drive(&mut self, twist: Twist) -> Option<Twist> {
+        let twist = twist.finite();
         self.is_moving = twist != Twist::ZERO;
         Some(twist)
     }
@@ -89,5 +96,69 @@ impl Halt {
     /// Returns the twist of a node that does not drive: zero if the last one was not, then none.
     pub(super) fn rest(&mut self) -> Option<Twist> {
         core::mem::take(&mut self.is_moving).then_some(Twist::ZERO)
+    }
+}
+
+/// Command at the input of a node that passes it on: it counts while it is younger than a maximum age.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Command {
+    last: Option<(Twist, Time)>,
+    is_new: bool,
+    sent: Twist,
+}
+
+impl Command {
+    /// Returns the command that counts: zero if the last one is not finite, or older than `max_age` s.
+    pub(super) fn update(&mut self, ctx: &Ctx, twist: Option<&Twist>, max_age: f32) -> Twist {
+        self.is_new = twist.is_some();
+        if let Some(twist) = twist {
+            self.last = Some((*twist, ctx.stamp()));
+        }
+        let young = self.last.filter(|(twist, stamp)| twist.is_finite() && is_young(ctx, *stamp, max_age));
+        young.map_or(Twist::ZERO, |(twist, _)| twist)
+    }
+
+    /// Returns the twist to send for what the node makes of the command: never one that is not finite, and ⊥ if no
+    /// command has come and nothing has changed.
+    pub(super) fn send(&mut self, twist: Twist) -> Option<Twist> {
+        let twist = twist.finite();
+        let is_news = self.is_new || twist != self.sent;
+        self.sent = twist;
+        is_news.then_some(twist)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TWIST: Twist = Twist::new(0.5, 0.0, 0.1);
+
+    #[test]
+    fn a_command_has_an_age() {
+        let mut command = Command::default();
+        let mut pass = |ms: i64, twist: Option<Twist>, share: f32| {
+            let twist = command.update(&Ctx::new(Time::from_millis(ms)), twist.as_ref(), 0.5);
+            command.send(Twist::of(twist.velocity().scaled(share), twist.omega))
+        };
+        assert_eq!([pass(0, None, 1.0), pass(100, Some(TWIST), 1.0)], [None, Some(TWIST)]);
+        assert_eq!(
+            [pass(599, None, 1.0), pass(600, None, 1.0), pass(1200, None, 1.0)],
+            [None, Some(Twist::ZERO), None]
+        );
+        // What limits the command may change after it has come.
+        let slower = Twist { x: 0.25, ..TWIST };
+        assert_eq!([pass(2000, Some(TWIST), 1.0), pass(2100, None, 0.5)], [Some(TWIST), Some(slower)]);
+        assert_eq!([pass(2200, None, 0.5), pass(2600, None, 0.5)], [None, Some(Twist::ZERO)]);
+    }
+
+    #[test]
+    fn no_twist_that_is_not_finite_passes() {
+        let (mut command, ctx) = (Command::default(), Ctx::new(Time::ZERO));
+        for odd in [f32::NAN, f32::INFINITY] {
+            let twist = Twist { omega: odd, ..TWIST };
+            assert_eq!(command.update(&ctx, Some(&twist), 0.5), Twist::ZERO);
+            assert_eq!(command.send(twist), Some(Twist::ZERO));
+        }
     }
 }

@@ -58,6 +58,12 @@ impl Scan {
         range.is_finite() && range >= self.range_min && range <= self.range_max
     }
 
+    /// Returns `true` if a beam has measured something, or that nothing is within range (infinity). A scan without beams,
+    /// or of NaN only, is that of a scanner that has failed.
+    pub fn measures_anything(&self) -> bool {
+        (0..self.ranges.len()).any(|beam| !self.sight(beam).is_nan())
+    }
+
     /// Direction of a beam, in rad.
     pub fn angle(&self, beam: usize) -> f32 {
         self.angle_min + beam as f32 * self.angle_increment
@@ -129,6 +135,18 @@ mod tests {
         let beams: std::vec::Vec<usize> = scan.points().map(|(beam, _)| beam).collect();
         assert_eq!(beams, [0, 6]);
         assert_eq!((scan.range(0), scan.range(1), scan.range(99)), (Some(1.0), None, None));
+    }
+
+    #[test]
+    fn nothing_in_range_is_a_measurement_and_no_number_is_none() {
+        let measures = |ranges: &[f32]| {
+            let mut scan = Scan { range_min: 0.1, range_max: 10.0, ..Scan::default() };
+            scan.ranges.extend(ranges.iter().copied());
+            scan.measures_anything()
+        };
+        assert!([[f32::NAN, 1.0], [f32::NAN, f32::INFINITY]].iter().all(|ranges| measures(ranges)));
+        let failed: [&[f32]; 3] = [&[], &[f32::NAN; 3], &[0.0, -1.0, f32::NEG_INFINITY]];
+        assert!(!failed.iter().any(|ranges| measures(ranges)));
     }
 
     #[test]

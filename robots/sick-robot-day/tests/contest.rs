@@ -300,6 +300,19 @@ fn all_drivers_work_in_a_compiled_graph() {
 }
 
 #[test]
+fn motors_brake_after_their_command_time_out_if_they_have_one() {
+    let way = |timeout: Option<Duration>| {
+        let mut contest = Contest::new(1, vec![]);
+        contest.set_command_timeout(timeout);
+        let start = contest.robots()[0].pose;
+        contest.drive(Twist::new(0.2, 0.0, 0.0));
+        contest.advance(ms(3000));
+        (contest.robots()[0].pose.position() - start.position()).norm()
+    };
+    assert!(way(Some(Duration::from_millis(300))) < 0.1 && way(None) > 0.5);
+}
+
+#[test]
 fn the_remote_says_go_once() {
     let hall = Hall::new(1, vec![]).expect("a level camera");
     let (mut remote, mut words) = (Remote::new(&hall), vec![]);

@@ -10,7 +10,7 @@ const SLACK: f32 = 0.02;
 /// Simulated base with two driven wheels in a drawn world. It is a source with a slot for twists.
 ///
 /// The base starts at the start of the [`FloorPlan`], keeps its distance from walls like a bumper, and stops when
-/// twists no longer come or its battery is empty. It needs a period, for example `every 50ms`.
+/// twists no longer come for `command_timeout` or its battery is empty. It needs a period, for example `every 50ms`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct DifferentialBase {
@@ -41,8 +41,8 @@ pub struct DifferentialBase {
     /// Time until the battery is empty.
     #[param(unit = "s", default = 3600.0, range = 1.0..=1e9)]
     battery_life: f32,
-    /// Time that the base goes on without a new twist.
-    #[param(unit = "s", default = 0.5, range = 0.01..=60.0)]
+    /// Time that the base goes on without a new twist; 0 for a base that keeps the last one, as many do.
+    #[param(unit = "s", default = 0.5, range = 0.0..=60.0)]
     command_timeout: f32,
     /// Seed of the odometry errors.
     #[param(default = 1)]
@@ -84,7 +84,8 @@ impl DifferentialBase {
             None => self.begin(now).inspect_err(|_| self.failed = true)?,
         };
         let charge = (1.0 - now.since(moving.began).as_secs_f32() / self.battery_life).max(0.0);
-        let fresh = self.commanded.is_some_and(|then| now.since(then).as_secs_f32() <= self.command_timeout);
+        let is_young = |then| now.since(then).as_secs_f32() <= self.command_timeout;
+        let fresh = self.commanded.is_some_and(|then| self.command_timeout == 0.0 || is_young(then));
         let command = if fresh && charge > 0.0 { self.command } else { Twist::ZERO };
         let touched = moving.touches;
         odometry.set(moving.step(now, &command, self.radius));
@@ -206,6 +207,16 @@ mod tests {
         assert_eq!((at[0].battery, at[20].battery, late[79].battery), (1.0, 0.75, 0.0));
         assert_eq!(late[79].pose, late[50].pose, "the battery is empty");
         assert!(late[79].pose.x > at[39].pose.x + 0.2);
+    }
+
+    #[test]
+    fn without_a_time_out_it_keeps_the_last_twist() {
+        let mut node = DifferentialBase { command_timeout: 0.0, ..node(ROOM, 1e9, 0.0) };
+        let twist = Twist::new(0.1, 0.0, 0.0);
+        let at: Vec<Sent> = (0..200).map(|i| fire(&mut node, 50 * i, (i == 0).then_some(twist))).collect();
+        assert!((at[199].pose.x - at[99].pose.x - 0.5).abs() < 1e-3, "it drives on for 10 s");
+        let end = (200..300).map(|i| fire(&mut node, 50 * i, (i == 200).then_some(Twist::ZERO))).last();
+        assert!(end.expect("it stands").pose.x < at[199].pose.x + 0.02);
     }
 
     #[test]

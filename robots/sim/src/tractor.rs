@@ -12,7 +12,7 @@ const STEP: f32 = 0.01;
 /// slots for twists and for the lift.
 ///
 /// Stands at the start of the [`FloorPlan`] with its trailer in line. Stops at obstacles, and when twists no longer
-/// come. `raise` lifts a container that stands above it: from then on, until it is down again, the vehicle has the
+/// come for `command_timeout`. `raise` lifts a container that stands above it: from then on, until it is down again, the vehicle has the
 /// footprint of the container, too, which turns with the trailer. It needs a period, for example `every 50ms`.
 #[node]
 #[derive(Debug, Clone)]
@@ -44,8 +44,8 @@ pub struct TractorBase {
     /// Error of the wheel odometry, as a multiple of that of a Pioneer 2; 0 is exact.
     #[param(default = 0.0, range = 0.0..=10.0)]
     drift: f32,
-    /// Time that the vehicle goes on without a new twist.
-    #[param(unit = "s", default = 0.5, range = 0.01..=60.0)]
+    /// Time that the vehicle goes on without a new twist; 0 for a vehicle that keeps the last one, as many do.
+    #[param(unit = "s", default = 0.5, range = 0.0..=60.0)]
     command_timeout: f32,
     /// Seed of the odometry errors.
     #[param(default = 1)]
@@ -93,7 +93,8 @@ impl TractorBase {
         if moving.lift.step(elapsed) {
             lift_done.emit(self.is_raised);
         }
-        let fresh = self.commanded.is_some_and(|then| now.since(then).as_secs_f32() <= self.command_timeout);
+        let is_young = |then| now.since(then).as_secs_f32() <= self.command_timeout;
+        let fresh = self.commanded.is_some_and(|then| self.command_timeout == 0.0 || is_young(then));
         let command = if fresh { self.command } else { Twist::ZERO };
         let before = moving.vehicle.base.pose;
         self.drive_for(&mut moving, &command, elapsed);

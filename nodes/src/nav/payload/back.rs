@@ -1,7 +1,11 @@
 use super::vehicle::{Articulated, backing_twist};
 use crate::{
     math::normalize_angle,
-    nav::{Twist, twist::Halt},
+    nav::{
+        Twist,
+        latest::{any_far, fresh},
+        twist::Halt,
+    },
     scan::{FarFromOrigin, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
@@ -18,7 +22,8 @@ const REMEMBERED: usize = 64;
 /// active. A trailer that is pushed turns away to the side, so the tractor steers against it: the angle approaches the
 /// remembered one at the rate `gain` (Lamiraux et al. 1998), and 0 where nothing is remembered, as after a way backward
 /// that another node drove. `base` and `trailer` are the poses of the two axes in one fixed frame such as that of
-/// odometry. Drives while it is active; `done` comes with a twist of zero. Nothing behind the vehicle is looked at.
+/// odometry. Drives while it is active; `done` comes with a twist of zero. Without both poses, or with poses older than
+/// `max_age`, the vehicle stands still. Nothing behind the vehicle is looked at.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BackUp {
@@ -34,6 +39,9 @@ pub struct BackUp {
     /// Shape of the vehicle.
     #[param(default = Articulated::PATSY)]
     vehicle: Articulated,
+    /// Maximum age of the poses.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     last: Option<Pose2>,
     /// Distance driven backward since the activation, in m.
     driven: f32,
@@ -49,29 +57,27 @@ impl BackUp {
     fn process(
         &mut self,
         ctx: &Ctx,
-        base: &Pose2,
-        trailer: &Pose2,
+        base: Option<&Pose2>,
+        trailer: Option<&Pose2>,
         done: Event<()>,
     ) -> Result<Option<Twist>, FarFromOrigin> {
-        if ctx.active() && (base.is_far() || trailer.is_far()) {
+        if ctx.active() && any_far([base, trailer]) {
             return self.halt.far();
         }
         Ok(self.step(ctx, base, trailer, done))
     }
 
-    fn step(&mut self, ctx: &Ctx, base: &Pose2, trailer: &Pose2, done: Event<()>) -> Option<Twist> {
-        let is_usable = base.is_usable() && trailer.is_usable();
-        let bend = normalize_angle(&(base.theta - trailer.theta));
-        if is_usable {
+    fn step(&mut self, ctx: &Ctx, base: Option<&Pose2>, trailer: Option<&Pose2>, done: Event<()>) -> Option<Twist> {
+        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let bend = axes.map(|(base, trailer)| normalize_angle(&(base.theta - trailer.theta)));
+        if let Some(((base, _), bend)) = axes.zip(bend) {
             let last = self.last.replace(*base).unwrap_or(*base);
             self.remember(base.relative_to(&last).x, bend, ctx.active());
         }
         if !ctx.active() {
             return self.halt.rest();
         }
-        if !is_usable {
-            return self.halt.drive(Twist::ZERO);
-        }
+        let Some(bend) = bend else { return self.halt.drive(Twist::ZERO) };
         let left = self.distance - self.driven;
         if left <= 0.0 {
             self.begin();
@@ -130,12 +136,13 @@ mod tests {
     #[test]
     fn it_backs_up_and_straightens_the_trailer() {
         for bent in [0.6_f32, 0.0, -0.8] {
-            let mut node = BackUp::construct((1.5, 0.2, 0.6, Articulated::PATSY));
+            let mut node = BackUp::construct((1.5, 0.2, 0.6, Articulated::PATSY, 0.5));
             let (mut base, mut heading, mut done) = (Pose2::default(), -bent, None);
             for step in 0..2000 {
                 let ctx = Ctx::new(Time::from_millis(20 * step)).of_node(true);
                 let trailer = Articulated::PATSY.trailer(&base, heading);
-                let twist = node.step(&ctx, &base, &trailer, apex_rt::event(&mut done)).expect("it is active");
+                let twist = node.step(&ctx, Some(&base), Some(&trailer), apex_rt::event(&mut done));
+                let twist = twist.expect("it is active");
                 if done.is_some() {
                     break;
                 }
@@ -149,7 +156,7 @@ mod tests {
     #[test]
     fn it_backs_up_on_the_way_on_which_it_came() {
         let vehicle = Articulated::PATSY;
-        let mut node = BackUp::construct((1.5, 0.2, 0.6, vehicle));
+        let mut node = BackUp::construct((1.5, 0.2, 0.6, vehicle, 0.5));
         let (mut base, mut heading) = (Pose2::default(), 0.0);
         let mut ways: [std::vec::Vec<Pose2>; 2] = Default::default();
         for step in 0..1000 {
@@ -158,7 +165,7 @@ mod tests {
             let (ctx, axis) =
                 (Ctx::new(Time::from_millis(20 * step)).of_node(is_back), vehicle.trailer(&base, heading));
             let mut done = None;
-            let sent = node.step(&ctx, &base, &axis, apex_rt::event(&mut done));
+            let sent = node.step(&ctx, Some(&base), Some(&axis), apex_rt::event(&mut done));
             if done.is_some() {
                 break;
             }
@@ -177,10 +184,13 @@ mod tests {
 
     #[test]
     fn it_rests_without_activity_and_stops_without_a_pose() {
-        let (mut node, at) = (BackUp::construct((1.0, 0.2, 0.6, Articulated::PATSY)), Pose2::default());
+        let (mut node, at) = (BackUp::construct((1.0, 0.2, 0.6, Articulated::PATSY, 0.5)), Pose2::default());
         let idle = Ctx::new(Time::ZERO);
-        assert_eq!(node.step(&idle, &at, &at, Event::unconnected()), None);
-        let nan = Pose2::new(f32::NAN, 0.0, 0.0);
-        assert_eq!(node.step(&idle.of_node(true), &nan, &at, Event::unconnected()), Some(Twist::ZERO));
+        let mut fire = |ctx: &Ctx, base: Option<&Pose2>| node.step(ctx, base, Some(&at), Event::unconnected());
+        assert_eq!(fire(&idle, Some(&at)), None);
+        for odd in [None, Some(&Pose2::new(f32::NAN, 0.0, 0.0)), Some(&Pose2::new(5e6, 0.0, 0.0))] {
+            assert_eq!(fire(&idle.of_node(true), odd), Some(Twist::ZERO));
+        }
+        assert_ne!(fire(&idle.of_node(true), Some(&at)), Some(Twist::ZERO));
     }
 }

@@ -1,7 +1,11 @@
 use super::vehicle::{Articulated, backing_twist};
 use crate::{
     math::normalize_angle,
-    nav::{Twist, twist::Halt},
+    nav::{
+        Twist,
+        latest::{any_far, fresh},
+        twist::Halt,
+    },
     scan::{FarFromOrigin, Pose2},
 };
 use apex_rt::{Ctx, Event, Time, node};
@@ -59,7 +63,8 @@ impl BackPath {
 /// axes in one fixed frame such as that of odometry: distances are measured with them, and where the path leads is not
 /// corrected, so a path should be a few metres long. A new path replaces the current one. The node sends twists while
 /// it has a path. It drops the path when the vehicle has `reached` its end, when it is `blocked`, so that it makes no
-/// progress for longer than `blocked_timeout`, and when it is deactivated.
+/// progress for longer than `blocked_timeout` or the path is not finite, and when it is deactivated. Without both poses, or with poses older than
+/// `max_age`, the vehicle stands still.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BackFollower {
@@ -76,6 +81,9 @@ pub struct BackFollower {
     /// Time that the vehicle may go without progress.
     #[param(unit = "s", default = 3.0, range = 0.0..=600.0)]
     blocked_timeout: f32,
+    /// Maximum age of the poses.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     path: BackPath,
     /// Pose at the last firing, and distance driven on the path, in m.
     last: Option<Pose2>,
@@ -90,14 +98,14 @@ impl BackFollower {
     fn process(
         &mut self,
         ctx: &Ctx,
-        base: &Pose2,
-        trailer: &Pose2,
+        base: Option<&Pose2>,
+        trailer: Option<&Pose2>,
         path: Option<&BackPath>,
         reached: Event<()>,
         #[failure] blocked: Event<()>,
     ) -> Result<Option<Twist>, FarFromOrigin> {
         let is_driving = path.is_some() || !self.path.pieces.is_empty();
-        if is_driving && (base.is_far() || trailer.is_far()) {
+        if is_driving && any_far([base, trailer]) {
             path.into_iter().for_each(|path| self.begin(path));
             return self.halt.far();
         }
@@ -112,7 +120,7 @@ impl BackFollower {
     fn step(
         &mut self,
         ctx: &Ctx,
-        [base, trailer]: [&Pose2; 2],
+        [base, trailer]: [Option<&Pose2>; 2],
         path: Option<&BackPath>,
         [reached, blocked]: [Event<()>; 2],
     ) -> Option<Twist> {
@@ -122,7 +130,15 @@ impl BackFollower {
         if self.path.pieces.is_empty() {
             return self.halt.rest();
         }
-        if !(base.is_usable() && trailer.is_usable()) {
+        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let Some((base, trailer)) = axes else {
+            // Time without a pose is no time without progress.
+            self.progress = None;
+            return self.halt.drive(Twist::ZERO);
+        };
+        if !self.path.length().is_finite() {
+            self.give_up();
+            blocked.emit(());
             return self.halt.drive(Twist::ZERO);
         }
         let last = self.last.replace(*base).unwrap_or(*base);
@@ -176,7 +192,7 @@ pub(in crate::nav) mod tests {
     impl Backing {
         /// Begins with a path.
         pub fn new(path: &BackPath) -> Self {
-            let node = BackFollower::construct((0.25, 2.5, Articulated::PATSY, 1.0));
+            let node = BackFollower::construct((0.25, 2.5, Articulated::PATSY, 1.0, 0.5));
             Self { node, path: Some(path.clone()), now: Time::ZERO }
         }
 
@@ -197,7 +213,8 @@ pub(in crate::nav) mod tests {
             let trailer = Articulated::PATSY.trailer(base, heading);
             let ctx = Ctx::new(self.now).of_node(true);
             let (path, ends) = (self.path.take(), (apex_rt::event(&mut reached), apex_rt::event(&mut blocked)));
-            let twist = self.node.step(&ctx, [base, &trailer], path.as_ref(), [ends.0, ends.1]);
+            let axes = [Some(base), Some(&trailer)];
+            let twist = self.node.step(&ctx, axes, path.as_ref(), [ends.0, ends.1]);
             (twist, [reached, blocked])
         }
     }

@@ -4,7 +4,11 @@ use super::{
 };
 use crate::{
     math::normalize_angle,
-    nav::{Twist, twist::Halt},
+    nav::{
+        Twist,
+        latest::{any_far, fresh},
+        twist::Halt,
+    },
     scan::{FarFromOrigin, Point2, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
@@ -31,7 +35,8 @@ const OFF_CURVE: f32 = 0.2;
 /// container turns out to be elsewhere, the node plans the way of tractor and trailer: the shortest of the Dubins
 /// curves to a line before the container, on which the predicted trailer comes into line, is never bent by more than
 /// `max_bend`, and touches nothing of the container but the free strip between its wheels. `missed` comes if there is
-/// no such curve, or if the vehicle is beside its goal at the end. Obstacles are the task of the safety field behind
+/// no such curve, or if the vehicle is beside its goal at the end. Without both poses, or with poses older than `max_age`,
+/// the vehicle stands still. Obstacles are the task of the safety field behind
 /// this node.
 #[node]
 #[derive(Debug, Clone)]
@@ -72,6 +77,9 @@ pub struct PlannedApproach {
     /// Maximum offset of the vehicle from the middle of the container at the end, along and across.
     #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
     tolerance: f32,
+    /// Maximum age of the poses.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     container: Option<Pose2>,
     plan: Option<Plan>,
     halt: Halt,
@@ -92,13 +100,13 @@ impl PlannedApproach {
     fn process(
         &mut self,
         ctx: &Ctx,
-        base: &Pose2,
-        trailer: &Pose2,
+        base: Option<&Pose2>,
+        trailer: Option<&Pose2>,
         container: Option<&Pose2>,
         reached: Event<()>,
         #[failure] missed: Event<()>,
     ) -> Result<Option<Twist>, FarFromOrigin> {
-        if ctx.active() && [Some(base), Some(trailer), container].into_iter().flatten().any(Pose2::is_far) {
+        if ctx.active() && any_far([base, trailer, container]) {
             return self.halt.far();
         }
         Ok(self.step(ctx, [base, trailer], container, [reached, missed]))
@@ -107,16 +115,17 @@ impl PlannedApproach {
     fn step(
         &mut self,
         ctx: &Ctx,
-        [base, trailer]: [&Pose2; 2],
+        [base, trailer]: [Option<&Pose2>; 2],
         container: Option<&Pose2>,
         [reached, missed]: [Event<()>; 2],
     ) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();
         }
-        self.container = container.filter(|pose| pose.is_finite()).copied().or(self.container);
-        let Some(container) = self.container.filter(|_| base.is_usable() && trailer.is_usable()) else {
-            return self.halt.rest();
+        self.container = fresh(ctx, container, self.max_age).copied().or(self.container);
+        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let Some(((base, trailer), container)) = axes.zip(self.container) else {
+            return self.halt.drive(Twist::ZERO);
         };
         let vehicle = &self.vehicle;
         let rear = container.to_inner(vehicle.rear_most(trailer));
@@ -255,11 +264,25 @@ mod tests {
     const CONTAINER: Pose2 = Pose2::new(4.0, 0.0, 0.0);
 
     fn planned() -> PlannedApproach {
-        PlannedApproach::construct((0.8, 1.0, 0.5, 0.03, 0.2, Articulated::PATSY, 1.2, 0.76, 0.43, 0.05, 0.05, 0.05))
+        PlannedApproach::construct((
+            0.8,
+            1.0,
+            0.5,
+            0.03,
+            0.2,
+            Articulated::PATSY,
+            1.2,
+            0.76,
+            0.43,
+            0.05,
+            0.05,
+            0.05,
+            0.5,
+        ))
     }
 
     fn reactive() -> ReactiveApproach {
-        ReactiveApproach::construct((0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, Articulated::PATSY, 0.05))
+        ReactiveApproach::construct((0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, Articulated::PATSY, 0.05, 0.5))
     }
 
     /// Drives until the end, or for 100 s. Returns the pose of the base and whether it was reached or missed.
@@ -289,14 +312,14 @@ mod tests {
     #[test]
     fn both_drive_beneath_a_container_ahead() {
         let (mut a, mut b) = (planned(), reactive());
-        let ahead = Pose2::new(0.0, 0.0, 0.0);
+        let (ahead, to) = (Pose2::new(0.0, 0.0, 0.0), Some(&CONTAINER));
         for start in [ahead, Pose2::new(0.0, 0.2, 0.0), Pose2::new(-1.0, -0.5, 0.1)] {
             a.forget();
-            let (end, reached, _) = drive(|p, t, r, m| a.step(&active(), [p, t], Some(&CONTAINER), [r, m]), start);
+            let (end, reached, _) = drive(|p, t, r, m| a.step(&active(), [Some(p), Some(t)], to, [r, m]), start);
             assert!(reached && (end.x - 4.0 - Articulated::PATSY.axis()).abs() < 0.06, "{end:?}");
         }
         let (end, reached, _) =
-            drive(|p, t, r, m| b.process(&active(), p, t, Some(&CONTAINER), r, m).unwrap_or(None), ahead);
+            drive(|p, t, r, m| b.process(&active(), Some(p), Some(t), to, r, m).unwrap_or(None), ahead);
         assert!(reached && end.y.abs() < 0.06, "{end:?}");
     }
 
@@ -307,7 +330,8 @@ mod tests {
             node.forget();
             // The container is seen once.
             let mut container = Some(&CONTAINER);
-            let (end, reached, _) = drive(|p, t, r, m| node.step(&active(), [p, t], container.take(), [r, m]), start);
+            let (end, reached, _) =
+                drive(|p, t, r, m| node.step(&active(), [Some(p), Some(t)], container.take(), [r, m]), start);
             assert!(reached && end.y.abs() < 0.03 && end.theta.abs() < 0.03, "{end:?} from {start:?}");
         }
     }
@@ -320,7 +344,7 @@ mod tests {
             |p, t, r, m| {
                 firing += 1;
                 let container = if firing < 40 { CONTAINER } else { moved };
-                node.step(&active(), [p, t], Some(&container), [r, m])
+                node.step(&active(), [Some(p), Some(t)], Some(&container), [r, m])
             },
             Pose2::new(0.0, 0.0, 0.0),
         );
@@ -333,16 +357,20 @@ mod tests {
         let (mut node, at) = (planned(), Pose2::default());
         node.free_width = 0.3;
         let mut missed = None;
-        let twist = node.step(&active(), [&at, &at], Some(&CONTAINER), [nothing(), apex_rt::event(&mut missed)]);
+        let (to, here) = (Some(&CONTAINER), Some(&at));
+        let twist = node.step(&active(), [here; 2], to, [nothing(), apex_rt::event(&mut missed)]);
         assert_eq!((twist, missed.is_some()), (Some(Twist::ZERO), true));
-        let nan = Pose2::new(f32::NAN, 0.0, 0.0);
         let (mut a, mut b) = (planned(), reactive());
-        assert_eq!(a.step(&active(), [&nan, &at], Some(&CONTAINER), [nothing(), nothing()]), None);
-        assert_eq!(b.process(&active(), &at, &at, Some(&nan), nothing(), nothing()), Ok(None));
+        for odd in [None, Some(&Pose2::new(f32::NAN, 0.0, 0.0))] {
+            let stands = Some(Twist::ZERO);
+            assert_eq!(a.step(&active(), [odd, here], to, [nothing(), nothing()]), stands);
+            assert_eq!(a.step(&active(), [here, odd], to, [nothing(), nothing()]), stands);
+            assert_eq!(b.process(&active(), here, here, odd, nothing(), nothing()), Ok(stands));
+        }
         let inactive = Ctx::new(Time::ZERO);
-        assert_eq!(a.step(&inactive, [&at, &at], Some(&CONTAINER), [nothing(), nothing()]), None);
-        assert!(a.step(&active(), [&at, &at], Some(&CONTAINER), [nothing(), nothing()]).is_some());
-        let halted = a.step(&inactive, [&at, &at], None, [nothing(), nothing()]);
+        assert_eq!(planned().step(&inactive, [here; 2], to, [nothing(), nothing()]), None);
+        assert_ne!(a.step(&active(), [here; 2], to, [nothing(), nothing()]), Some(Twist::ZERO));
+        let halted = a.step(&inactive, [None; 2], None, [nothing(), nothing()]);
         assert_eq!(halted, Some(Twist::ZERO), "it stops when it is interrupted");
     }
 }

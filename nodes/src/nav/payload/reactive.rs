@@ -1,6 +1,10 @@
 use super::vehicle::{Arrival, Articulated, arrival};
 use crate::{
-    nav::{Twist, twist::Halt},
+    nav::{
+        Twist,
+        latest::{any_far, fresh},
+        twist::Halt,
+    },
     scan::{FarFromOrigin, Point2, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
@@ -12,7 +16,8 @@ use libm::{atan2f, fmaxf, fminf, sqrtf, tanf};
 /// `base` is the pose of the tractor's axis, `trailer` that of the trailer's axis, and `container` that of the
 /// container, all in one fixed frame such as that of odometry; the vehicle drives beneath the container along its
 /// heading. `container` may be ⊥ between detections. Works while it is active: sends twists until the vehicle is
-/// `reached` below the container, or until it has `missed` it.
+/// `reached` below the container, or until it has `missed` it. Without both poses, or with poses older than `max_age`,
+/// the vehicle stands still.
 ///
 /// Readings where the thesis is open: errors point from the vehicle to the desired pose and are in the frame of the
 /// vehicle in eq. 6.28 (with b − b̃ as printed, the robot would turn away), in that of the container in eqs. 6.29 and
@@ -53,6 +58,9 @@ pub struct ReactiveApproach {
     /// Maximum offset of the vehicle from the middle of the container at the end, along and across.
     #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
     tolerance: f32,
+    /// Maximum age of the poses.
+    #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
+    max_age: f32,
     container: Option<Pose2>,
     halt: Halt,
 }
@@ -62,13 +70,13 @@ impl ReactiveApproach {
     fn process(
         &mut self,
         ctx: &Ctx,
-        base: &Pose2,
-        trailer: &Pose2,
+        base: Option<&Pose2>,
+        trailer: Option<&Pose2>,
         container: Option<&Pose2>,
         reached: Event<()>,
         #[failure] missed: Event<()>,
     ) -> Result<Option<Twist>, FarFromOrigin> {
-        if ctx.active() && [Some(base), Some(trailer), container].into_iter().flatten().any(Pose2::is_far) {
+        if ctx.active() && any_far([base, trailer, container]) {
             return self.halt.far();
         }
         Ok(self.step(ctx, [base, trailer], container, [reached, missed]))
@@ -77,16 +85,17 @@ impl ReactiveApproach {
     fn step(
         &mut self,
         ctx: &Ctx,
-        [base, trailer]: [&Pose2; 2],
+        [base, trailer]: [Option<&Pose2>; 2],
         container: Option<&Pose2>,
         [reached, missed]: [Event<()>; 2],
     ) -> Option<Twist> {
         if !ctx.active() {
             return self.halt.rest();
         }
-        self.container = container.filter(|pose| pose.is_finite()).copied().or(self.container);
-        let Some(container) = self.container.filter(|_| base.is_usable() && trailer.is_usable()) else {
-            return self.halt.rest();
+        self.container = fresh(ctx, container, self.max_age).copied().or(self.container);
+        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let Some(((base, trailer), container)) = axes.zip(self.container) else {
+            return self.halt.drive(Twist::ZERO);
         };
         let vehicle = &self.vehicle;
         let (base_in, rear) = (base.relative_to(&container), container.to_inner(vehicle.rear_most(trailer)));

@@ -86,7 +86,7 @@ impl Node {
         let vehicle = Articulated::PATSY;
         match controller {
             Controller::Reactive => Self::Reactive(ReactiveApproach::construct((
-                0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, vehicle, 0.05,
+                0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, vehicle, 0.05, 0.5,
             ))),
             Controller::Planned => Self::Planned(PlannedApproach::construct((
                 0.8,
@@ -101,6 +101,7 @@ impl Node {
                 0.05,
                 0.05,
                 0.05,
+                0.5,
             ))),
         }
     }
@@ -112,8 +113,8 @@ impl Node {
         let events: [Event<'_, ()>; 2] = [apex_rt::event(&mut reached), apex_rt::event(&mut missed)];
         let [r, m] = events;
         let twist = match self {
-            Self::Reactive(node) => node.process(&ctx, &base, &trailer, Some(&CONTAINER), r, m),
-            Self::Planned(node) => node.process(&ctx, &base, &trailer, Some(&CONTAINER), r, m),
+            Self::Reactive(node) => node.process(&ctx, Some(&base), Some(&trailer), Some(&CONTAINER), r, m),
+            Self::Planned(node) => node.process(&ctx, Some(&base), Some(&trailer), Some(&CONTAINER), r, m),
         };
         let twist = twist.expect("the hall is near the origin").unwrap_or_default();
         (reached.is_none() && missed.is_none()).then_some(twist)

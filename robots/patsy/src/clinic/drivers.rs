@@ -179,7 +179,7 @@ impl Camera {
     }
 }
 
-/// Motors: a sink. They brake if they receive no twist for 0.3 s.
+/// Motors: a sink. They brake if they receive no twist for the command time-out of the clinic.
 #[node]
 #[derive(Debug)]
 pub struct Motors {

@@ -19,7 +19,7 @@ pub const DURATION: Duration = Duration::from_secs(600);
 
 const STEP: Duration = Duration::from_millis(20);
 /// Time without a twist after which the motors brake.
-const WATCHDOG: Duration = Duration::from_millis(300);
+const COMMAND_TIMEOUT: Duration = Duration::from_millis(300);
 /// Errors of the wheel odometry, as a part of those of a Pioneer 2.
 const DRIFT: f32 = 0.3;
 /// Distance from the vehicle within which it may touch something, in m.
@@ -40,12 +40,14 @@ pub struct Options {
     pub people: usize,
     /// Faults of the devices.
     pub faults: Vec<Fault>,
+    /// Time without a twist after which the motors brake. Without one they keep the last twist.
+    pub command_timeout: Option<Duration>,
 }
 
-/// Eight people and no faults.
+/// Eight people, no faults, and motors that brake after 0.3 s.
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, people: PEOPLE, faults: vec![] }
+        Self { seed: 1, people: PEOPLE, faults: vec![], command_timeout: Some(COMMAND_TIMEOUT) }
     }
 }
 
@@ -60,6 +62,7 @@ pub struct State {
     odometry: Odometry,
     wheels: Pose2,
     command: (Twist, Time),
+    command_timeout: Option<Duration>,
     faults: Vec<Fault>,
     order: Option<Order>,
     orders: Random,
@@ -106,6 +109,7 @@ impl State {
             odometry: Odometry::new(OdometryNoise::PIONEER.times(DRIFT), stream(seed, 2).bits()),
             wheels: Pose2::default(),
             command: (Twist::ZERO, Time::ZERO),
+            command_timeout: options.command_timeout,
             faults: options.faults.clone(),
             order: None,
             orders: stream(seed, 3),
@@ -276,7 +280,8 @@ impl State {
             return;
         }
         let (twist, at) = self.command;
-        let command = if self.now.since(at) > WATCHDOG { Twist::ZERO } else { twist };
+        let is_over = self.command_timeout.is_some_and(|timeout| self.now.since(at) > timeout);
+        let command = if is_over { Twist::ZERO } else { twist };
         if self.now.as_nanos() % 100_000_000 == 0 {
             self.near.take_near(&self.site.building.world, self.body.tractor.base.pose.position(), TOUCH);
             let load = self.body.load.map(|(number, _)| number);

@@ -57,7 +57,7 @@ pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
 impl Missions {
     fn options(&self, seed: u64, kind: Option<FaultKind>) -> Options {
         let faults = kind.map(|kind| fault_at(kind, seed, self.duration));
-        Options { seed, people: self.people, faults: faults.into_iter().collect() }
+        Options { seed, people: self.people, faults: faults.into_iter().collect(), ..Options::default() }
     }
 }
 

@@ -51,7 +51,7 @@ pub fn drive_on(thing: Option<Thing>, speed: f32, seed: u64) -> Outcome {
             let _ = inputs.cloud.put(scene.take_from(&base, now).cloud);
         }
         let _ = (inputs.odometry.put(base), inputs.trailer.put(trailer), inputs.twist.put(Twist::new(speed, 0.0, 0.0)));
-        let _ = (inputs.scan.put(Scan::default()), inputs.persons.put(Persons::default()));
+        let _ = (inputs.scan.put(open(now)), inputs.persons.put(Persons::default()));
         program.react(now);
         let twist = program.outputs().limited.unwrap_or_default();
         for _ in 0..STEPS {
@@ -66,6 +66,13 @@ pub fn drive_on(thing: Option<Thing>, speed: f32, seed: u64) -> Outcome {
         }
     }
     Outcome::Stopped
+}
+
+/// Scan of a scanner that works and has nothing within range.
+fn open(stamp: Time) -> Scan {
+    let mut scan = Scan { stamp, ..Scan::default() };
+    scan.ranges.extend([f32::INFINITY]);
+    scan
 }
 
 /// Outcomes by thing.

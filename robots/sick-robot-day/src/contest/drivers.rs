@@ -245,7 +245,7 @@ impl Remote {
     }
 }
 
-/// Motors: a sink. They brake if they receive no twist for 0.3 s.
+/// Motors: a sink. They brake if they receive no twist for 0.3 s, unless the hall has no command time-out.
 #[node]
 #[derive(Debug)]
 pub struct Base {

@@ -3,7 +3,10 @@ use crate::{Arena, camera};
 use apex_nodes::{nav::Twist, scan::Pose2};
 use apex_rt::Time;
 use apex_sim::{CameraSim, NotLevel};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::{
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::Duration,
+};
 
 /// Hall of a [`Contest`]: a handle that all participants share.
 #[derive(Debug, Clone)]
@@ -50,6 +53,11 @@ impl Hall {
     /// Sets the twist of our motors at a time.
     pub fn drive(&self, now: Time, twist: Twist) {
         self.at(now).drive(twist);
+    }
+
+    /// Sets the command time-out of our motors, which is 0.3 s at first. Without one they keep the last twist.
+    pub fn set_command_timeout(&self, timeout: Option<Duration>) {
+        self.contest().set_command_timeout(timeout);
     }
 
     /// Switches our lamp at a time.

@@ -31,7 +31,7 @@ pub(super) const ROBOTS: usize = 1 + RIVALS;
 const STEP: Duration = Duration::from_millis(10);
 
 /// Time without a twist after which motors brake.
-const WATCHDOG: Duration = Duration::from_millis(300);
+const COMMAND_TIMEOUT: Duration = Duration::from_millis(300);
 
 const LIMITS: Limits = Limits { speed: 1.5, acceleration: 2.0, turn: 2.5, turn_acceleration: 6.0 };
 
@@ -57,6 +57,7 @@ pub struct Contest {
     odometry: Odometry,
     wheels: Pose2,
     command: (Twist, Time),
+    command_timeout: Option<Duration>,
     faults: Vec<Fault>,
     report: Report,
 }
@@ -101,6 +102,7 @@ impl Contest {
             odometry: Odometry::new(OdometryNoise::PIONEER, stream(seed, 2).bits()),
             wheels: Pose2::default(),
             command: (Twist::ZERO, Time::ZERO),
+            command_timeout: Some(COMMAND_TIMEOUT),
             faults,
             report: Report::default(),
         };
@@ -120,9 +122,14 @@ impl Contest {
         self.now
     }
 
-    /// Sets the twist of our motors. They brake if they receive none for 0.3 s.
+    /// Sets the twist of our motors. They brake if they receive none for the command time-out.
     pub const fn drive(&mut self, twist: Twist) {
         self.command = (twist, self.now);
+    }
+
+    /// Sets the command time-out of our motors, which is 0.3 s at first. Without one they keep the last twist.
+    pub const fn set_command_timeout(&mut self, timeout: Option<Duration>) {
+        self.command_timeout = timeout;
     }
 
     /// Switches our lamp.
@@ -212,7 +219,8 @@ impl Contest {
             }
         }
         let (twist, at) = self.command;
-        let ours = if self.now.since(at) > WATCHDOG { Twist::ZERO } else { twist };
+        let is_over = self.command_timeout.is_some_and(|timeout| self.now.since(at) > timeout);
+        let ours = if is_over { Twist::ZERO } else { twist };
         std::array::from_fn(|who| match who {
             0 => ours,
             _ => self.rivals[who - 1].command(who, &self.bodies),

@@ -44,6 +44,8 @@ pub struct Setup {
     pub mission: Mission,
     /// Faults of the robot.
     pub faults: Vec<Fault>,
+    /// `true` if the motors have no command time-out, so that they keep the last twist.
+    pub keeps_twist: bool,
     /// Duration from the start on.
     pub duration: Duration,
     /// Optional recording of the run.
@@ -165,6 +167,9 @@ impl Setup {
 
     fn drive<R: Robot>(&self, watch: &mut dyn Watch, mut stream: Option<Stream>) -> Result<Outcome, String> {
         let hall = Hall::new(self.seed, self.faults.clone()).map_err(|e| e.to_string())?;
+        if self.keeps_twist {
+            hall.set_command_timeout(None);
+        }
         let start = hall.robots()[0].pose;
         let mut robot = Box::new(R::in_hall(&hall));
         let mut tap = Tapped(self.record.as_ref().map(Recording::begin::<R>).transpose()?);
