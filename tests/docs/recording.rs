@@ -27,9 +27,7 @@ float64 variance";
 
     fn read(message: &mut Reader<'_>) -> Option<Self> {
         message.header()?;
-        let warmth = message.f64()?;
-        message.f64()?;
-        Some(Self(warmth))
+        message.f64().map(Self)
     }
 }
 

@@ -18,6 +18,8 @@ mod import;
 mod import_files;
 mod import_runs;
 mod memory;
+#[path = "../../../robots/moved.rs"]
+mod moved;
 mod new;
 mod nodes;
 mod params;

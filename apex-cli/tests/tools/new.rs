@@ -1,6 +1,7 @@
 use crate::{
     TARGET, builds, cargo,
     common::{Folder, apex, lock, stderr},
+    moved,
 };
 use std::{
     fs,
@@ -73,6 +74,12 @@ fn firmware_is_right_is_tested_and_runs_here() {
     assert_eq!(code, Some(0), "{errors}");
     // The same as without the standard library: see `robots/firmware/tests/bare.rs`.
     assert!(output.starts_with("0 ms: 0 mm/s\n500 ms: starts\n500 ms: 0 mm/s\n1000 ms: 423 mm/s\n"), "{output}");
+    // And the same where neither the project nor Apex is.
+    drop(folder);
+    let (folder, moved) = moved::run("my-cart", &format!("{TARGET}/debug/my-cart"), &[]);
+    assert_eq!((moved.status.code(), stderr(&moved).as_str()), (Some(0), ""));
+    assert_eq!(String::from_utf8(moved.stdout).unwrap(), output);
+    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]

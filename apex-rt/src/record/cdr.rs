@@ -73,11 +73,6 @@ impl<'a> Reader<'a> {
         Some(Self { bytes: bytes.strip_prefix(&HEADER)?, at: 0 })
     }
 
-    /// Returns `true` if everything has been read.
-    pub fn is_at_end(&self) -> bool {
-        self.at >= self.bytes.len()
-    }
-
     fn get<const N: usize>(&mut self) -> Option<[u8; N]> {
         let at = self.at.next_multiple_of(N);
         let number = self.bytes.get(at..at.checked_add(N)?)?;

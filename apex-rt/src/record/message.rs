@@ -90,8 +90,11 @@ impl<T: Message> ByMessage<T> for &&Kind<T> {
                 true
             },
             read: |bytes| {
-                let mut message = Reader::new(bytes)?;
-                T::read(&mut message).filter(|_| message.is_at_end())
+                let token = T::read(&mut Reader::new(bytes)?)?;
+                // A type need not read the fields that it only writes, such as those that are always zero.
+                let mut again = Vec::with_capacity(bytes.len());
+                token.write(&mut Writer::new(&mut again));
+                (again.len() == bytes.len()).then_some(token)
             },
             shape: || message::<T>().complete_definition(),
         })

@@ -8,7 +8,7 @@ use patsy::{
 use std::time::Duration;
 
 fn of(options: &Options, seconds: u64) -> Run {
-    run(options, Duration::from_secs(seconds), None).expect("the plan is in the repository")
+    run(options, Duration::from_secs(seconds), None).expect("the plan can be written")
 }
 
 #[test]

@@ -5,10 +5,16 @@ use apex_nodes::{
     scan::{Point2, Pose2},
 };
 use core::f32::consts::PI;
-use std::path::Path;
+use std::{
+    fs, io,
+    path::Path,
+    process,
+    sync::atomic::{AtomicU32, Ordering},
+};
 
-/// Plan of an office floor, drawn by the example `draw_building`.
-pub const BUILDING: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/building.dxf");
+/// Plan of an office floor (DXF), drawn by the example `draw_building`. It is a part of the program, which may run
+/// where the repository is not.
+const OFFICE: &str = include_str!("../building.dxf");
 /// Layers of a plan that do not stop a robot or its scanner: arcs that doors move along, marks, and areas.
 const WALLS: [&str; 2] = ["walls", "windows"];
 /// Side of a cell of the map of free places, in m.
@@ -35,6 +41,22 @@ impl Building {
         let mut world = World::default();
         plan.segments().iter().for_each(|segment| world.wall(segment.a, segment.b));
         Ok(Self { plan, world })
+    }
+
+    /// Writes the plan of the office floor that is a part of the program to `path`, where nodes can read it, too, and
+    /// reads it. A file with this plan is left as it is.
+    ///
+    /// # Errors
+    /// If it cannot be written or read.
+    pub fn office(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        let path = path.as_ref();
+        write_office(path).map_err(|error| {
+            let message = format!(
+                "the plan of the building cannot be written: {error}; run the program in a folder where it can"
+            );
+            ReadError { path: path.to_owned(), line: None, message }
+        })?;
+        Self::read(path)
     }
 
     /// Tries to place `count` pieces of furniture: boxes beside walls, and legs of tables and chairs elsewhere. Places
@@ -135,19 +157,55 @@ fn regions(map: &Grid<Occupancy>) -> Grid<u32> {
     regions
 }
 
+/// Writes the plan of the office floor, unless it is there. Several programs may do so at the same time.
+fn write_office(path: &Path) -> io::Result<()> {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    if fs::read(path).is_ok_and(|text| text == OFFICE.as_bytes()) {
+        return Ok(());
+    }
+    path.parent().map_or(Ok(()), fs::create_dir_all)?;
+    let number = COUNT.fetch_add(1, Ordering::Relaxed);
+    let part = path.with_extension(format!("{}-{number}.part", process::id()));
+    fs::write(&part, OFFICE)?;
+    fs::rename(&part, path)
+}
+
+/// Returns the path of the plan of the office floor, for tests.
+#[cfg(test)]
+pub(crate) fn office_file() -> &'static str {
+    static FILE: std::sync::OnceLock<String> = std::sync::OnceLock::new();
+    FILE.get_or_init(|| {
+        let path = std::env::temp_dir().join(format!("apex-sim-{}.dxf", process::id()));
+        write_office(&path).expect("room for a file");
+        path.to_str().expect("a name").to_owned()
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_plan_is_the_drawn_one() {
-        let text = std::fs::read_to_string(BUILDING).expect("the plan");
-        assert_eq!(text, crate::OfficePlan::new(1).dxf(), "`draw_building` writes it again");
+        assert_eq!(OFFICE, crate::OfficePlan::new(1).dxf(), "`draw_building` writes it again");
+    }
+
+    #[test]
+    fn the_plan_is_written_where_it_is_wanted() {
+        let folder = std::env::temp_dir().join(format!("apex-office-{}", process::id()));
+        let path = folder.join("deep/plan.dxf");
+        let walls = Building::office(&path).expect("room for a file").plan.segments().len();
+        fs::write(&path, "another").expect("room for a file");
+        assert_eq!(Building::office(&path).expect("room for a file").plan.segments().len(), walls);
+        assert_eq!(fs::read_dir(folder.join("deep")).expect("a folder").count(), 1, "nothing else is left there");
+        let error = Building::office(path.join("plan.dxf")).expect_err("below a file").to_string();
+        assert!(error.contains("the plan of the building cannot be written"), "{error}");
+        fs::remove_dir_all(&folder).expect("it is ours");
     }
 
     #[test]
     fn a_furnished_building_has_free_places() {
-        let mut building = Building::read(BUILDING).expect("the plan");
+        let mut building = Building::read(office_file()).expect("the plan");
         let walls = building.world.walls().len();
         assert_eq!(walls, building.plan.segments().len());
         building.furnish(300, &mut Random::new(1));

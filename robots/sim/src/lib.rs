@@ -40,7 +40,7 @@ mod world;
 pub use apex_nodes::math::Random;
 pub use base::DifferentialBase;
 #[cfg(feature = "building")]
-pub use building::{BUILDING, Building};
+pub use building::Building;
 #[cfg(feature = "camera")]
 pub use camera::{CameraSim, Light, NotLevel, expose};
 pub use drive::{Differential, Limits, Omnidirectional, Tractor};

@@ -242,12 +242,12 @@ impl BuildingTour {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::BUILDING;
+    use crate::building::office_file;
     use apex_rt::Construct;
 
     #[test]
     fn the_robot_drives_through_the_building_without_touching_anything() {
-        let mut building = Building::read(BUILDING).expect("the plan");
+        let mut building = Building::read(office_file()).expect("the plan");
         building.furnish(300, &mut Random::new(2));
         let mut tour = Tour::new(building, Laser::default(), 0.0, 2).expect("a place");
         let (mut way, mut nearest, mut last) = (0.0, f32::MAX, *tour.pose());
@@ -262,7 +262,7 @@ mod tests {
 
     #[test]
     fn the_wheels_do_not_notice_that_the_robot_is_carried() {
-        let mut node = BuildingTour::construct((BUILDING, 10, 0.0, 3));
+        let mut node = BuildingTour::construct((office_file(), 10, 0.0, 3));
         let fire = |node: &mut BuildingTour, ms: i64| {
             let (mut odometry, mut scan, mut pose) = (Out::new(), Out::new(), Out::new());
             node.process(&Ctx::new(Time::from_millis(ms)), &mut odometry, &mut scan, &mut pose).expect("a building");

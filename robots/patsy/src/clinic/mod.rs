@@ -16,5 +16,5 @@ pub use drivers::{Camera, Dispatch, Drivers, LiftDrive, Motors, RearScanner, Sca
 pub use fault::{Fault, FaultKind};
 pub use order::Order;
 pub use report::{Contact, Delivery, Report};
-pub use site::{DOCK, PEOPLE, STAIRWELL};
+pub use site::{DOCK, PEOPLE, PLAN, STAIRWELL};
 pub use state::{DURATION, Options, Snapshot};

@@ -3,8 +3,11 @@ use apex_nodes::{
     io::ReadError,
     scan::{Point2, Pose2},
 };
-use apex_sim::{BUILDING, Building, Footprint, Random, World, tof::Pit};
+use apex_sim::{Building, Footprint, Random, World, tof::Pit};
 use core::f32::consts::PI;
+
+/// File with the plan of the building, below the folder in which the program runs: the program writes it there.
+pub const PLAN: &str = "out/patsy/building.dxf";
 
 /// Place where the vehicle begins, on the plan.
 pub const DOCK: Pose2 = Pose2::new(2.0, 18.6, -0.5 * PI);
@@ -54,7 +57,7 @@ pub(super) struct Site {
 
 impl Site {
     pub fn new(random: &mut Random) -> Result<Self, ReadError> {
-        let mut building = Building::read(BUILDING)?;
+        let mut building = Building::office(PLAN)?;
         furnish(&mut building, random);
         let places = places(&building.world, random);
         let carts = places.iter().take(CARTS).map(|place| cart(place, random)).collect();

@@ -1,4 +1,5 @@
 use apex_nodes::localize::{Settings, TableSettings};
+use apex_sim::Building;
 use std::{num::NonZero, path::PathBuf, str::FromStr};
 
 const HELP: &str = "\
@@ -48,11 +49,14 @@ pub struct Options {
     pub trace: bool,
 }
 
+/// File into which the project's own plan is written.
+const OFFICE: &str = "out/building.dxf";
+
 impl Options {
     pub fn read() -> Result<Self, String> {
         use lexopt::prelude::*;
         let mut parser = lexopt::Parser::from_env();
-        let (mut files, mut plan, mut task) = (Vec::new(), PathBuf::from(apex_sim::BUILDING), None);
+        let (mut files, mut plan, mut task) = (Vec::new(), None, None);
         let (mut options, mut picture) = (Self::standard(), None);
         while let Some(argument) = parser.next().map_err(|e| e.to_string())? {
             match argument {
@@ -65,7 +69,7 @@ impl Options {
                 Long("speed") => task = Some("speed"),
                 Long("trace") => options.trace = true,
                 Long("draw") => picture = Some(PathBuf::from(parser.value().map_err(|e| e.to_string())?)),
-                Long("plan") => plan = parser.value().map_err(|e| e.to_string())?.into(),
+                Long("plan") => plan = Some(PathBuf::from(parser.value().map_err(|e| e.to_string())?)),
                 Long(name) => {
                     let name = name.to_owned();
                     let value = parser.value().map_err(|e| e.to_string())?;
@@ -75,10 +79,14 @@ impl Options {
                 other => return Err(format!("{}; `--help` lists the options", other.unexpected())),
             }
         }
+        let plan = || match plan {
+            Some(plan) => Ok(plan),
+            None => Building::office(OFFICE).map(|_| PathBuf::from(OFFICE)).map_err(|e| e.to_string()),
+        };
         options.task = match (task, picture) {
-            (_, Some(file)) => Task::Draw { plan, file },
-            (Some("building"), _) => Task::Building { plan },
-            (Some(_), _) => Task::Speed { plan },
+            (_, Some(file)) => Task::Draw { plan: plan()?, file },
+            (Some("building"), _) => Task::Building { plan: plan()? },
+            (Some(_), _) => Task::Speed { plan: plan()? },
             _ if files.len() > 1 => Task::Logs { map: files.remove(0), logs: files },
             _ => return Err("a map and a recording are needed; `--help` lists the options".to_owned()),
         };

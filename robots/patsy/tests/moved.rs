@@ -1,0 +1,14 @@
+//! The program runs on a machine without its source tree.
+
+#[path = "../../moved.rs"]
+mod moved;
+
+#[test]
+fn the_program_runs_elsewhere() {
+    let (folder, output) =
+        moved::run("patsy", env!("CARGO_BIN_EXE_patsy"), &["missions", "--minutes", "1", "--people", "0"]);
+    let text = |bytes| String::from_utf8_lossy(bytes).into_owned();
+    assert!(output.status.success(), "{}\n{}", text(&output.stdout), text(&output.stderr));
+    assert!(folder.join("out/patsy/clinic.svg").is_file(), "the picture");
+    std::fs::remove_dir_all(folder).expect("it is ours");
+}
