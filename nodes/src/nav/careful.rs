@@ -26,8 +26,9 @@ const LEFT: f32 = 0.5;
 ///
 /// Distances are those of the middle of a person from the outline of the vehicle with its load. `persons`, `pose` of
 /// the tractor and `trailer` are in one frame. Without them, for example before the first scan, the robot keeps to
-/// `min_speed`. It stops if the last twist is older than `max_age`. Persons who stand do not count if the robot drives away from them. It still moves with persons beside
-/// it: that it stops before them is the task of a [`TrailerField`](super::TrailerField).
+/// `min_speed`. It stops if the last twist is older than `max_age`. Persons who stand do not count if the robot drives
+/// away from them. It still moves with persons beside it: that it stops before them is the task of a
+/// [`TrailerField`](super::TrailerField).
 #[node]
 #[derive(Debug, Clone)]
 pub struct PersonCaution {

@@ -193,7 +193,7 @@ impl PathFollower {
         self.halt.drive(Twist::ZERO)
     }
 
-    /// Stops until there is a better pose. The time that this takes is no time without progress.
+    /// Stops until there is a better pose. The time that this takes does not count as time without progress.
     fn wait(&mut self) {
         self.motion = Motion::default();
         (self.progress.least, self.progress.obstructed_since) = (None, None);

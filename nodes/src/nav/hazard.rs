@@ -19,8 +19,8 @@ const APART: f32 = 0.1;
 /// Stops a robot before the nearest hazard that `HazardMap` reports.
 ///
 /// `map` and `hazard` are outputs of `HazardMap`. `map` may be ⊥, as clouds come less often than twists; `hazard` is ⊥
-/// with a map if the area before the robot is free. The robot stops, too, if no map is younger than `max_age`, so that a
-/// camera that does not work is not taken for free floor, and if the last twist is that old. Only driving forward is
+/// with a map if the area before the robot is free. The robot stops, too, if no map is younger than `max_age`, so that
+/// a camera that does not work is not taken for free floor, and if the last twist is that old. Only driving forward is
 /// limited by maps.
 #[node]
 #[derive(Debug, Clone)]

@@ -1,5 +1,5 @@
-//! Ages of tokens (docs/safety.md). The age of a token is that of its stamp, not of its arrival, and what comes from the
-//! future is not young.
+//! Ages of tokens (docs/safety.md). The age of a token is that of its stamp, not of its arrival, and what comes from
+//! the future is not young.
 
 use crate::scan::{Pose2, Scan};
 use apex_rt::{Ctx, Time};

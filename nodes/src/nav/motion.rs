@@ -25,9 +25,9 @@ fn braking_speed(distance: f32, speed: f32, deceleration: f32) -> f32 {
 /// Moves a robot by a distance in a direction, relative to its pose at activation, and keeps its heading (thesis
 /// 8.1.1).
 ///
-/// `pose` is in any fixed frame, such as that of odometry. `done` comes with a twist of zero. Without a pose that is younger
-/// than `max_age`, the robot stands still until there is one. Stops and fails if the pose is more than 100 km from the
-/// origin.
+/// `pose` is in any fixed frame, such as that of odometry. `done` comes with a twist of zero. Without a pose that is
+/// younger than `max_age`, the robot stands still until there is one. Stops and fails if the pose is more than 100 km
+/// from the origin.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MoveRobot {
@@ -93,8 +93,8 @@ impl MoveRobot {
 /// zero.
 ///
 /// The scan is in the frame of the robot. While nothing is measured ahead, the robot stands still, as the distance to
-/// stop at is unknown, and while there is no scan that is younger than `max_age`, by its stamp. A `SafetyField` behind this node needs a margin below `distance`; otherwise the robot never gets
-/// there.
+/// stop at is unknown, and while there is no scan that is younger than `max_age`, by its stamp. A `SafetyField` behind
+/// this node needs a margin below `distance`; otherwise the robot never gets there.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MoveToObstacle {

@@ -57,8 +57,8 @@ impl ProtectiveField {
 
 /// Slows a robot down before obstacles in its driving direction, and stops it before it touches one (thesis 4.3.6).
 ///
-/// `scan` is in the frame of the robot. It may be ⊥, as scans come less often than twists. The robot stops if no scan is
-/// younger than `max_age`, by its stamp, so that a failed scanner is not taken for free space; a scan that measures
+/// `scan` is in the frame of the robot. It may be ⊥, as scans come less often than twists. The robot stops if no scan
+/// is younger than `max_age`, by its stamp, so that a failed scanner is not taken for free space; a scan that measures
 /// nothing is none. It stops, too, if the last twist is that old.
 #[node]
 #[derive(Debug, Clone)]

@@ -23,8 +23,8 @@ const GRAZE: f32 = 0.01;
 ///
 /// `ahead` and `behind` are scans in the frames of the tractor and of the trailer, without the load. They may be ⊥, as
 /// scans come less often than twists, but the vehicle stops if one of the two is older than `max_age`, by its stamp; a
-/// scan that measures nothing is none. `base` and `trailer` are the poses of the two axes in one fixed frame such as that
-/// of odometry. The vehicle stops at once without them, and if the last twist is older than `max_age`.
+/// scan that measures nothing is none. `base` and `trailer` are the poses of the two axes in one fixed frame such as
+/// that of odometry. The vehicle stops at once without them, and if the last twist is older than `max_age`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TrailerField {

@@ -58,8 +58,8 @@ impl Scan {
         range.is_finite() && range >= self.range_min && range <= self.range_max
     }
 
-    /// Returns `true` if a beam has measured something, or that nothing is within range (infinity). A scan without beams,
-    /// or of NaN only, is that of a scanner that has failed.
+    /// Returns `true` if a beam has measured something, or that nothing is within range (infinity). A scan without
+    /// beams, or of NaN only, is that of a scanner that has failed.
     pub fn measures_anything(&self) -> bool {
         (0..self.ranges.len()).any(|beam| !self.sight(beam).is_nan())
     }

@@ -15,7 +15,7 @@ pub const STEP: Duration = Duration::from_millis(50);
 const GOOD: Time = Time::from_secs(1);
 const END: Time = Time::from_secs(4);
 
-/// What comes at an input.
+/// Tokens that come at an input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Condition {
     NoMessage,
@@ -89,7 +89,7 @@ impl Condition {
     }
 }
 
-/// What came of a condition.
+/// Outcome of a condition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome {
     /// Time in s from the last good input to the first twist of zero.

@@ -31,7 +31,7 @@ fn drivers() -> Vec<Signature> {
     drivers
 }
 
-/// Row of a node, and its inputs with their types. Parameters are no inputs here.
+/// Row of a node, and its inputs with their types. Its parameters are left out.
 fn row_of(signature: &Signature) -> (&'static Row, Vec<(String, String)>) {
     let name = &signature.name;
     let row = ROWS.iter().find(|row| row.name == *name);

@@ -15,7 +15,7 @@ use std::{any::Any, collections::BTreeMap};
 /// Tokens of one firing, by the names of the inputs. A missing one is ⊥.
 pub type Inputs = BTreeMap<String, Box<dyn Token>>;
 
-/// What a node sends in one firing.
+/// Answer of a node to one firing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sent {
     pub twist: Option<Twist>,

@@ -12,8 +12,9 @@ const STEP: f32 = 0.01;
 /// slots for twists and for the lift.
 ///
 /// Stands at the start of the [`FloorPlan`] with its trailer in line. Stops at obstacles, and when twists no longer
-/// come for `command_timeout`. `raise` lifts a container that stands above it: from then on, until it is down again, the vehicle has the
-/// footprint of the container, too, which turns with the trailer. It needs a period, for example `every 50ms`.
+/// come for `command_timeout`. `raise` lifts a container that stands above it: from then on, until it is down again,
+/// the vehicle has the footprint of the container, too, which turns with the trailer. It needs a period, for example
+/// `every 50ms`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TractorBase {

@@ -63,8 +63,8 @@ impl BackPath {
 /// axes in one fixed frame such as that of odometry: distances are measured with them, and where the path leads is not
 /// corrected, so a path should be a few metres long. A new path replaces the current one. The node sends twists while
 /// it has a path. It drops the path when the vehicle has `reached` its end, when it is `blocked`, so that it makes no
-/// progress for longer than `blocked_timeout` or the path is not finite, and when it is deactivated. Without both poses, or with poses older than
-/// `max_age`, the vehicle stands still.
+/// progress for longer than `blocked_timeout` or the path is not finite, and when it is deactivated. Without both
+/// poses, or with poses older than `max_age`, the vehicle stands still.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BackFollower {
@@ -132,7 +132,7 @@ impl BackFollower {
         }
         let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
         let Some((base, trailer)) = axes else {
-            // Time without a pose is no time without progress.
+            // Time without a pose does not count as time without progress.
             self.progress = None;
             return self.halt.drive(Twist::ZERO);
         };

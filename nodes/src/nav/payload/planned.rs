@@ -35,9 +35,8 @@ const OFF_CURVE: f32 = 0.2;
 /// container turns out to be elsewhere, the node plans the way of tractor and trailer: the shortest of the Dubins
 /// curves to a line before the container, on which the predicted trailer comes into line, is never bent by more than
 /// `max_bend`, and touches nothing of the container but the free strip between its wheels. `missed` comes if there is
-/// no such curve, or if the vehicle is beside its goal at the end. Without both poses, or with poses older than `max_age`,
-/// the vehicle stands still. Obstacles are the task of the safety field behind
-/// this node.
+/// no such curve, or if the vehicle is beside its goal at the end. Without both poses, or with poses older than
+/// `max_age`, the vehicle stands still. Obstacles are the task of the safety field behind this node.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PlannedApproach {
