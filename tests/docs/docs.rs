@@ -26,6 +26,7 @@ mod prose;
 mod rates;
 mod readme;
 mod recording;
+#[allow(dead_code)]
 mod safety;
 mod silence;
 mod studio;
