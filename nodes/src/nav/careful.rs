@@ -1,6 +1,6 @@
 use super::{
     Articulated, Twist,
-    latest::fresh,
+    latest::both_fresh,
     outline::{Axes, Outline},
     twist::Command,
 };
@@ -89,7 +89,7 @@ impl PersonCaution {
         persons: Option<&Persons>,
     ) -> Option<Twist> {
         let twist = self.command.update(ctx, twist, self.max_age);
-        let axes = fresh(ctx, pose, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let axes = both_fresh(ctx, [pose, trailer], self.max_age);
         let speed = match axes.zip(persons) {
             Some(((base, trailer), persons)) => self.speed(ctx.now(), &twist, [*base, *trailer], persons),
             None => self.min_speed,

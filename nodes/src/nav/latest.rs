@@ -46,6 +46,15 @@ pub(super) fn fresh<'a, T: Measured>(ctx: &Ctx, token: Option<&'a T>, max_age: f
     })
 }
 
+/// Returns both poses, if both are [`fresh`]: those of the axes of a tractor and its trailer.
+pub(super) fn both_fresh<'a>(
+    ctx: &Ctx,
+    [base, trailer]: [Option<&'a Pose2>; 2],
+    max_age: f32,
+) -> Option<(&'a Pose2, &'a Pose2)> {
+    fresh(ctx, base, max_age).zip(fresh(ctx, trailer, max_age))
+}
+
 /// Returns `true` if one of these poses is too far from the origin to compute with.
 pub(super) fn any_far<const N: usize>(poses: [Option<&Pose2>; N]) -> bool {
     poses.into_iter().flatten().any(Pose2::is_far)

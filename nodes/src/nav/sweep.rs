@@ -1,6 +1,6 @@
 use super::{
     Articulated, Twist,
-    latest::{Latest, Measured, fresh},
+    latest::{Latest, Measured, both_fresh},
     outline::{Axes, Part},
     twist::Command,
 };
@@ -74,7 +74,7 @@ impl SweepStop {
     ) -> Option<Twist> {
         self.last.update(ctx, map, self.max_age);
         let twist = self.command.update(ctx, twist, self.max_age);
-        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let axes = both_fresh(ctx, [base, trailer], self.max_age);
         let limited = match self.last.young(ctx, self.max_age).zip(axes) {
             Some((map, (base, trailer))) => {
                 twist.stoppable(self.gap(map, &twist, [*base, *trailer]), self.deceleration, 0.0)

@@ -1,6 +1,6 @@
 use super::{
     Articulated, Twist,
-    latest::{Latest, fresh},
+    latest::{Latest, both_fresh},
     outline::{Axes, Outline},
     twist::Command,
 };
@@ -70,7 +70,7 @@ impl TrailerField {
             last.update(ctx, scan, self.max_age);
         }
         let twist = self.command.update(ctx, twist, self.max_age);
-        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let axes = both_fresh(ctx, [base, trailer], self.max_age);
         let limited = match axes.map(|(base, trailer)| [*base, *trailer]) {
             Some(now) if twist != Twist::ZERO && self.find_near(ctx, &now) => {
                 twist.stoppable(self.gap(&twist, &now), self.deceleration, self.latency)

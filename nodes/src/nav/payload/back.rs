@@ -3,7 +3,7 @@ use crate::{
     math::normalize_angle,
     nav::{
         Twist,
-        latest::{any_far, fresh},
+        latest::{any_far, both_fresh},
         twist::Halt,
     },
     scan::{FarFromOrigin, Pose2},
@@ -68,7 +68,7 @@ impl BackUp {
     }
 
     fn step(&mut self, ctx: &Ctx, base: Option<&Pose2>, trailer: Option<&Pose2>, done: Event<()>) -> Option<Twist> {
-        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let axes = both_fresh(ctx, [base, trailer], self.max_age);
         let bend = axes.map(|(base, trailer)| normalize_angle(&(base.theta - trailer.theta)));
         if let Some(((base, _), bend)) = axes.zip(bend) {
             let last = self.last.replace(*base).unwrap_or(*base);

@@ -3,7 +3,7 @@ use crate::{
     math::normalize_angle,
     nav::{
         Twist,
-        latest::{any_far, fresh},
+        latest::{any_far, both_fresh},
         twist::Halt,
     },
     scan::{FarFromOrigin, Pose2},
@@ -130,7 +130,7 @@ impl BackFollower {
         if self.path.pieces.is_empty() {
             return self.halt.rest();
         }
-        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let axes = both_fresh(ctx, [base, trailer], self.max_age);
         let Some((base, trailer)) = axes else {
             // Time without a pose does not count as time without progress.
             self.progress = None;

@@ -2,7 +2,7 @@ use super::vehicle::{Arrival, Articulated, arrival};
 use crate::{
     nav::{
         Twist,
-        latest::{any_far, fresh},
+        latest::{any_far, both_fresh, fresh},
         twist::Halt,
     },
     scan::{FarFromOrigin, Point2, Pose2},
@@ -93,7 +93,7 @@ impl ReactiveApproach {
             return self.halt.rest();
         }
         self.container = fresh(ctx, container, self.max_age).copied().or(self.container);
-        let axes = fresh(ctx, base, self.max_age).zip(fresh(ctx, trailer, self.max_age));
+        let axes = both_fresh(ctx, [base, trailer], self.max_age);
         let Some(((base, trailer), container)) = axes.zip(self.container) else {
             return self.halt.drive(Twist::ZERO);
         };
