@@ -60,8 +60,8 @@ pub struct Live {
     pub paused: bool,
     /// Simulated seconds per second.
     pub speed: f64,
-    /// Number of messages about both.
-    pub paces: u64,
+    /// Number of ways of this run that are over.
+    pub ways: u64,
     /// Number of reactions.
     pub reactions: u64,
     /// Parameters that were set, with the numbers of reactions before.
@@ -178,7 +178,7 @@ impl Default for Live {
             tokens: BTreeMap::new(),
             paused: false,
             speed: f64::INFINITY,
-            paces: 0,
+            ways: 0,
             reactions: 0,
             sets: vec![],
             calls: vec![],
@@ -279,10 +279,7 @@ impl Live {
             }
             Report::Lost(count) => self.lost = self.lost.saturating_add(count),
             Report::Param { name, value, reactions } => self.param(name, value, reactions),
-            Report::Pace { paused, speed, .. } => {
-                (self.paused, self.speed) = (paused, speed);
-                self.paces += 1;
-            }
+            Report::Pace { paused, speed, ways, .. } => (self.paused, self.speed, self.ways) = (paused, speed, ways),
             Report::Checkpoints(all) => self.keep(&all),
             Report::NoCheckpoints(why) => (self.no_checkpoints, self.checkpoints) = (Some(why), vec![]),
             Report::Ended => self.end(Run::Ended),

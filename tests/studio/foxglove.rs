@@ -275,9 +275,9 @@ fn an_app_halts_a_robot_and_goes_forth_and_back() {
     app.subscribe(1, &count);
     app.token(1);
     app.control(false, 1.0, None, "halt");
-    assert_eq!(app.state(|state| state.4 == "halt").0, HALTED);
-    // Ahead, where nothing is known yet. The robot halts there.
+    // Ahead, where nothing is known yet. The robot halts there, also if it was still being halted for the first request.
     app.control(false, 1.0, Some(5.0), "ahead");
+    assert_eq!(app.state(|state| state.4 == "halt").0, HALTED);
     assert!(app.state(|state| state.4 == "ahead").3);
     let (_, now, ..) = app.state(|state| state.0 == HALTED);
     assert_eq!(now, 4_990_000_000);

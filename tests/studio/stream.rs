@@ -85,7 +85,7 @@ fn a_viewer_sees_every_firing_of_a_waiting_program() {
         assert_eq!((about.name.as_str(), about.version, about.simulated), ("Counts", message::VERSION, true));
         let node = |name: &str| about.nodes.iter().position(|node| node.name == name).expect("a node") as u32;
         assert_eq!(viewer.next(), Some(Report::Active(vec![])));
-        assert_eq!(viewer.next(), Some(Report::Pace { paused: true, speed: f64::INFINITY, reactions: 0 }));
+        assert_eq!(viewer.next(), Some(Report::Pace { paused: true, speed: f64::INFINITY, reactions: 0, ways: 0 }));
         viewer.tell(&Command::Run { speed: f64::INFINITY });
         let all = viewer.until(|report| *report == Report::Ended);
         let count = |wanted: &Report| all.iter().filter(|report| *report == wanted).count();

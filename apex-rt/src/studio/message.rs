@@ -116,6 +116,9 @@ pub enum Report {
         speed: f64,
         /// Number of reactions so far.
         reactions: u64,
+        /// Number of ways ([`RunTo`](Command::RunTo) and the like) that are over, because the robot is there or was told
+        /// otherwise.
+        ways: u64,
     },
     /// Numbers of reactions before all checkpoints, in sequence. The last one may be new: it is then the current state.
     Checkpoints(Vec<u64>),

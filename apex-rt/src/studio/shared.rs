@@ -148,6 +148,8 @@ struct State {
     reactions: u64,
     /// The point at which the program halts; until then it does not wait.
     goal: Option<Goal>,
+    /// Number of goals that have been reached or given up.
+    ways: u64,
     /// Number of reactions to which it is to go back.
     back: Option<u64>,
     speed: f64,
@@ -185,7 +187,8 @@ impl Pace {
     /// A pace of as fast as possible; `paused` if the program waits for a viewer.
     pub fn new(paused: bool) -> Self {
         let (speed, stop) = (f64::INFINITY, (Vec::new(), false));
-        let state = State { paused, reactions: 0, goal: None, back: None, speed, since: None, stop, is_new: false };
+        let (goal, back, since) = (None, None, None);
+        let state = State { paused, reactions: 0, goal, ways: 0, back, speed, since, stop, is_new: false };
         Self { state: Mutex::new(state), changed: Condvar::new() }
     }
 
@@ -195,8 +198,8 @@ impl Pace {
 
     /// State of the program, for viewers.
     pub fn report(&self) -> Report {
-        let State { paused, speed, reactions, goal, .. } = *self.state();
-        Report::Pace { paused: paused && goal.is_none(), speed, reactions }
+        let State { paused, speed, reactions, goal, ways, .. } = *self.state();
+        Report::Pace { paused: paused && goal.is_none(), speed, reactions, ways }
     }
 
     /// Number of reactions so far.
@@ -214,7 +217,7 @@ impl Pace {
     pub fn obey(&self, command: &Command, active: &[AtomicBool]) {
         let mut state = self.state();
         match command {
-            Command::Pause => (state.paused, state.goal) = (true, None),
+            Command::Pause => state.halt(),
             Command::Step => {
                 let from = if let Some(Goal::Reactions(goal)) = state.goal { goal } else { state.reactions };
                 state.goal = Some(Goal::Reactions(from + 1));
@@ -224,7 +227,10 @@ impl Pace {
             Command::GoBack { reactions } => state.back = Some(*reactions),
             // Not a number, or nothing at all: the program would never continue.
             Command::Run { speed } if speed.is_nan() || *speed <= 0.0 => state.paused = true,
-            Command::Run { speed } => (state.paused, state.goal, state.speed) = (false, None, *speed),
+            Command::Run { speed } => {
+                state.end_way();
+                (state.paused, state.speed) = (false, *speed);
+            }
             Command::Break(tests) => state.stop = (tests.clone(), holds(tests, active)),
             _ => return,
         }
@@ -266,11 +272,21 @@ impl Pace {
     /// Halts the program until a viewer lets it run.
     pub fn halt(&self) {
         let mut state = self.state();
-        (state.paused, state.goal, state.back, state.since, state.is_new) = (true, None, None, None, true);
+        state.halt();
+        (state.back, state.since, state.is_new) = (None, None, true);
     }
 }
 
 impl State {
+    fn halt(&mut self) {
+        self.end_way();
+        self.paused = true;
+    }
+
+    fn end_way(&mut self) {
+        self.ways += u64::from(self.goal.take().is_some());
+    }
+
     /// Halts the program if the condition for that has become true. What it does before a goal is known.
     fn stop(&mut self, active: &[AtomicBool]) {
         let (tests, was) = &mut self.stop;
@@ -292,7 +308,10 @@ impl State {
         };
         match self.goal.map(is_there) {
             Some(false) => return Duration::ZERO,
-            Some(true) => (self.goal, self.paused, self.is_new) = (None, true, true),
+            Some(true) => {
+                self.halt();
+                self.is_new = true;
+            }
             None => {}
         }
         if self.paused {

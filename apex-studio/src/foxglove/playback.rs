@@ -29,8 +29,8 @@ pub struct Playback {
 
 /// A way to another time, on which the robot is.
 struct Way {
-    /// Number of the run, and of its messages about its pace, before it.
-    from: (u64, u64),
+    /// What counted the ends of ways before it. That the robot is halted says nothing: it may not have begun.
+    from: Ends,
     /// `true` if the robot goes on at the end.
     plays: bool,
 }
@@ -49,6 +49,13 @@ pub fn range(seen: &Seen, live: &Live) -> (Moment, Moment) {
     (Moment::new(first), Moment::new(last))
 }
 
+/// Numbers of runs, of their returns to checkpoints, and of ways that are over. A way changes one of them at its end.
+type Ends = (u64, u64, u64);
+
+fn ends(live: &Live) -> Ends {
+    (live.runs, live.returns, live.ways)
+}
+
 impl Playback {
     /// Obeys an app.
     pub fn obey(&mut self, seen: &Seen, control: Control) -> Vec<Frame> {
@@ -64,7 +71,7 @@ impl Playback {
         if target.is_some_and(|target| target < live.now) && !seen.travels {
             return vec![Frame::error("this robot cannot go back in time")];
         }
-        let from = (live.runs, live.paces);
+        let from = ends(&live);
         drop(live);
         self.speed = Some(speed);
         if let Some(target) = target {
@@ -90,7 +97,7 @@ impl Playback {
     /// Returns what has changed.
     pub fn news(&mut self, seen: &Seen, live: &Live) -> Vec<Frame> {
         let mut news = vec![];
-        let has_arrived = |way: &Way| live.paused && !live.travels && way.from != (live.runs, live.paces);
+        let has_arrived = |way: &Way| !live.travels && way.from != ends(live);
         if let Some(way) = self.way.take_if(|way| has_arrived(way) || live.run == Run::Ended)
             && way.plays
         {
