@@ -147,7 +147,7 @@ pub fn machine(machine: &Machine) -> Frame {
         frame.items.push(Item { active: true, ..Item::new(Shape::State, state) });
     }
     frame.items.push(Item::new(Shape::Start, "start"));
-    transition(&mut frame, machine.states.len(), 0, sends(machine, &machine.begin).trim().to_owned());
+    transition(&mut frame, machine.states.len(), 0, sends(machine, machine.begin()).trim().to_owned());
     for slot in &machine.slots {
         for arm in &slot.arms {
             let what = label(machine, slot, arm);

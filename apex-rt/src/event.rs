@@ -11,6 +11,15 @@ impl<'a, T> Event<'a, T> {
         Self { slot: None }
     }
 
+    /// Returns the same event, for one of several places that may trigger it.
+    #[doc(hidden)]
+    pub const fn by_ref(&mut self) -> Event<'_, T> {
+        match &mut self.slot {
+            Some(slot) => Event { slot: Some(slot) },
+            None => Event { slot: None },
+        }
+    }
+
     /// Triggers the event with `value`.
     pub fn emit(self, value: T) {
         if let Some(slot) = self.slot {

@@ -275,7 +275,7 @@ fn an_app_halts_a_robot_and_goes_forth_and_back() {
     app.subscribe(1, &count);
     app.token(1);
     app.control(false, 1.0, None, "halt");
-    // Ahead, where nothing is known yet. The robot halts there, also if it was still being halted for the first request.
+    // Ahead, where nothing is known yet. The robot halts there, also if it was still being halted before.
     app.control(false, 1.0, Some(5.0), "ahead");
     assert_eq!(app.state(|state| state.4 == "halt").0, HALTED);
     assert!(app.state(|state| state.4 == "ahead").3);

@@ -165,16 +165,17 @@ pub fn moves_activity(graph: &Graph, node: NodeId) -> bool {
 }
 
 /// Connections on which the slots of a node send for other nodes: those of the events `activated` and `deactivated`,
-/// and for `reset` those of `start`.
+/// those of state machines that it moves to another state, and for `reset` those of `start`.
 fn sent_with_activity(graph: &Graph, node: NodeId) -> Vec<ConnectionId> {
     let nodes: Option<BTreeSet<NodeId>> = match graph.nodes[node].kind {
         NodeKind::Reset => None,
         NodeKind::Interrupt(subject) => Some(graph.nodes_of(subject).into_iter().collect()),
         _ => return vec![],
     };
+    let tells = |from: PortId| graph.port(from).tells_of_activity() || graph.port(from).comes_with_moves;
     let sent = |from: PortId| match &nodes {
-        None => matches!(graph.nodes[from.node].kind, NodeKind::Start) || graph.port(from).tells_of_activity(),
-        Some(nodes) => graph.port(from).tells_of_activity() && nodes.contains(&from.node),
+        None => matches!(graph.nodes[from.node].kind, NodeKind::Start) || tells(from),
+        Some(nodes) => tells(from) && nodes.contains(&from.node),
     };
     graph.connections.ids().filter(|c| sent(graph.connections[*c].from)).collect()
 }

@@ -242,6 +242,7 @@ impl Catalog {
             on_activate: methods.iter().find_map(|m| m.on_activate.clone()),
             on_deactivate: methods.iter().find_map(|m| m.on_deactivate.clone()),
             on_stop: methods.iter().find_map(|m| m.on_stop.clone()),
+            moved: None,
             deactivates: node.deactivates,
         }
     }

@@ -6,7 +6,11 @@ use super::{
     types::ident,
     wiring::Flag,
 };
-use crate::graph::{ConnectionId, Interrupt, NodeId, PortId, Standard};
+use crate::{
+    catalog::ArgSig,
+    graph::{ConnectionId, Interrupt, NodeId, NodeKind, PortId, Standard},
+    machine::Move,
+};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::Ident;
@@ -35,15 +39,17 @@ impl Generator<'_> {
     pub fn interrupts(&self, view: ProgramView<'_>) -> TokenStream {
         let mut code = quote!();
         for Interrupt { node, takes, .. } in view.graph.interrupts() {
-            let nodes: Vec<NodeId> = takes.into_iter().filter(|node| view.analysis.active.contains(node)).collect();
+            let is_active = |node: &NodeId| view.analysis.active.contains(node);
+            let nodes: Vec<NodeId> = takes.iter().copied().filter(is_active).collect();
             for standard in [Standard::Cancel, Standard::Resume] {
                 let Some(port) = standard.of_interrupt().filter(|_| self.is_called(view, node, standard)) else {
                     continue;
                 };
-                let body = match standard {
-                    Standard::Cancel => self.cancel(view, node, &nodes),
-                    _ => self.resume(view, node, &nodes),
+                let (body, how) = match standard {
+                    Standard::Cancel => (self.cancel(view, node, &nodes), Move::Cancel),
+                    _ => (self.resume(view, node, &nodes), Move::Resume),
                 };
+                let machines = takes.iter().map(|node| self.move_machine(view, *node, how));
                 let end = PortId { node, port };
                 let (name, docs) = (self.interrupt_function(view, end), format!(" `{}`", view.graph.end_name(end)));
                 let (place, state) = (self.nodes_type(view), self.item(view.graph, "State"));
@@ -51,6 +57,7 @@ impl Generator<'_> {
                     #[doc = #docs]
                     #[allow(unused_variables)]
                     fn #name<O: ::apex_rt::Observer>(nodes: &mut #place, state: &mut #state, ctx: &::apex_rt::Ctx, observer: &mut O) {
+                        #(#machines)*
                         #body
                     }
                 });
@@ -104,6 +111,19 @@ impl Generator<'_> {
             #sends
             #check
         }
+    }
+
+    /// Moves a state machine to another state, and sends its events. Nothing for other nodes.
+    pub fn move_machine(&self, view: ProgramView<'_>, node: NodeId, how: Move) -> TokenStream {
+        let NodeKind::Library(library) = &view.graph.nodes[node].kind else { return quote!() };
+        let Some(moved) = &self.catalog.signatures[library.signature].moved else { return quote!() };
+        let ports = moved.iter().filter_map(|arg| if let ArgSig::Port(port) = arg { Some(*port) } else { None });
+        let events: Vec<TokenStream> = ports.map(|port| self.event(view, PortId { node, port })).collect();
+        let (place, method) = (self.node_place(view.graph, node), ident(how.method()));
+        // Its other events may still be on their way.
+        let comes = |end: PortId| view.graph.port(end).comes_with_moves;
+        let (clear, emit) = (self.clear(view, node, &comes), self.emit_from(view, node, &comes));
+        quote! { #clear #place.#method(#(#events),*); #emit }
     }
 
     /// Remembers the nodes among `nodes` to which the activity of `node` is given back.

@@ -6,10 +6,10 @@ use super::{
 };
 use crate::{
     catalog::{Catalog, Type},
-    machine::{Machine, Sending, Slot, Token},
+    machine::{Machine, Move, Sending, Slot, Token},
 };
-use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens as _, format_ident, quote};
 use syn::Ident;
 
 /// Name of the enum of states: `State`, unless the machine is called so.
@@ -25,11 +25,11 @@ pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
     let states = states(machine);
     let first = &states[0];
     let texts = &machine.states;
-    let remembered: Vec<Ident> = (0..machine.memories.len()).map(remembered).collect();
     let known = machine.memories.iter().map(|memory| &states[memory.states[0]]);
+    let (places, moves) = (1 + machine.memories.len(), moves(machine, &states, catalog));
     let methods = machine.slots.iter().map(|slot| method(machine, slot, &states, catalog));
     let begin = begin(machine, catalog);
-    let slots = machine.slots.iter().map(|slot| &slot.ty).chain((!machine.begin.is_empty()).then_some(&UNIT));
+    let slots = machine.slots.iter().map(|slot| &slot.ty).chain((!machine.begin().is_empty()).then_some(&UNIT));
     let slots = slots.enumerate().map(|(i, ty)| {
         let ty = token_type(ty, catalog);
         quote! { impl ::apex_rt::Slot<#i> for #name { type Token = #ty; } }
@@ -41,18 +41,25 @@ pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
     quote! {
         #[doc = #docs]
         #[derive(Debug)]
-        pub struct #name { state: #states_name, #(#remembered: #states_name,)* }
+        pub struct #name {
+            /// Its state, and the states to which `resume` leads.
+            now: [#states_name; #places],
+            /// The same before the last `cancel`.
+            left: Option<[#states_name; #places]>,
+        }
         /// The states of the machine.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum #states_name { #(#[doc = #texts] #states,)* }
         impl #name {
             /// The state that it is in.
-            pub fn state(&self) -> #states_name { self.state }
+            pub fn state(&self) -> #states_name { self.now[0] }
             #(#methods)*
             #begin
+            const FIRST: [#states_name; #places] = [#states_name::#first, #(#states_name::#known,)*];
+            #moves
         }
         impl ::apex_rt::Construct<()> for #name {
-            fn construct((): ()) -> Self { Self { state: #states_name::#first, #(#remembered: #states_name::#known,)* } }
+            fn construct((): ()) -> Self { Self { now: Self::FIRST, left: None } }
         }
         const _: () = { #(#slots)* #(#events)* };
     }
@@ -108,7 +115,7 @@ fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -
         let guard = arm.guard.as_ref().map(|guard| holds(guard, &slot.ty));
         let memory = arm.remembered.map(|(memory, last)| {
             let (memory, last) = (remembered(memory), &states[last]);
-            quote!(self.#memory == #states_name::#last)
+            quote!(self.now[#memory] == #states_name::#last)
         });
         let guard = match (guard, memory) {
             (Some(guard), Some(memory)) => quote!(if #memory && (#guard)),
@@ -119,7 +126,7 @@ fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -
             let inside = machine.memories.iter().enumerate().filter(|(_, memory)| memory.states.contains(&target));
             let kept = inside.map(|(memory, _)| remembered(memory));
             let target = &states[target];
-            quote! { self.state = #states_name::#target; #(self.#kept = self.state;)* }
+            quote! { self.now[0] = #states_name::#target; #(self.now[#kept] = self.now[0];)* }
         });
         let sends = arm.sends.iter().map(|sending| send(machine, sending));
         quote! { #states_name::#state #guard => { #target #(#sends)* } }
@@ -129,31 +136,90 @@ fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -
         #[doc = #docs]
         #[inline]
         pub fn #name(&mut self, #token #(#events),*) {
-            match self.state { #(#arms)* _ => {} }
+            match self.now[0] { #(#arms)* _ => {} }
         }
     }
 }
 
-/// Field for the last innermost state of a state.
-fn remembered(memory: usize) -> Ident {
-    format_ident!("last_{memory}")
+/// Place of the last innermost state of a state.
+fn remembered(memory: usize) -> Literal {
+    Literal::usize_unsuffixed(1 + memory)
 }
 
 fn begin(machine: &Machine, catalog: &Catalog) -> TokenStream {
-    if machine.begin.is_empty() {
+    let begin = machine.begin();
+    if begin.is_empty() {
         return quote!();
     }
-    let (name, events) = (ident(Machine::BEGIN_METHOD), machine.begin.iter().map(|s| s.event).collect::<Vec<_>>());
-    let (args, sends) = (event_args(machine, &events, catalog), machine.begin.iter().map(|s| send(machine, s)));
+    let (name, events) = (ident(Machine::BEGIN_METHOD), begin.iter().map(|s| s.event).collect::<Vec<_>>());
+    let (args, sends) = (event_args(machine, &events, catalog), begin.iter().map(|s| send(machine, s)));
     quote! {
         /// Its first state is entered.
         pub fn #name(&mut self, #(#args),*) { #(#sends)* }
     }
 }
 
+/// The methods by which `reset`, `cancel` and `resume` move the machine to another state.
+fn moves(machine: &Machine, states: &[Ident], catalog: &Catalog) -> TokenStream {
+    let (states_name, places) = (states_name(machine), 1 + machine.memories.len());
+    let moved = machine.moved();
+    let args = event_args(machine, &moved, catalog);
+    let names: Vec<Ident> = moved.iter().map(|event| event_arg(&machine.events[*event].0)).collect();
+    let sends = |sendings: &[Vec<Sending>]| -> TokenStream {
+        let of_states = states.iter().zip(sendings).filter(|(_, sends)| !sends.is_empty());
+        let arms = of_states.map(|(state, sends)| {
+            let sends = sends.iter().map(|sending| {
+                let event = event_arg(&machine.events[sending.event].0);
+                send_on(machine, sending, &quote!(#event.by_ref()))
+            });
+            quote! { #states_name::#state => { #(#sends)* } }
+        });
+        let arms: TokenStream = arms.collect();
+        if arms.is_empty() {
+            arms
+        } else {
+            quote! { match self.now[0] { #arms _ => {} } }
+        }
+    };
+    let (leave, enter) = (sends(&machine.exits), sends(&machine.entries));
+    let [restart, cancel, resume] = [Move::Restart, Move::Cancel, Move::Resume].map(|how| ident(how.method()));
+    quote! {
+        /// It is left. Its first state is entered at `start`.
+        #[allow(unused_mut, unused_variables)]
+        pub fn #restart(&mut self, #(mut #args),*) {
+            #leave
+            (self.now, self.left) = (Self::FIRST, None);
+        }
+        /// It goes back to its first state, and remembers where it was.
+        pub fn #cancel(&mut self, #(#args),*) {
+            if self.now != Self::FIRST {
+                self.left = Some(self.now);
+                self.go(Self::FIRST, #(#names),*);
+            }
+        }
+        /// It goes back to where it was before `cancel`.
+        pub fn #resume(&mut self, #(#args),*) {
+            if let Some(left) = self.left.take() {
+                self.go(left, #(#names),*);
+            }
+        }
+        #[allow(unused_mut, unused_variables)]
+        fn go(&mut self, to: [#states_name; #places], #(mut #args),*) {
+            let moves = to[0] != self.now[0];
+            if moves { #leave }
+            self.now = to;
+            if moves { #enter }
+        }
+    }
+}
+
 fn send(machine: &Machine, sending: &Sending) -> TokenStream {
-    let (name, ty) = &machine.events[sending.event];
-    let event = event_arg(name);
+    let event = event_arg(&machine.events[sending.event].0);
+    send_on(machine, sending, &event.into_token_stream())
+}
+
+fn send_on(machine: &Machine, sending: &Sending, event: &TokenStream) -> TokenStream {
+    let ty = &machine.events[sending.event].1;
     match &sending.token {
         Token::Unit => quote! { #event.emit(()); },
         Token::Same => quote! { #event.emit(::core::clone::Clone::clone(token)); },

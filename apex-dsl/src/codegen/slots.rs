@@ -13,6 +13,7 @@ use crate::{
     analyse::Delivery,
     catalog::{ArgSig, Signature},
     graph::{ConnectionId, Flow, Graph, Library, NodeId, NodeKind, PortId, Standard},
+    machine::Move,
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
@@ -39,7 +40,8 @@ impl Generator<'_> {
         self.emit_from(view, node, &|end| view.graph.port(end).tells_of_activity())
     }
 
-    fn emit_from(&self, view: ProgramView<'_>, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> TokenStream {
+    /// The tokens of some ports of a node are on their way.
+    pub fn emit_from(&self, view: ProgramView<'_>, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> TokenStream {
         let rows = view.wiring.of(node).iter().filter(|port| wanted(port.end) && !port.sends.is_empty());
         let ports = rows.map(|port| {
             let (always, sends): (Vec<&Send>, Vec<&Send>) = port.sends.iter().partition(|send| send.absent);
@@ -109,7 +111,8 @@ impl Generator<'_> {
         self.clear(view, node, &|end| view.graph.port(end).tells_of_activity())
     }
 
-    fn clear(&self, view: ProgramView<'_>, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> TokenStream {
+    /// Some events of a node are empty before it may trigger them.
+    pub fn clear(&self, view: ProgramView<'_>, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> TokenStream {
         let ends = (0..view.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
         let names = ends.filter(|end| wanted(*end) && self.is_sent_event(view, *end)).map(|end| self.name(end));
         quote! { #(state.#names = None;)* }
@@ -449,7 +452,8 @@ impl Generator<'_> {
         let remembered = view.analysis.active.iter().filter(|node| self.remembers(view, **node));
         let forgets =
             remembered.map(|node| self.held(*node)).map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
+        let restart = view.graph.nodes.ids().map(|node| self.move_machine(view, node, Move::Restart));
         let begin = self.begin(view);
-        quote! { #(#deactivates)* #(#clears)* #(#forgets)* #begin }
+        quote! { #(#deactivates)* #(#clears)* #(#forgets)* #(#restart)* #begin }
     }
 }

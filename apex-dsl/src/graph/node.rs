@@ -228,6 +228,8 @@ pub struct Port {
     pub parameter: Option<usize>,
     /// Meaning, if it is a port that every node has.
     pub standard: Option<Standard>,
+    /// `true` for an event of a state machine that may come when `reset`, `cancel` or `resume` moves it.
+    pub comes_with_moves: bool,
     /// Documentation.
     pub docs: String,
 }
@@ -343,6 +345,7 @@ impl Port {
             element_of: None,
             parameter: None,
             standard: None,
+            comes_with_moves: false,
             docs: String::new(),
         }
     }

@@ -25,14 +25,39 @@ pub struct Machine {
     pub docs: String,
     /// The innermost states, by path: `fetch.drive`. The first one is the initial state.
     pub states: Vec<String>,
-    /// Events that are triggered at the start, because the initial state is entered.
-    pub begin: Vec<Sending>,
+    /// For each innermost state, the events of the `entry` of it and of the states around it. Those of the initial
+    /// state are triggered at the start.
+    pub entries: Vec<Vec<Sending>>,
+    /// For each innermost state, the events of the `exit` of it and of the states around it.
+    pub exits: Vec<Vec<Sending>>,
     /// The states to which transitions with `resume` lead.
     pub memories: Vec<Memory>,
     /// Its slots.
     pub slots: Vec<Slot>,
     /// Its events, with the types of their tokens.
     pub events: Vec<(String, Type)>,
+}
+
+/// A way from outside to move a machine to another state.
+#[derive(Debug, Clone, Copy)]
+pub enum Move {
+    /// `reset`: it is left, and `start` enters its first state.
+    Restart,
+    /// `cancel`: back to its first state.
+    Cancel,
+    /// `resume`: back to where it was before `cancel`.
+    Resume,
+}
+
+impl Move {
+    /// The method that does it.
+    pub fn method(self) -> &'static str {
+        match self {
+            Self::Restart => "restart",
+            Self::Cancel => "cancel",
+            Self::Resume => "resume",
+        }
+    }
 }
 
 /// The state machines in the source files of a program, by their signatures as nodes.
@@ -125,9 +150,9 @@ impl Machine {
             let method = Self::method(&slot.name);
             slots.push(SlotSig { port: ports.len() - 1, method, args, fallible: false });
         }
-        if !self.begin.is_empty() {
+        if !self.begin().is_empty() {
             ports.push(port(Self::BEGIN, PortKind::Slot, &Type::unit(), self.slots.len()));
-            let args = self.begin.iter().map(|s| ArgSig::Port(s.event)).collect();
+            let args = self.begin().iter().map(|s| ArgSig::Port(s.event)).collect();
             let method = Self::BEGIN_METHOD.to_owned();
             slots.push(SlotSig { port: ports.len() - 1, method, args, fallible: false });
         }
@@ -140,8 +165,19 @@ impl Machine {
             stateful: true,
             ports,
             slots,
+            moved: Some(self.moved().into_iter().map(ArgSig::Port).collect()),
             ..Signature::default()
         }
+    }
+
+    /// Events that are triggered at the start, because the initial state is entered.
+    pub fn begin(&self) -> &[Sending] {
+        &self.entries[0]
+    }
+
+    /// The events that may be triggered when `reset`, `cancel` or `resume` moves it to another state.
+    pub fn moved(&self) -> Vec<usize> {
+        events(self.exits.iter().chain(&self.entries).flatten())
     }
 
     /// The condition of a transition, as text.
@@ -169,9 +205,14 @@ impl Slot {
 
     /// The events that it may trigger.
     pub fn events(&self) -> Vec<usize> {
-        let mut events: Vec<usize> = self.arms.iter().flat_map(|arm| &arm.sends).map(|s| s.event).collect();
-        events.sort_unstable();
-        events.dedup();
-        events
+        events(self.arms.iter().flat_map(|arm| &arm.sends))
     }
+}
+
+/// The events of these sendings, each once.
+fn events<'a>(sendings: impl Iterator<Item = &'a Sending>) -> Vec<usize> {
+    let mut events: Vec<usize> = sendings.map(|sending| sending.event).collect();
+    events.sort_unstable();
+    events.dedup();
+    events
 }

@@ -126,16 +126,19 @@ impl<'a> Opener<'a> {
         let events: Vec<(String, Type)> = self.names(PortKind::Event);
         let slots = self.names(PortKind::Slot);
         let before = self.diagnostics.has_errors();
-        let entered: Vec<usize> = self.around(leaves[0]).into_iter().rev().collect();
-        let entry: Vec<&Action> = entered.iter().flat_map(|s| &self.states[*s].item.entry).collect();
-        let begin = self.sendings(&entry, None);
+        // At the start nothing gives an event its token.
+        let begin: Vec<&Action> = self.entry(leaves[0]);
+        self.sendings(&begin, None);
+        let entries = leaves.iter().map(|leaf| self.entry(*leaf)).collect::<Vec<_>>();
+        let exits = leaves.iter().map(|leaf| self.exit(*leaf)).collect::<Vec<_>>();
         let mut machine = Machine {
             name: self.item.name.text.clone(),
             module: String::new(),
             is_own: false,
             docs: self.item.docs.clone(),
             states: leaves.iter().map(|s| self.path(*s)).collect(),
-            begin,
+            entries: entries.iter().map(|actions| self.moved_from_outside(actions)).collect(),
+            exits: exits.iter().map(|actions| self.moved_from_outside(actions)).collect(),
             memories: vec![],
             slots: slots.into_iter().map(|(name, ty)| Slot { name, ty, arms: vec![] }).collect(),
             events,
@@ -316,6 +319,35 @@ impl<'a> Opener<'a> {
             actions.extend(&self.states[*state].item.entry);
         }
         self.sendings(&actions, Some(transition))
+    }
+
+    /// Actions when an innermost state is entered, with all states around it.
+    fn entry(&self, leaf: usize) -> Vec<&'a Action> {
+        self.around(leaf).into_iter().rev().flat_map(|state| &self.states[state].item.entry).collect()
+    }
+
+    /// Actions when an innermost state is left, with all states around it.
+    fn exit(&self, leaf: usize) -> Vec<&'a Action> {
+        self.around(leaf).into_iter().flat_map(|state| &self.states[state].item.exit).collect()
+    }
+
+    /// Tokens that are sent when `start`, `reset`, `cancel` or `resume` moves the machine. An event that carries the
+    /// token of a transition has none then, and does not happen; of two tokens of one event the last counts.
+    fn moved_from_outside(&mut self, actions: &[&'a Action]) -> Vec<Sending> {
+        let events = self.names(PortKind::Event);
+        let mut sends: BTreeMap<usize, Token> = BTreeMap::new();
+        for action in actions {
+            let event = events.iter().position(|(name, _)| *name == action.event.text);
+            let Some((event, ty)) = event.map(|event| (event, &events[event].1)) else { continue };
+            if action.value.is_none() && !ty.is_unit() {
+                continue;
+            }
+            match self.token(action, ty, None) {
+                Ok(token) => drop(sends.insert(event, token)),
+                Err(error) => self.diagnostics.push_once(*error),
+            }
+        }
+        sends.into_iter().map(|(event, token)| Sending { event, token }).collect()
     }
 
     /// Returns `true` if `state` is inside `outer`.

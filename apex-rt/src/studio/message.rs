@@ -116,7 +116,7 @@ pub enum Report {
         speed: f64,
         /// Number of reactions so far.
         reactions: u64,
-        /// Number of ways ([`RunTo`](Command::RunTo) and the like) that are over, because the robot is there or was told
+        /// Number of ways ([`RunTo`](Command::RunTo) and the like) that are over: the robot is there, or was told
         /// otherwise.
         ways: u64,
     },

@@ -29,7 +29,7 @@ pub struct Playback {
 
 /// A way to another time, on which the robot is.
 struct Way {
-    /// What counted the ends of ways before it. That the robot is halted says nothing: it may not have begun.
+    /// Counters of ways before it. That the robot is halted says nothing: it may not have begun.
     from: Ends,
     /// `true` if the robot goes on at the end.
     plays: bool,
