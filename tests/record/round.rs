@@ -92,6 +92,20 @@ graph! {
             diary.told;
         }
     }
+
+    /// The order of tokens in several slots counts.
+    graph Ordered {
+        slot a: u64;
+        slot b: u64;
+        slot c: u64;
+        node diary = Diary();
+        node echo = Diary();
+        a -> diary.number;
+        b -> diary.number;
+        c -> diary.number;
+        diary.told -> echo.text;
+        record "ordered.mcap" { diary.told; }
+    }
 }
 
 /// A machine on which the duration of reactions varies.
@@ -241,6 +255,32 @@ fn what_comes_from_outside_comes_again() {
     assert_eq!(first.nodes().diary.entries, second.nodes().diary.entries);
     assert_eq!(first.outputs().mean, second.outputs().mean);
     assert_eq!(second.param::<f64>("m.offset").ok(), Some(2.5));
+}
+
+#[test]
+fn tokens_come_again_in_the_order_in_which_they_were_put_in() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    let mut first = Ordered::new();
+    record::<Ordered>(&path, |tap| {
+        for (i, order) in ["abc", "acb", "bac", "bca", "cab", "cba", "ca", "b", ""].into_iter().enumerate() {
+            for port in order.chars() {
+                let inputs = first.inputs();
+                let slot = match port {
+                    'a' => &mut inputs.a,
+                    'b' => &mut inputs.b,
+                    _ => &mut inputs.c,
+                };
+                slot.put(u64::from(u32::from(port))).expect("it is empty");
+            }
+            first.react_with(Time::from_millis(i as i64), tap);
+        }
+    });
+    let mut second = Ordered::new();
+    let report = repeat(&mut second, &path);
+    assert!(report.is_same() && report.reactions == 9, "{report}");
+    let entries = &first.nodes().diary.entries;
+    assert_eq!((entries.len(), entries), (21, &second.nodes().diary.entries));
 }
 
 #[test]

@@ -119,6 +119,8 @@ struct Reaction {
     ended: bool,
     /// Tokens of each channel, with the number of their node's call.
     tokens: Vec<VecDeque<(u32, Vec<u8>)>>,
+    /// Mailboxes into which tokens were put, in that order.
+    put_in: VecDeque<usize>,
 }
 
 impl Reaction {
@@ -405,6 +407,9 @@ impl Replay {
             Meaning::Ended => self.reaction.ended |= fields.u32().is_some_and(|group| self.is_own(group)),
             Meaning::Token(channel) if self.is_own(self.channels[channel].group as u32) => {
                 self.reaction.tokens[channel].push_back((message.sequence, message.data));
+                if self.channels[channel].role == Role::Mailbox {
+                    self.reaction.put_in.push_back(channel);
+                }
             }
             Meaning::Token(_) => {}
         }
@@ -481,6 +486,11 @@ impl Replay {
                 None => self.report.params.push(format!("`{name}` was {value} and no longer exists")),
             }
         }
+    }
+
+    /// Returns the next mailbox into which a token was put.
+    pub(super) fn next_in(&mut self) -> Option<usize> {
+        self.reaction.put_in.pop_front()
     }
 
     pub(super) fn calls(&mut self, node: usize) -> bool {
