@@ -310,22 +310,19 @@ impl Generator<'_> {
 /// Code for the tokens of several mailboxes, each with its channel and the number of its token, in the order in which
 /// they came.
 fn in_order(mailboxes: &[(usize, TokenStream, TokenStream)]) -> TokenStream {
-    if let [(_, _, put)] = mailboxes {
-        return put.clone();
-    }
     let channels = mailboxes.iter().map(|(channel, ..)| channel);
     let arrivals = mailboxes.iter().map(|(_, arrival, _)| arrival);
     let arms = mailboxes.iter().enumerate().map(|(place, (.., put))| quote!(#place => { #put }));
-    (!mailboxes.is_empty())
-        .then(|| {
-            quote! {
-                let mut arrivals = [#(#arrivals),*];
-                while let Some(place) = tap.next_in(&[#(#channels),*], &mut arrivals) {
-                    match place { #(#arms)* _ => {} }
-                }
+    match mailboxes {
+        [] => quote!(),
+        [(_, _, put)] => put.clone(),
+        _ => quote! {
+            let mut arrivals = [#(#arrivals),*];
+            while let Some(place) = tap.next_in(&[#(#channels),*], &mut arrivals) {
+                match place { #(#arms)* _ => {} }
             }
-        })
-        .unwrap_or_default()
+        },
+    }
 }
 
 impl Emitter<'_> {
