@@ -102,9 +102,10 @@ impl Channels {
     }
 }
 
-/// Returns `true` if the tokens of a node come from outside of the program: it is a source.
+/// Returns `true` if the tokens of a node come from outside of the program: it is a source, and not a computed one.
 fn is_recorded(graph: &Graph, analysis: &Analysis, catalog: &Catalog, node: NodeId) -> bool {
-    matches!(graph.nodes[node].kind, NodeKind::Library(_)) && is_source(graph, catalog, &analysis.links, node)
+    let NodeKind::Library(library) = &graph.nodes[node].kind else { return false };
+    !catalog.signatures[library.signature].computed && is_source(graph, catalog, &analysis.links, node)
 }
 
 /// The ports by which a source itself sends.

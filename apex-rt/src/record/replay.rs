@@ -8,7 +8,7 @@ use super::{
     waits::{ReplayBarrier, WaitOutcome},
 };
 use crate::{
-    Parameters, Program, Time,
+    Info, Parameters, Program, Time,
     params::{Access, ParamInfo, ParamVisitor, set_text},
 };
 use core::{fmt, time::Duration};
@@ -220,7 +220,7 @@ impl Replay {
                 return Err(at(io::Error::new(io::ErrorKind::UnexpectedEof, what)));
             }
         }
-        let changed = replay.match_channels();
+        let changed = replay.match_channels(info);
         if !changed.is_empty() {
             return Err(ReplayError::OtherTypes { path: path.to_owned(), changed });
         }
@@ -258,7 +258,7 @@ impl Replay {
     }
 
     /// Matches the channels of the program with those of the file. Returns the inputs whose types have changed.
-    fn match_channels(&mut self) -> Vec<TypeChange> {
+    fn match_channels(&mut self, info: &Info) -> Vec<TypeChange> {
         let (mut missing, mut changed) = (vec![], vec![]);
         let group = self.group.as_ref().map(|group| group.number);
         let own = |c: &&Channel| c.role != Role::Port && group.is_none_or(|group| c.group == group);
@@ -296,6 +296,9 @@ impl Replay {
         let names = self.channels.iter().map(|c| c.name).chain(OWN.iter().map(|(name, _)| *name));
         let names: Vec<&str> = names.collect();
         let gone = self.source.channels.values().filter(|f| !names.contains(&f.name.as_str()));
+        let slots = |node: &usize| info.connections.iter().any(|connection| connection.to == *node);
+        let not_called = (0..info.nodes.len()).filter(|node| self.recorded[*node] && slots(node));
+        self.report.not_called = not_called.map(|node| info.nodes[node].name).collect();
         self.report.gone = gone.map(|f| f.name.clone()).collect();
         changed
     }
