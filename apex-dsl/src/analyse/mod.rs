@@ -54,7 +54,7 @@ pub use rates::has_rates;
 pub use schedule::{Block, Run, Step};
 pub use silences::{Silence, parameter as silence_parameter};
 pub use stamps::Stamps;
-pub use stuck::find as find_stuck;
+pub use stuck::{blockers, find as find_stuck, is_possible as may_get_stuck};
 
 /// Results of the analysis of a graph.
 #[derive(Debug)]

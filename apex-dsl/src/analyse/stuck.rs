@@ -31,20 +31,36 @@ struct Visited {
     before: Option<(usize, ConnectionId)>,
 }
 
-/// Searches for a shortest run to tokens that wait for one another.
+/// Searches for a shortest run to tokens that wait for one another. Slots that ask whether their node is active are
+/// taken to send nothing.
 pub fn find(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Stuck> {
+    search(graph, analysis, &|token| asks_for_activity(graph, analysis, catalog, token))
+}
+
+/// Returns `true` if tokens that wait for one another were found, whatever their slots ask.
+pub fn is_possible(graph: &Graph, analysis: &Analysis) -> bool {
+    search(graph, analysis, &|_| false).is_some()
+}
+
+/// For each slot token, those that have to be taken before its slot can be called.
+pub fn blockers(graph: &Graph, analysis: &Analysis) -> Vec<Vec<ConnectionId>> {
+    let asynchronous = &analysis.asynchronous;
+    let blockers = |connection: &ConnectionId| {
+        let all = asynchronous.not_yet_taken(graph, &analysis.links, *connection);
+        all.into_iter().filter(|other| asynchronous.is_slot(*other)).collect()
+    };
+    asynchronous.slots.iter().map(blockers).collect()
+}
+
+fn search(graph: &Graph, analysis: &Analysis, is_silent: &dyn Fn(ConnectionId) -> bool) -> Option<Stuck> {
     let asynchronous = &analysis.asynchronous;
     // Without a queue each slot is known to be ready when its token arrives.
     if asynchronous.delivery != Delivery::Queued || !is_cyclic(graph, &analysis.links) {
         return None;
     }
-    let blockers = |connection: &ConnectionId| {
-        let all = asynchronous.not_yet_taken(graph, &analysis.links, *connection);
-        (*connection, all.into_iter().filter(|other| asynchronous.is_slot(*other)).collect())
-    };
-    let blockers: BTreeMap<ConnectionId, Vec<ConnectionId>> = asynchronous.slots.iter().map(blockers).collect();
+    let blockers = blockers(graph, analysis);
     let blocks = |queue: &[ConnectionId], token: ConnectionId| {
-        blockers[&token].iter().copied().find(|other| queue.contains(other))
+        blockers[asynchronous.slot(token)].iter().copied().find(|other| queue.contains(other))
     };
     let mut known = BTreeSet::new();
     let mut visited: Vec<Visited> = vec![];
@@ -68,8 +84,8 @@ pub fn find(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Stu
         let token = queue[place];
         let mut rest = queue;
         rest.remove(place);
-        let asks = asks_for_activity(graph, analysis, catalog, token);
-        let caused: Vec<ConnectionId> = asynchronous.caused_slots(token).filter(|_| !asks).collect();
+        let silent = is_silent(token);
+        let caused: Vec<ConnectionId> = asynchronous.caused_slots(token).filter(|_| !silent).collect();
         for sent in by_port(graph, &caused).into_iter().chain([vec![]]) {
             let queue = [rest.as_slice(), &sent].concat();
             if known.insert(queue.clone()) {
