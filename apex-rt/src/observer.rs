@@ -310,7 +310,7 @@ impl Observer for StdErr {
         let (info, c) = (self.0, &self.0.connections[connection]);
         let (from, to) = (info.nodes[c.from].name, info.nodes[c.to].name);
         eprintln!(
-            "{}: deadlock: the token of `{from}.{}` waits at `{to}.{}` for ever, for one that waits for it",
+            "{}: deadlock: the token of `{from}.{}` waits at `{to}.{}` forever, for one that waits for it",
             info.name, c.output, c.input
         );
     }

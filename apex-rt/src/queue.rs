@@ -45,8 +45,8 @@ impl<const N: usize> Queue<N> {
         None
     }
 
-    /// Calls `found` with the slots whose tokens wait for one another, so that none is ever taken, if there are more than
-    /// are `known`. `blockers` has for each slot those whose tokens must be taken before.
+    /// Calls `found` with the slots whose tokens wait for one another, so that none is ever taken, if there are more
+    /// than are `known`. `blockers` has for each slot those whose tokens must be taken before.
     pub fn stuck(&self, blockers: &[&[u16]; N], known: &mut usize, found: impl FnMut(u16)) {
         let mut left = [u16::MAX; N];
         for (at, slot) in left.iter_mut().enumerate().take(self.len) {

@@ -73,7 +73,7 @@ fn a_program_has_slots_and_events() {
     assert_eq!(program.events().e.take(), Some(3));
 }
 
-/// Connections whose tokens were said to wait for ever.
+/// Connections whose tokens were said to wait forever.
 #[derive(Default)]
 struct Knots(Vec<usize>);
 

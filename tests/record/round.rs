@@ -93,7 +93,7 @@ graph! {
         }
     }
 
-    /// What follows from parameters and slots is computed again.
+    /// Tokens that follow from parameters and slots.
     robot Computed {
         node one    = apex_nodes::flow::constant<f64>(value = 1) every 10ms;
         node shifted = Mean();

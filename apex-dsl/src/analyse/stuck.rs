@@ -1,4 +1,4 @@
-//! Slot tokens that wait for one another for ever: a node is not called before its events were taken (R5), so a cycle of
+//! Slot tokens that wait for one another forever: a node is not called before its events were taken (R5), so a cycle of
 //! events to slots stands still as soon as a token waits at each of its nodes.
 //!
 //! One step of the program (a firing, a token from outside, a timeout) is followed until its slot tokens are gone, for

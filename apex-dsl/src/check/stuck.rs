@@ -1,4 +1,4 @@
-//! A warning about tokens that wait for one another for ever.
+//! A warning about tokens that wait for one another forever.
 
 use crate::{
     analyse::{Analysis, find_stuck},
@@ -25,7 +25,7 @@ pub fn check_stuck(graph: &Graph, analysis: &Analysis, catalog: &Catalog, diagno
     let first = stuck.waits[0].0;
     let names: Vec<String> =
         stuck.waits.iter().map(|(token, _)| graph.end_name(graph.connections[*token].to)).collect();
-    let message = format!("tokens may wait for one another for ever at `{}`", names.join("` and `"));
+    let message = format!("tokens may wait for one another forever at `{}`", names.join("` and `"));
     let mut warning = Diagnostic::warning("stuck", graph.connections[first].span, message);
     if !stuck.run.is_empty() {
         let run: Vec<String> = stuck.run.iter().map(|token| text(*token)).collect();
