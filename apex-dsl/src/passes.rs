@@ -71,6 +71,9 @@ pub fn check_all(
         for graph in programs.iter().map(|program| &program.graph).chain(&parts) {
             check::check_lints(graph, catalog, diagnostics);
         }
+        if let Some((file, tree)) = resolved.texts.files.first() {
+            check::check_unused(*file, tree, sources, diagnostics);
+        }
         for program in &programs {
             check::check_periods(&program.graph, &program.analysis, diagnostics);
             check::check_stuck(&program.graph, &program.analysis, catalog, diagnostics);

@@ -10,6 +10,7 @@ mod rates;
 mod stuck;
 mod target;
 mod types;
+mod unused;
 
 use crate::{
     catalog::Catalog,
@@ -22,6 +23,7 @@ pub use lints::check_lints;
 pub use rates::{check_periods, check_rates};
 pub use stuck::check_stuck;
 pub use types::compare as compare_types;
+pub use unused::check_unused;
 
 /// Runs all checks on `graph` and on the bodies in it.
 pub fn check(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {

@@ -40,6 +40,7 @@ pages! {
     "no-process"
     "no-state"
     "not-replaced"
+    "not-used"
     "nothing-matched"
     "open-input"
     "open-output"
