@@ -108,7 +108,12 @@ pub fn scans() -> Box<dyn Target> {
     let log = "PARAM x 1\nFLASER 5 1.0 2.0 3.0 81.91 0.5 1 2 0.5 1 2 0.5 976052857.9 host 0.25\nODOM 1 2\n"
         .as_bytes()
         .to_vec();
-    reader(vec![table, log], &["FLASER", "0", "99999999", "-1", ",", "\n", "1e39"], |input| {
+    let current = "RAWLASER1 0 -1.57 3.14 0.5 81.9 0.01 0 3 1 2 99 0 1.5 host 0.25\n\
+                   ROBOTLASER1 0 -1.57 3.14 0.5 81.9 0.01 0 2 1 2 2 7 8 1 2 3 1 2 3 0 0 0.3 0.3 1e6 1.5 host 0.25\n"
+        .as_bytes()
+        .to_vec();
+    let words = &["FLASER", "ROBOTLASER1", "RAWLASER1", "0", "99999999", "-1", ",", "\n", "\r", "1e39"];
+    reader(vec![table, log, current], words, |input| {
         let geometry = LogGeometry { angle_min: -1.57, angle_increment: 0.01, range_min: 0.1, range_max: 30.0 };
         for ending in ["csv", "log"] {
             let file = file(ending, input);

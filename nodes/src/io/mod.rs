@@ -4,6 +4,7 @@
 //! reading continues with the next line.
 
 mod bag;
+mod carmen;
 mod csv;
 #[cfg(feature = "dxf")]
 mod dxf;

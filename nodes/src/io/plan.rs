@@ -1,4 +1,4 @@
-use super::{CsvReader, ReadError};
+use super::{CsvReader, ReadError, lines::Ending};
 use crate::{map::VectorMap, scan::Point2};
 use std::path::Path;
 
@@ -26,8 +26,8 @@ impl PlanOptions {
     }
 }
 
-/// Reads a plan: a table of segments (`x1,y1,x2,y2`; `.csv` or `.txt`, optionally `.gz`), or with the feature `dxf` a
-/// DXF file.
+/// Reads a plan: a table of segments (`x1,y1,x2,y2`; `.csv` or `.txt`), or with the feature `dxf` a DXF file. Both may be
+/// compressed (`.gz`).
 ///
 /// From a DXF file, it takes `LINE`, `LWPOLYLINE`, `POLYLINE`, `ARC` and `CIRCLE`, and blocks placed with `INSERT`.
 /// Arcs become chords that deviate by at most 1 cm.
@@ -39,13 +39,12 @@ pub fn read_plan(path: impl AsRef<Path>, options: &PlanOptions) -> Result<Vector
     if !(options.scale.is_finite() && options.scale > 0.0) {
         return Err(ReadError::open(path, format_args!("a scale of {} m per unit is not positive", options.scale)));
     }
-    let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default().to_ascii_lowercase();
-    match name.strip_suffix(".gz").unwrap_or(&name).rsplit_once('.').map(|(_, ending)| ending) {
-        Some("csv" | "txt") => read_table(path, options.scale),
+    match Ending::of(path).name.as_str() {
+        "csv" | "txt" => read_table(path, options.scale),
         #[cfg(feature = "dxf")]
-        Some("dxf") => super::dxf::read(path, options),
+        "dxf" => super::dxf::read(path, options),
         #[cfg(not(feature = "dxf"))]
-        Some("dxf") => Err(ReadError::open(path, "DXF files need the feature `dxf` of `apex-nodes`")),
+        "dxf" => Err(ReadError::open(path, "DXF files need the feature `dxf` of `apex-nodes`")),
         _ => Err(ReadError::open(path, "a plan ends in .dxf, .csv or .txt")),
     }
 }
