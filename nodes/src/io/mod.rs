@@ -16,6 +16,8 @@ mod picture;
 mod plan;
 mod plan_map;
 mod scan_log;
+#[cfg(feature = "dxf")]
+mod spline;
 
 pub use bag::{Bag, BagMessage};
 pub use csv::{CsvLog, CsvReader};
@@ -25,6 +27,6 @@ pub use figure::ScanFigure;
 pub(crate) use lines::Lines;
 pub use pcd::{RecordedCloud, read_cloud};
 pub use picture::ScanPicture;
-pub use plan::{PlanOptions, read_plan};
+pub use plan::{Plan, PlanOptions, read_plan};
 pub use plan_map::{PlanMap, PlanMapError, draw_plan};
 pub use scan_log::{LogEntry, LogGeometry, ScanLog, ScanLogReader};

@@ -139,7 +139,7 @@ fn read_map(options: &Options, path: &Path) -> Result<VectorMap, String> {
         return read_pixels(options, path).map_err(|e| format!("{}: {e}", path.display()));
     }
     let plan = PlanOptions { scale: options.scale, layers: options.layers.clone() };
-    read_plan(path, &plan).map_err(|e| e.to_string())
+    read_plan(path, &plan).map(|plan| plan.map).map_err(|e| e.to_string())
 }
 
 /// Reads a binary grey map (`P5`). Dark pixels are occupied; the first row is the upper one.
