@@ -11,6 +11,7 @@ mod dxf;
 mod error;
 mod figure;
 mod lines;
+mod lzf;
 mod pcd;
 mod picture;
 mod plan;
