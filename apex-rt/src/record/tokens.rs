@@ -31,15 +31,16 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
         if start == 0 && matches!(source.files, Some((2.., _))) {
             start = message.time;
         }
-        let Some(found) = source.channels.get(&message.channel).filter(|c| c.name == channel) else { continue };
+        let found = source.channels.get(&message.channel);
+        let Some(found) = found.filter(|c| c.name == channel || c.topic == channel) else { continue };
         if compared != Some(message.channel) {
             check(path, found, codec)?;
             compared = Some(message.channel);
         }
         let token = (codec.read)(&message.data);
-        let token = token.ok_or_else(|| {
+        let token = token.map_err(|reason| {
             let (ty, file) = (codec.schema.name, path.display());
-            format!("a token of `{channel}` in `{file}` is not one of `{ty}`: bytes are missing or left over")
+            format!("a token of `{channel}` in `{file}` is not one of `{ty}`: {reason}")
         })?;
         tokens.push((Duration::from_nanos(message.time.saturating_sub(start)), token));
     }

@@ -22,7 +22,8 @@ pub(super) enum ScanLine {
     /// `FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ time host logger_time`: half a circle before the scanner.
     Flaser,
     /// `ROBOTLASER1 type start_angle field_of_view resolution max_range accuracy remission_mode n r₁ … rₙ m e₁ … eₘ
-    /// laser_x laser_y laser_θ robot_x robot_y robot_θ tv rv forward_safety side_safety turn_axis time host logger_time`.
+    /// laser_x laser_y laser_θ robot_x robot_y robot_θ tv rv forward_safety side_safety turn_axis time host
+    /// logger_time`.
     Robot,
     /// `RAWLASER1`: the same line without poses, velocities and safety distances.
     Raw,

@@ -10,10 +10,11 @@ const OCCUPIED: f32 = 0.65;
 const FREE: f32 = 0.196;
 
 /// Reads a grid map from an image, as ROS map servers store it: white is free, black is occupied, and grey and
-/// transparent pixels are unknown. `resolution` is the side of a pixel in m. The lower left corner of the image is at the
-/// origin.
+/// transparent pixels are unknown. `resolution` is the side of a pixel in m. The lower left corner of the image is at
+/// the origin.
 ///
-/// It reads `.pgm` (`P2` and `P5`, 8 and 16 bit), and with the feature `image` the formats of that feature, such as PNG.
+/// It reads `.pgm` (`P2` and `P5`, 8 and 16 bit), and with the feature `image` the formats of that feature, such as
+/// PNG.
 ///
 /// # Errors
 /// If the file cannot be read, is cut off or has too many pixels, or if `resolution` is not positive.

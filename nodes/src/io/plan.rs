@@ -54,11 +54,12 @@ impl Plan {
     }
 }
 
-/// Reads a plan: a table of segments (`x1,y1,x2,y2`; `.csv` or `.txt`), or with the feature `dxf` a DXF file. Both may be
-/// compressed (`.gz`).
+/// Reads a plan: a table of segments (`x1,y1,x2,y2`; `.csv` or `.txt`), or with the feature `dxf` a DXF file. Both may
+/// be compressed (`.gz`).
 ///
-/// From a DXF file, it takes `LINE`, `LWPOLYLINE`, `POLYLINE`, `ARC`, `CIRCLE`, `ELLIPSE` and `SPLINE`, and blocks placed
-/// with `INSERT`, as seen from above and without the paper space. Curves become chords that deviate by at most 1 cm.
+/// From a DXF file, it takes `LINE`, `LWPOLYLINE`, `POLYLINE`, `ARC`, `CIRCLE`, `ELLIPSE` and `SPLINE`, and blocks
+/// placed with `INSERT`, as seen from above and without the paper space. Curves become chords that deviate by at most
+/// 1 cm.
 /// Meshes, solids and other things that may be walls are left out and counted in [`Plan::left_out`].
 ///
 /// # Errors

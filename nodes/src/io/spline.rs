@@ -19,8 +19,8 @@ pub(super) struct Spline<'a> {
 type At = (f64, [f64; 2]);
 
 impl<'a> Spline<'a> {
-    /// Creates a spline. Returns `None` if the numbers of knots, points and weights do not fit together, knots decrease,
-    /// or a weight is not positive.
+    /// Creates a spline. Returns `None` if the numbers of knots, points and weights do not fit together, knots
+    /// decrease, or a weight is not positive.
     pub fn new(degree: usize, knots: &'a [f64], points: &[[f64; 2]], weights: &[f64]) -> Option<Self> {
         let fits = (1..=MAX_DEGREE).contains(&degree)
             && points.len() > degree
@@ -102,7 +102,11 @@ mod tests {
 
     fn points(spline: &Spline<'_>) -> Vec<[f64; 2]> {
         let mut points = Vec::new();
-        spline.chords(1e-3, |point| Ok::<_, ()>(points.push(point))).expect("no end");
+        let add = |point| {
+            points.push(point);
+            Ok::<_, ()>(())
+        };
+        spline.chords(1e-3, add).expect("no end");
         points
     }
 
