@@ -187,6 +187,8 @@ enum Stop {
     Cut,
     /// The file is damaged.
     Damage(String),
+    /// The file has something that is not supported.
+    Unsupported(String),
     /// The file cannot be read.
     Io(io::Error),
 }
@@ -227,6 +229,7 @@ impl Source {
                 Err(Stop::Io(error)) => return Err(error),
                 Err(Stop::Cut) => self.stop(CUT),
                 Err(Stop::Damage(what)) => self.stop(&format!("it is damaged: {what}")),
+                Err(Stop::Unsupported(what)) => self.stop(&what),
             }
         }
         Ok(None)
@@ -366,7 +369,11 @@ impl Source {
         let is_compressed = match name {
             [] => false,
             name if name == LZ4.as_bytes() => true,
-            _ => return Err(Stop::Damage("or its compression is not that of `apex`".to_owned())),
+            name => {
+                let name = String::from_utf8_lossy(&name[..name.len().min(20)]);
+                let why = "which is not supported: write it again with `mcap compress --compression lz4`";
+                return Err(Stop::Unsupported(format!("it is compressed with `{name}`, {why}")));
+            }
         };
         let (size, records) = rest.split_first_chunk::<8>().ok_or(Stop::Cut)?;
         let (is_whole, size_here) = (body.len() as u64 == length, u64::from_le_bytes(*size));

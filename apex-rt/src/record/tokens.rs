@@ -25,12 +25,12 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
         codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
     let cannot_read = |error| format!("cannot read `{}`: {error}", path.display());
     let mut source = Source::open(path).map_err(cannot_read)?;
-    let (mut tokens, mut compared, mut start) = (vec![], None, 0);
+    let (mut tokens, mut compared, mut start) = (vec![], None, None);
     while let Some(message) = source.next().map_err(cannot_read)? {
-        // A later file of a recording that is divided begins in the middle of its run.
-        if start == 0 && matches!(source.files, Some((2.., _))) {
-            start = message.time;
-        }
+        // A later file of a recording that is divided begins in the middle of its run, and the times of other programs
+        // may begin in 1970.
+        let begins_late = source.program.is_none() || matches!(source.files, Some((2.., _)));
+        let start = *start.get_or_insert(if begins_late { message.time } else { 0 });
         let found = source.channels.get(&message.channel);
         let Some(found) = found.filter(|c| c.name == channel || c.topic == channel) else { continue };
         if compared != Some(message.channel) {
