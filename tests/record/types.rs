@@ -501,5 +501,8 @@ fn bytes_that_are_left_over_are_an_error() {
     let report = replayed(first::Base::new(), &old).expect("it can be read");
     assert!(!report.is_whole(), "{report}");
     let text = report.to_string();
-    assert!(text.contains("3 recorded tokens of `measure.out` are not values of its type"), "{text}");
+    assert!(
+        text.contains("3 recorded tokens of `measure.out` are not values of its type: bytes are left over"),
+        "{text}"
+    );
 }

@@ -495,12 +495,17 @@ impl Replay {
             waiting.pop_front();
         }
         let (_, bytes) = if waiting.front()?.0 == call { waiting.pop_front()? } else { return None };
-        let token = codec.and_then(|codec| (codec.read)(&bytes).ok());
-        match token {
-            Some(_) => self.last[channel] = Some(bytes),
-            None => *self.report.unreadable.entry(self.channels[channel].name).or_default() += 1,
+        match (codec?.read)(&bytes) {
+            Ok(token) => {
+                self.last[channel] = Some(bytes);
+                Some(token)
+            }
+            Err(reason) => {
+                let unreadable = &mut self.report.unreadable;
+                unreadable.entry(self.channels[channel].name).or_insert((0, reason)).0 += 1;
+                None
+            }
         }
-        token
     }
 
     pub(super) fn take_or_last<T>(&mut self, channel: usize, codec: Option<Codec<T>>) -> Option<T> {
