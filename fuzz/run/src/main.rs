@@ -22,10 +22,11 @@ use worker::Target;
 pub type Make = fn() -> Box<dyn Target>;
 
 /// All targets, by name.
-pub const TARGETS: [(&str, Make); 13] = [
+pub const TARGETS: [(&str, Make); 14] = [
     ("texts", texts::texts),
     ("catalog", catalog::catalog),
     ("recordings", recordings::recordings),
+    ("messages", readers::messages),
     ("g2o", readers::g2o),
     ("csv", readers::csv),
     ("scans", readers::scans),

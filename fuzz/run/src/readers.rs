@@ -6,13 +6,16 @@ use crate::{
 };
 use apex_macros::graph;
 use apex_nodes::{
+    cloud::PointCloud,
     io::{Bag, BagMessage, CsvReader, LogGeometry, PlanOptions, ScanLogReader, read_cloud, read_map, read_plan},
     learn::{Mlp, Model},
+    map::{Grid, Occupancy, Raster},
     math::Random,
-    scan::Scan,
+    nav,
+    scan::{Point2, Pose2, Scan},
     slam::PoseGraph,
 };
-use apex_rt::params;
+use apex_rt::{__codec, Time, params, record::Codec};
 use apex_tune::{Axis, Follower, Goal, Journal, Method, Objective, Parameter, Scale, Study, Summary};
 use std::{env, fmt::Write as _, fs, path::PathBuf, process};
 
@@ -66,6 +69,46 @@ fn file(ending: &str, input: &[u8]) -> PathBuf {
 
 fn reader(texts: Vec<Vec<u8>>, words: &'static [&'static str], read: fn(&[u8])) -> Box<dyn Target> {
     Box::new(Reader { texts, words, read })
+}
+
+/// The target with messages of other programs.
+pub fn messages() -> Box<dyn Target> {
+    fn written<T>(codec: Option<Codec<T>>, token: &T) -> Vec<u8> {
+        let mut bytes = vec![];
+        (codec.expect("a message").write)(token, &mut bytes);
+        bytes
+    }
+    /// What was read can be written, and read again.
+    fn again<T>(codec: Option<Codec<T>>, bytes: &[u8]) {
+        let codec = codec.expect("a message");
+        if let Ok(token) = (codec.read)(bytes) {
+            let mut bytes = vec![];
+            assert!((codec.write)(&token, &mut bytes) && (codec.read)(&bytes).is_ok());
+        }
+    }
+    let scan = Scan { angle_increment: 0.1, ranges: [1.0, 2.0, f32::NAN].into_iter().collect(), ..Scan::default() };
+    let path = nav::Path { points: vec![Point2::new(1.0, 2.0); 3], heading: 0.5 };
+    let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 3, height: 2 };
+    let mut cloud = PointCloud::default();
+    cloud.reset(Time::ZERO, (2, 2));
+    let texts = vec![
+        written(__codec!(Scan), &scan),
+        written(__codec!(nav::Path), &path),
+        written(__codec!(Pose2), &Pose2::new(1.0, 2.0, 3.0)),
+        written(__codec!(Grid<Occupancy>), &Grid::new(raster, Occupancy::Free).expect("small")),
+        written(__codec!(Grid<f32>), &Grid::new(raster, 0.5).expect("small")),
+        written(__codec!(PointCloud), &cloud),
+        written(__codec!(String), &"a text".to_owned()),
+    ];
+    reader(texts, &[], |input| {
+        again(__codec!(Scan), input);
+        again(__codec!(nav::Path), input);
+        again(__codec!(Pose2), input);
+        again(__codec!(Grid<Occupancy>), input);
+        again(__codec!(Grid<f32>), input);
+        again(__codec!(PointCloud), input);
+        again(__codec!(String), input);
+    })
 }
 
 /// The target with pose graphs.
