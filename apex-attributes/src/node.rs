@@ -25,7 +25,7 @@ pub fn expand(args: TokenStream, item: TokenStream) -> syn::Result<TokenStream> 
 fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let callable = signature::function(&item)?;
     remove_marks(&mut item.sig, &["param", signature::FAILURE, signature::UNIT]);
-    item.attrs.retain(|a| !a.path().is_ident(signature::UNIT));
+    item.attrs.retain(|a| ![signature::UNIT, signature::COMPUTED].iter().any(|mark| a.path().is_ident(mark)));
     let (vis, name, generics) = (&item.vis, &item.sig.ident, &signature::generics(&item, &callable));
     let (impl_generics, type_args, bounds) = generics.split_for_impl();
     let phantom: Vec<&Ident> = generics.type_params().map(|p| &p.ident).collect();
@@ -125,7 +125,8 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     for field in &mut item.fields {
         field.attrs.retain(|a| !a.path().is_ident("param"));
     }
-    item.attrs.retain(|a| !a.path().is_ident(signature::DEACTIVATES));
+    let marks = [signature::DEACTIVATES, signature::COMPUTED];
+    item.attrs.retain(|a| !marks.iter().any(|mark| a.path().is_ident(mark)));
     Ok(quote! {
         #item
         #params

@@ -65,7 +65,7 @@ fn same(a: f64, b: f64) -> bool {
 pub fn value(given: &Value, unit: Option<&str>) -> String {
     match given {
         Value::Number(n) => {
-            let known = unit.and_then(|text| Some((text, units::parse(text).ok()?.factor)));
+            let known = unit.and_then(|text| Some((text, units::parse(text).ok()?.size())));
             let (number, unit) = match known {
                 Some((text, factor)) => (n.value / factor, format!(" {text}")),
                 None if n.dimension.is_none() => (n.value, String::new()),

@@ -14,6 +14,7 @@ pub mod codegen;
 pub mod explain;
 pub mod fix;
 pub mod format;
+pub mod fraction;
 pub mod graph;
 pub mod ide;
 pub mod index;

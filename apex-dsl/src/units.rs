@@ -1,5 +1,6 @@
 //! Physical dimensions, so that a length is never used as a time.
 
+use crate::fraction::Fraction;
 use std::{fmt, time::Duration};
 
 /// Exponents of metre, second, kilogram, ampere, kelvin and radian.
@@ -79,7 +80,14 @@ pub struct Unit {
     /// Dimension of the quantities that it measures.
     pub dimension: Dimension,
     /// Size in SI units.
-    pub factor: f64,
+    pub factor: Fraction,
+}
+
+impl Unit {
+    /// Size in SI units.
+    pub fn size(self) -> f64 {
+        self.factor.value()
+    }
 }
 
 /// Smallest limit of a recording, in bytes.
@@ -104,43 +112,43 @@ pub fn bytes(digits: &str, unit: &str) -> Option<u64> {
 /// Returns a time, given in a unit of time.
 pub fn time(digits: &str, unit: &str) -> Option<Duration> {
     let unit = parse(unit).ok().filter(|unit| unit.dimension == Dimension::TIME)?;
-    Duration::try_from_secs_f64(digits.parse::<f64>().ok()? * unit.factor).ok()
+    Duration::try_from_secs_f64(digits.parse::<f64>().ok()? * unit.size()).ok()
 }
 
 /// All units with a name: exponents as in [`Dimension`], and size in SI units.
-const UNITS: [(&str, [i8; 6], f64); 32] = [
-    ("m", [1, 0, 0, 0, 0, 0], 1.0),
-    ("km", [1, 0, 0, 0, 0, 0], 1e3),
-    ("cm", [1, 0, 0, 0, 0, 0], 1e-2),
-    ("mm", [1, 0, 0, 0, 0, 0], 1e-3),
-    ("um", [1, 0, 0, 0, 0, 0], 1e-6),
-    ("s", [0, 1, 0, 0, 0, 0], 1.0),
-    ("ms", [0, 1, 0, 0, 0, 0], 1e-3),
-    ("us", [0, 1, 0, 0, 0, 0], 1e-6),
-    ("ns", [0, 1, 0, 0, 0, 0], 1e-9),
-    ("min", [0, 1, 0, 0, 0, 0], 60.0),
-    ("h", [0, 1, 0, 0, 0, 0], 3600.0),
-    ("Hz", [0, -1, 0, 0, 0, 0], 1.0),
-    ("kHz", [0, -1, 0, 0, 0, 0], 1e3),
-    ("MHz", [0, -1, 0, 0, 0, 0], 1e6),
-    ("kg", [0, 0, 1, 0, 0, 0], 1.0),
-    ("g", [0, 0, 1, 0, 0, 0], 1e-3),
-    ("t", [0, 0, 1, 0, 0, 0], 1e3),
-    ("rad", [0, 0, 0, 0, 0, 1], 1.0),
-    ("mrad", [0, 0, 0, 0, 0, 1], 1e-3),
-    ("deg", [0, 0, 0, 0, 0, 1], std::f64::consts::PI / 180.0),
-    ("rev", [0, 0, 0, 0, 0, 1], 2.0 * std::f64::consts::PI),
-    ("A", [0, 0, 0, 1, 0, 0], 1.0),
-    ("mA", [0, 0, 0, 1, 0, 0], 1e-3),
-    ("K", [0, 0, 0, 0, 1, 0], 1.0),
-    ("N", [1, -2, 1, 0, 0, 0], 1.0),
-    ("Nm", [2, -2, 1, 0, 0, 0], 1.0),
-    ("J", [2, -2, 1, 0, 0, 0], 1.0),
-    ("W", [2, -3, 1, 0, 0, 0], 1.0),
-    ("V", [2, -3, 1, -1, 0, 0], 1.0),
-    ("mV", [2, -3, 1, -1, 0, 0], 1e-3),
-    ("Pa", [-1, -2, 1, 0, 0, 0], 1.0),
-    ("%", [0, 0, 0, 0, 0, 0], 1e-2),
+const UNITS: [(&str, [i8; 6], Fraction); 32] = [
+    ("m", [1, 0, 0, 0, 0, 0], Fraction::constant(1, 1, 0)),
+    ("km", [1, 0, 0, 0, 0, 0], Fraction::constant(1000, 1, 0)),
+    ("cm", [1, 0, 0, 0, 0, 0], Fraction::constant(1, 100, 0)),
+    ("mm", [1, 0, 0, 0, 0, 0], Fraction::constant(1, 1000, 0)),
+    ("um", [1, 0, 0, 0, 0, 0], Fraction::constant(1, 1_000_000, 0)),
+    ("s", [0, 1, 0, 0, 0, 0], Fraction::constant(1, 1, 0)),
+    ("ms", [0, 1, 0, 0, 0, 0], Fraction::constant(1, 1000, 0)),
+    ("us", [0, 1, 0, 0, 0, 0], Fraction::constant(1, 1_000_000, 0)),
+    ("ns", [0, 1, 0, 0, 0, 0], Fraction::constant(1, 1_000_000_000, 0)),
+    ("min", [0, 1, 0, 0, 0, 0], Fraction::constant(60, 1, 0)),
+    ("h", [0, 1, 0, 0, 0, 0], Fraction::constant(3600, 1, 0)),
+    ("Hz", [0, -1, 0, 0, 0, 0], Fraction::constant(1, 1, 0)),
+    ("kHz", [0, -1, 0, 0, 0, 0], Fraction::constant(1000, 1, 0)),
+    ("MHz", [0, -1, 0, 0, 0, 0], Fraction::constant(1_000_000, 1, 0)),
+    ("kg", [0, 0, 1, 0, 0, 0], Fraction::constant(1, 1, 0)),
+    ("g", [0, 0, 1, 0, 0, 0], Fraction::constant(1, 1000, 0)),
+    ("t", [0, 0, 1, 0, 0, 0], Fraction::constant(1000, 1, 0)),
+    ("rad", [0, 0, 0, 0, 0, 1], Fraction::constant(1, 1, 0)),
+    ("mrad", [0, 0, 0, 0, 0, 1], Fraction::constant(1, 1000, 0)),
+    ("deg", [0, 0, 0, 0, 0, 1], Fraction::constant(1, 180, 1)),
+    ("rev", [0, 0, 0, 0, 0, 1], Fraction::constant(2, 1, 1)),
+    ("A", [0, 0, 0, 1, 0, 0], Fraction::constant(1, 1, 0)),
+    ("mA", [0, 0, 0, 1, 0, 0], Fraction::constant(1, 1000, 0)),
+    ("K", [0, 0, 0, 0, 1, 0], Fraction::constant(1, 1, 0)),
+    ("N", [1, -2, 1, 0, 0, 0], Fraction::constant(1, 1, 0)),
+    ("Nm", [2, -2, 1, 0, 0, 0], Fraction::constant(1, 1, 0)),
+    ("J", [2, -2, 1, 0, 0, 0], Fraction::constant(1, 1, 0)),
+    ("W", [2, -3, 1, 0, 0, 0], Fraction::constant(1, 1, 0)),
+    ("V", [2, -3, 1, -1, 0, 0], Fraction::constant(1, 1, 0)),
+    ("mV", [2, -3, 1, -1, 0, 0], Fraction::constant(1, 1000, 0)),
+    ("Pa", [-1, -2, 1, 0, 0, 0], Fraction::constant(1, 1, 0)),
+    ("%", [0, 0, 0, 0, 0, 0], Fraction::constant(1, 100, 0)),
 ];
 
 /// The names of all units.
@@ -153,7 +161,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// Returns the part that is not known.
 pub fn parse(text: &str) -> Result<Unit, &str> {
-    let mut unit = Unit { dimension: Dimension::NONE, factor: 1.0 };
+    let mut unit = Unit { dimension: Dimension::NONE, factor: Fraction::ONE };
     let mut sign = 1;
     for part in text.split_inclusive(['/', '*']) {
         let term = part.trim_end_matches(['/', '*']);
@@ -162,19 +170,15 @@ pub fn parse(text: &str) -> Result<Unit, &str> {
             None => (term, 1),
         };
         if name != "1" {
-            let (_, exponents, factor) = UNITS.iter().find(|(n, ..)| *n == name).ok_or(term)?;
+            let (_, exponents, size) = UNITS.iter().find(|(n, ..)| *n == name).ok_or(term)?;
             let power = power.checked_mul(sign).filter(|p| p.abs() <= MAX_EXPONENT).ok_or(term)?;
             unit.dimension = unit.dimension.combine(Dimension(*exponents), power).ok_or(term)?;
-            unit.factor *= factor.powi(i32::from(power));
+            let size = size.checked_pow(power).ok_or(term)?;
+            unit.factor = unit.factor.checked_mul(size).ok_or(term)?;
         }
         sign = if part.ends_with('/') { -1 } else { 1 };
     }
     Ok(unit)
-}
-
-/// The product of a value and the size of a unit. It is rounded so that `15cm` is exactly 0.15.
-pub fn scaled(value: f64, factor: f64) -> f64 {
-    if factor == 1.0 { value } else { format!("{:.14e}", value * factor).parse().unwrap_or(value * factor) }
 }
 
 #[cfg(test)]
@@ -184,7 +188,8 @@ mod tests {
     #[test]
     fn compound_units() {
         assert_eq!(parse("m/s^2").unwrap().dimension.to_string(), "m/s^2");
-        assert_eq!(parse("km/h").unwrap().factor, 1e3 / 3600.0);
+        assert_eq!(parse("km/h").unwrap().factor, Fraction::constant(5, 18, 0));
+        assert_eq!(parse("rev/min").unwrap().size(), std::f64::consts::PI / 30.0);
         assert_eq!(parse("1/s").unwrap(), parse("Hz").unwrap());
         assert_eq!(parse("m/x"), Err("x"));
         assert_eq!(parse("m^99"), Err("m^99"));

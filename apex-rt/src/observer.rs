@@ -59,6 +59,12 @@ pub trait Observer {
         let _ = connection;
     }
 
+    /// Called for each token that can never be taken any more, because tokens wait for one another: the token on
+    /// connection `connection` is at a slot whose node is not called before its events were taken.
+    fn stuck(&mut self, connection: usize) {
+        let _ = connection;
+    }
+
     /// Called when node `node` returned an error, or panicked and the panic was caught. Its outputs carry ⊥.
     #[inline(always)]
     fn failed(&mut self, node: usize, error: &impl Display) {
@@ -185,6 +191,9 @@ macro_rules! pass_on_others {
         fn waits(&mut $self, connection: usize) {
             $($to.waits(connection);)+
         }
+        fn stuck(&mut $self, connection: usize) {
+            $($to.stuck(connection);)+
+        }
         #[inline(always)]
         fn failed(&mut $self, node: usize, error: &impl Display) {
             $($to.failed(node, error);)+
@@ -295,6 +304,14 @@ impl Observer for StdErr {
         eprintln!(
             "{}: deadlock: `{to}` waits for the event `{from}.{}`, which can no longer be triggered",
             info.name, c.output
+        );
+    }
+    fn stuck(&mut self, connection: usize) {
+        let (info, c) = (self.0, &self.0.connections[connection]);
+        let (from, to) = (info.nodes[c.from].name, info.nodes[c.to].name);
+        eprintln!(
+            "{}: deadlock: the token of `{from}.{}` waits at `{to}.{}` forever, for one that waits for it",
+            info.name, c.output, c.input
         );
     }
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {

@@ -44,6 +44,28 @@ impl<const N: usize> Queue<N> {
         }
         None
     }
+
+    /// Calls `found` with the slots whose tokens wait for one another, so that none is ever taken, if there are more
+    /// than are `known`. `blockers` has for each slot those whose tokens must be taken before.
+    pub fn stuck(&self, blockers: &[&[u16]; N], known: &mut usize, found: impl FnMut(u16)) {
+        let mut left = [u16::MAX; N];
+        for (at, slot) in left.iter_mut().enumerate().take(self.len) {
+            *slot = self.waiting[(self.start + at) % N];
+        }
+        loop {
+            let waits = |slot: u16| blockers[usize::from(slot)].iter().any(|other| left.contains(other));
+            let free = left.iter().position(|slot| *slot != u16::MAX && !waits(*slot));
+            match free {
+                Some(free) => left[free] = u16::MAX,
+                None => break,
+            }
+        }
+        let stuck = left.into_iter().filter(|slot| *slot != u16::MAX);
+        let count = stuck.clone().count();
+        if core::mem::replace(known, count) < count {
+            stuck.for_each(found);
+        }
+    }
 }
 
 impl<const N: usize> Default for Queue<N> {

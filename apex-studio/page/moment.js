@@ -13,7 +13,6 @@ export class Moment {
       const [from, to] = timeline.marked ?? [0, 0];
       ask({ test: [from, to] });
     });
-    // For tests, and for other tools.
     timeline.canvas.addEventListener("mark", (event) => {
       const [from, to] = /** @type {CustomEvent} */ (event).detail;
       this.set(from, to);

@@ -111,6 +111,8 @@ export function listen() {
 /** `true` for a key that belongs to a field, or to the browser. @param {KeyboardEvent} event */
 export function isTyping(event) {
   const target = /** @type {HTMLElement} */ (event.target);
+  // Space halts the robot, whatever was clicked before.
+  if (event.key === " " && target.matches("button, [type=checkbox], [type=range]")) return false;
   if (!target.matches("input, select, textarea") && !event.ctrlKey && !event.metaKey && !event.altKey) return false;
   if (event.key === "Escape") target.blur();
   return true;
@@ -119,7 +121,6 @@ export function isTyping(event) {
 /** Does what a key stands for; digits show the panels. @param {KeyboardEvent} event @param {Record<string, () => void>} keys @param {HTMLElement[]} tabs */
 export function press(event, keys, tabs) {
   if (element("keys").open) return;
-  if (/** @type {HTMLElement} */ (event.target).matches("button") && event.key === " ") return;
   const act = keys[event.key] ?? tabs[Number(event.key) - 1]?.click.bind(tabs[Number(event.key) - 1]);
   if (act) {
     event.preventDefault();

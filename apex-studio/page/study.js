@@ -132,6 +132,8 @@ function refresh() {
 /** Selects a candidate, or none. @param {number | null} number */
 export function select(number) {
   study.selected = number;
+  // A pointer that rests somewhere hides nothing that is chosen by a key.
+  hovered = null;
   element("copied").textContent = "";
   refresh();
   candidates.draw();

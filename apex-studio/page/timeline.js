@@ -99,6 +99,7 @@ export class Timeline {
     const below = `${Math.max(0, AXIS + lanes.length * HEIGHT - height)}px`;
     if (this.below.style.height !== below) this.below.style.height = below;
     if (!c) return;
+    canvas.dataset.window = `${this.end - this.span} ${this.end}`;
     canvas.dataset.lanes = lanes.map(({ node }) => robot.about?.nodes[node].name).join(" ");
     c.save();
     c.beginPath();
@@ -287,11 +288,7 @@ export class Timeline {
       event.preventDefault();
       keys[event.key]();
     });
-    // For tests, and for other tools.
-    canvas.addEventListener("goto", (event) => {
-      this.look(/** @type {CustomEvent} */ (event).detail);
-      this.go();
-    });
+    // For the pictures of the documentation.
     canvas.addEventListener("look", (event) => {
       const [from, to, cursor] = /** @type {CustomEvent} */ (event).detail;
       this.stop();

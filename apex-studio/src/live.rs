@@ -255,6 +255,7 @@ impl Live {
                 self.problem(Some(node), format!("keeps its `{parameter}`: {value} is out of range"));
             }
             Report::Waits(connection) => self.deadlock(connection),
+            Report::Stuck(connection) => self.stuck(connection),
             Report::Endless(nodes) => {
                 let node = nodes.iter().max_by_key(|(_, count)| *count).map(|(node, _)| *node);
                 self.problem(node, "tokens cycle without time passing".to_owned());
@@ -337,6 +338,15 @@ impl Live {
                 self.step(if active { What::Starts(node) } else { What::Stops(node) });
             }
         }
+    }
+
+    fn stuck(&mut self, connection: u32) {
+        let Some(about) = self.about.clone() else { return };
+        let Some(connection) = about.connections.get(connection as usize) else { return };
+        let from = about.nodes.get(connection.from as usize).map_or("?", |node| &node.name);
+        let text =
+            format!("never takes the token of `{from}.{}`, which waits for one that waits for it", connection.output);
+        self.problem(Some(connection.to), text);
     }
 
     fn deadlock(&mut self, connection: u32) {

@@ -72,3 +72,29 @@ fn a_program_has_slots_and_events() {
     program.react(Time::ZERO);
     assert_eq!(program.events().e.take(), Some(3));
 }
+
+/// Connections whose tokens were said to wait forever.
+#[derive(Default)]
+struct Knots(Vec<usize>);
+
+impl Observer for Knots {
+    fn stuck(&mut self, connection: usize) {
+        self.0.push(connection);
+    }
+}
+
+#[test]
+fn tokens_that_wait_for_one_another_are_reported_once() {
+    let (mut program, mut knots) = (Knot::new(), Knots::default());
+    program.react_with(Time::ZERO, &mut knots);
+    program.inputs().press.put(1).expect("it is empty");
+    program.react_with(Time::from_millis(1), &mut knots);
+    let connection = |knot: &usize| &<Knot as Program>::INFO.connections[*knot];
+    let names: Vec<&str> = knots.0.iter().map(|knot| <Knot as Program>::INFO.nodes[connection(knot).to].name).collect();
+    assert_eq!(names, ["on", "off"]);
+    assert!(knots.0.iter().all(|knot| connection(knot).output == "e"));
+    // The rest of the program goes on, and it is not said again.
+    program.inputs().other.put(7).expect("it is empty");
+    program.react_with(Time::from_millis(2), &mut knots);
+    assert_eq!((program.nodes().sink.seen.as_slice(), knots.0.len()), (&[7][..], 2));
+}

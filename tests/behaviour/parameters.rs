@@ -51,6 +51,9 @@ fn values_are_evaluated_and_reach_rust_in_si() {
     assert_eq!((given.pause, given.name, given.on, given.count), (Duration::from_secs(2), "given", true, 6));
     assert_eq!(program.nodes().constant.count, 7);
     assert_eq!(program.nodes().shared.speed, 2.0, "a share of a share is brought into its unit once");
+    let exact = &program.nodes().exact;
+    assert_eq!((exact.length, exact.speed, exact.angle), (0.25, 0.3, PI / 4.0));
+    assert_eq!((exact.pause, exact.count), (Duration::from_millis(125), 3500));
     assert_eq!(program.nodes().k.seen, [1, 2, 3, 4, 5, 6]);
 }
 

@@ -164,7 +164,8 @@ fn claims_are_decided_as_by_enumeration() {
             held += usize::from(expected.is_none());
             kinds.extend(expected.map(|_| word));
         }
-        let others: Vec<_> = found.iter().filter(|d| !["claim-fails", "never-activated"].contains(&d.code)).collect();
+        let others: Vec<_> =
+            found.iter().filter(|d| !["claim-fails", "never-activated", "stuck"].contains(&d.code)).collect();
         assert!(others.iter().all(|d| d.code == "never-leaves"), "{others:?}\n{text}");
     }
     assert!(held > 100 && kinds.len() == 3, "{held} claims hold, of {kinds:?} some fail");

@@ -92,6 +92,31 @@ graph! {
             diary.told;
         }
     }
+
+    /// Tokens that follow from parameters and slots.
+    robot Computed {
+        node one    = apex_nodes::flow::constant<f64>(value = 1) every 10ms;
+        node shifted = Mean();
+        node newest = apex_nodes::flow::Latest() every 10ms;
+        node after  = Mean();
+        one          -> shifted -> newest.set;
+        newest       -> after -> swallow();
+        record "computed.mcap" { shifted.out; after.out; }
+    }
+
+    /// The order of tokens in several slots counts.
+    graph Ordered {
+        slot a: u64;
+        slot b: u64;
+        slot c: u64;
+        node diary = Diary();
+        node echo = Diary();
+        a -> diary.number;
+        b -> diary.number;
+        c -> diary.number;
+        diary.told -> echo.text;
+        record "ordered.mcap" { diary.told; }
+    }
 }
 
 /// A machine on which the duration of reactions varies.
@@ -121,6 +146,7 @@ fn a_run_with_chance_in_it_is_the_same_again() {
     let report = repeat(&mut second, &path);
     assert!(report.is_same() && report.missing.is_empty() && report.params.is_empty(), "{report}");
     assert_eq!(report.compared.len(), 4, "{report}");
+    assert_eq!(report.not_called, ["m"], "it has a slot");
     assert!(report.compared.iter().all(|c| c.equal > 5), "{report}");
     assert_eq!(first.nodes().diary.entries, second.nodes().diary.entries);
     assert!(first.nodes().m.calls > 200);
@@ -244,6 +270,32 @@ fn what_comes_from_outside_comes_again() {
 }
 
 #[test]
+fn tokens_come_again_in_the_order_in_which_they_were_put_in() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    let mut first = Ordered::new();
+    record::<Ordered>(&path, |tap| {
+        for (i, order) in ["abc", "acb", "bac", "bca", "cab", "cba", "ca", "b", ""].into_iter().enumerate() {
+            for port in order.chars() {
+                let inputs = first.inputs();
+                let slot = match port {
+                    'a' => &mut inputs.a,
+                    'b' => &mut inputs.b,
+                    _ => &mut inputs.c,
+                };
+                slot.put(u64::from(u32::from(port))).expect("it is empty");
+            }
+            first.react_with(Time::from_millis(i as i64), tap);
+        }
+    });
+    let mut second = Ordered::new();
+    let report = repeat(&mut second, &path);
+    assert!(report.is_same() && report.reactions == 9, "{report}");
+    let entries = &first.nodes().diary.entries;
+    assert_eq!((entries.len(), entries), (21, &second.nodes().diary.entries));
+}
+
+#[test]
 fn several_tokens_at_once_are_the_same_again() {
     let folder = Folder::new();
     let path = folder.file("a.mcap");
@@ -253,6 +305,24 @@ fn several_tokens_at_once_are_the_same_again() {
     let report = repeat(Batches::new(), &path);
     let equal: Vec<_> = report.compared.iter().map(|compared| compared.equal).collect();
     assert!(report.is_same() && equal == [60, 10], "{report}");
+}
+
+#[test]
+fn what_is_computed_at_slots_is_computed_again() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    record::<Computed>(&path, |tap| {
+        drive_with(Computed::new(), until(1000), tap);
+    });
+    let same = repeat(Computed::new(), &path);
+    assert!(same.is_same() && same.not_called.is_empty(), "{same}");
+    for (parameter, counts) in [("shifted.offset", [100, 100]), ("after.offset", [0, 100])] {
+        let mut other = Computed::new();
+        other.set_param(parameter, 1.0).expect("there is one");
+        let report = repeat(&mut other, &path);
+        let different: Vec<_> = report.compared.iter().map(|compared| compared.different).collect();
+        assert_eq!(different, counts, "{parameter}: {report}");
+    }
 }
 
 #[test]

@@ -16,6 +16,8 @@ use tungstenite::{Message, WebSocket, client};
 
 /// Time that a page has to show something.
 const PATIENCE: Duration = Duration::from_secs(20);
+/// The control key, as a modifier of events.
+const CONTROL: u32 = 2;
 
 /// The program of the browser, for all tests that run at the same time.
 struct Program {
@@ -159,12 +161,124 @@ impl Browser {
         BASE64_STANDARD.decode(answer["data"].as_str().unwrap_or_default()).expect("base 64")
     }
 
-    /// Sends a key to the page.
+    /// Presses a key, also with `Control+` before it.
     pub fn press(&mut self, key: &str) {
-        let text = if key.chars().count() == 1 { key } else { "" };
+        let (key, control) = key.strip_prefix("Control+").map_or((key, false), |key| (key, true));
+        let text = match key {
+            "Enter" => "\r",
+            _ if key.chars().count() == 1 && !control => key,
+            _ => "",
+        };
+        let code = match key {
+            _ if key.len() > 1 && !matches!(key, "Enter" | "End" | "Home" | "ArrowUp" | "ArrowDown" | "Delete") => 0,
+            "Enter" => 13,
+            " " => 32,
+            "End" => 35,
+            "Home" => 36,
+            "ArrowUp" => 38,
+            "ArrowDown" => 40,
+            "Delete" => 46,
+            _ => key.to_ascii_uppercase().bytes().next().filter(u8::is_ascii_alphanumeric).map_or(0, u32::from),
+        };
         for kind in ["keyDown", "keyUp"] {
-            self.call("Input.dispatchKeyEvent", json!({ "type": kind, "key": key, "text": text }));
+            let modifiers = if control { CONTROL } else { 0 };
+            let key = json!({ "type": kind, "key": key, "text": text, "modifiers": modifiers, "windowsVirtualKeyCode": code });
+            self.call("Input.dispatchKeyEvent", key);
         }
+    }
+
+    /// Types words, key by key.
+    pub fn type_in(&mut self, words: &str) {
+        for letter in words.chars() {
+            self.press(if letter == '\n' { "Enter".to_owned() } else { letter.to_string() }.as_str());
+        }
+    }
+
+    /// Replaces the contents of a field.
+    pub fn fill(&mut self, field: &str, words: &str) {
+        self.click(field);
+        self.press("Control+a");
+        self.press("Delete");
+        self.type_in(words);
+        self.press("Enter");
+    }
+
+    /// Chooses the option of a list for which an expression about `option` is true, by the keyboard.
+    pub fn choose(&mut self, list: &str, option: &str) {
+        let found = format!("[...{list}.options].findIndex((option) => {option})");
+        self.wait_for(&format!("{found} >= 0"));
+        let at = self.value(&found).as_u64().expect("a number");
+        self.value(&format!("{list}.focus()"));
+        // The list opens, and what is chosen counts at the end.
+        self.press(" ");
+        self.press("Home");
+        (0..at).for_each(|_| self.press("ArrowDown"));
+        self.press("Enter");
+    }
+
+    fn mouse(&mut self, kind: &str, (x, y): (f64, f64), clicks: u32, modifiers: u32) {
+        let (button, buttons) = if clicks > 0 { ("left", u32::from(kind != "mouseReleased")) } else { ("none", 0) };
+        let event = json!({
+            "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": clicks,
+            "modifiers": modifiers, "pointerType": "mouse",
+        });
+        self.call("Input.dispatchMouseEvent", event);
+    }
+
+    /// The place of an element on the screen: its middle, where nothing must lie over it.
+    fn place(&mut self, element: &str) -> (f64, f64) {
+        let hidden = self.value(&format!("{element}.closest('[data-panel][hidden]')?.dataset.panel ?? null"));
+        if let Some(panel) = hidden.as_str() {
+            self.click(&format!("document.querySelector('[data-tab={panel}]')"));
+        }
+        let place = self.value(&format!(
+            "(() => {{ const found = {element}; found.scrollIntoView({{ block: 'nearest', inline: 'nearest' }});
+                const box = found.getBoundingClientRect();
+                const [x, y] = [box.left + box.width / 2, box.top + box.height / 2];
+                const above = document.elementFromPoint(x, y);
+                const is_free = above && (found.contains(above) || above.contains(found));
+                return is_free ? [x, y] : `${{above?.outerHTML.slice(0, 200)}} lies over it at ${{x}} ${{y}}`; }})()"
+        ));
+        let (Some(x), Some(y)) = (place[0].as_f64(), place[1].as_f64()) else { panic!("{element}: {place}") };
+        (x, y)
+    }
+
+    /// Moves the mouse to a place, in pixels.
+    pub fn point_at(&mut self, place: (f64, f64)) {
+        self.mouse("mouseMoved", place, 0, 0);
+    }
+
+    /// Clicks the middle of an element.
+    pub fn click(&mut self, element: &str) {
+        let place = self.place(element);
+        self.click_at(place);
+    }
+
+    /// Clicks a place, in pixels.
+    pub fn click_at(&mut self, place: (f64, f64)) {
+        self.point_at(place);
+        self.mouse("mousePressed", place, 1, 0);
+        self.mouse("mouseReleased", place, 1, 0);
+    }
+
+    /// Clicks the middle of an element twice.
+    pub fn double_click(&mut self, element: &str) {
+        let place = self.place(element);
+        self.click_at(place);
+        self.mouse("mousePressed", place, 2, 0);
+        self.mouse("mouseReleased", place, 2, 0);
+    }
+
+    /// Draws the mouse from one place to another, in pixels.
+    pub fn drag(&mut self, from: (f64, f64), to: (f64, f64), with_control: bool) {
+        let modifiers = if with_control { CONTROL } else { 0 };
+        self.mouse("mouseMoved", from, 0, modifiers);
+        self.mouse("mousePressed", from, 1, modifiers);
+        for share in [0.3, 0.7, 1.0] {
+            let between = |a: f64, b: f64| a + share * (b - a);
+            self.mouse("mouseMoved", (between(from.0, to.0), between(from.1, to.1)), 1, modifiers);
+        }
+        self.mouse("mouseReleased", to, 1, modifiers);
     }
 }
 

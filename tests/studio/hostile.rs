@@ -153,7 +153,7 @@ fn connections_that_say_nothing_lock_nobody_out_and_end() {
     let (address, _) = studio_of(Remote { address: talker(vec![]) }, false);
     let host = address.strip_prefix("http://").and_then(|rest| rest.split_once("/#")).expect("an address").0;
     let mut idle: Vec<TcpStream> = (0..300).map(|_| TcpStream::connect(host).expect("a connection")).collect();
-    // One that has begun to ask, and goes on for ever.
+    // One that has begun to ask, and goes on forever.
     let mut slow = TcpStream::connect(host).expect("a connection");
     slow.write_all(b"GET / HTTP/1.1\r\nHost: x\r\n").expect("it listens");
     Page::open(&address).until("about", |_| true);

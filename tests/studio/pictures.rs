@@ -1,6 +1,6 @@
 //! The pictures of the documentation: of robots that run, so that they are drawn on demand only.
 
-use crate::{browser::Browser, socket};
+use crate::{browser::Browser, page::moment, socket};
 use std::{
     env, fs,
     io::{self, BufRead as _, BufReader},
@@ -113,14 +113,13 @@ fn time_is_over(page: &mut Browser, seconds: f64) {
 /// Clicks what a selector finds, once it is there.
 fn click(page: &mut Browser, selector: &str) {
     page.wait_for(&format!("document.querySelector('{selector}')"));
-    page.value(&format!("document.querySelector('{selector}').click()"));
+    page.click(&format!("document.querySelector('{selector}')"));
 }
 
 /// Shows the tokens of a channel from the pose at another one.
 fn see_from(page: &mut Browser, channel: &str, pose: &str) {
     let from = format!("document.querySelector('[data-channel=\"{channel}\"] select')");
-    page.wait_for(&format!("[...{from}.options].some((option) => option.value === '{pose}')"));
-    page.value(&format!("{{ {from}.value = '{pose}'; {from}.dispatchEvent(new Event('change')); }}"));
+    page.choose(&from, &format!("option.value === '{pose}'"));
 }
 
 #[test]
@@ -134,8 +133,7 @@ fn pictures() {
     let mut page = Browser::open(&studio.address).expect("a browser");
     page.size(1280, 760, false);
     click(&mut page, "[data-tab=params]");
-    page.value("document.getElementById('params-filter').value = 'mission'");
-    page.value("document.getElementById('params-filter').dispatchEvent(new Event('input'))");
+    page.fill("document.getElementById('params-filter')", "mission");
     time_is_over(&mut page, 44.0);
     page.press("0");
     save(&mut page, "studio.png");
@@ -175,8 +173,7 @@ fn film_of_the_competition() {
         click(&mut page, &format!("[data-channel$=\"{channel}\"] input"));
     }
     see_from(&mut page, "surroundings.around.both.merged", "surroundings.localize.slam.pose");
-    page.value("document.getElementById('lanes-filter').value = 'follow'");
-    page.value("document.getElementById('lanes-filter').dispatchEvent(new Event('input'))");
+    page.fill("document.getElementById('lanes-filter')", "follow");
     time_is_over(&mut page, 20.0);
     page.press("0");
     let interval = Duration::from_millis(250);
@@ -247,15 +244,16 @@ fn pictures_of_a_mistake() {
     page.press("0");
     save(&mut page, "debugging.png");
     page.size(1280, 760, true);
-    page.value("document.getElementById('timeline').dispatchEvent(new CustomEvent('goto', { detail: 10 }))");
+    let place = moment(&mut page, 10.0);
+    page.click_at(place);
+    page.press("g");
     page.wait_for(
         "document.getElementById('run').textContent === 'halted' && parseFloat(document.getElementById('now').textContent) < 10.1",
     );
     click(&mut page, "[data-tab=params]");
-    page.value("document.getElementById('params-filter').value = 'mission.drive'");
-    page.value("document.getElementById('params-filter').dispatchEvent(new Event('input'))");
+    page.fill("document.getElementById('params-filter')", "mission.drive");
     let text = "document.querySelector('[data-param=\"sim.mission.drive.near\"] input[type=text]')";
-    page.value(&format!("{{ {text}.value = '0.4'; {text}.dispatchEvent(new Event('change')); }}"));
+    page.fill(text, "0.4");
     page.wait_for("document.querySelector('[data-param=\"sim.mission.drive.near\"]').classList.contains('is-changed')");
     page.press(" ");
     time_is_over(&mut page, 13.0);

@@ -65,7 +65,7 @@ fn a_page_shows_one_of_several_robots() {
     let choice = "document.getElementById('robot')";
     assert_eq!(page.value(&format!("[{choice}.hidden, {choice}.options.length]")), serde_json::json!([false, 2]));
     let choose = |page: &mut Browser, at: u32| {
-        page.value(&format!("{{ {choice}.value = '{at}'; {choice}.dispatchEvent(new Event('change')); }}"));
+        page.choose(choice, &format!("option.value === '{at}'"));
     };
     // The other one is not there yet.
     choose(&mut page, 1);

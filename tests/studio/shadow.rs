@@ -51,10 +51,7 @@ impl Drop for Original {
 
 /// Shows the robot with this number.
 fn look(page: &mut Browser, robot: u32) {
-    page.wait_for(&format!("document.getElementById('robot').options.length > {robot}"));
-    page.value(&format!(
-        "{{ const robots = document.getElementById('robot'); robots.value = '{robot}'; robots.dispatchEvent(new Event('change')); }}"
-    ));
+    page.choose("document.getElementById('robot')", &format!("option.value === '{robot}'"));
 }
 
 #[test]
@@ -80,17 +77,15 @@ fn a_shadow_is_compared_with_its_robot_and_hands_its_parameters_over() {
     assert_eq!(page.value("document.getElementById('back').hidden"), true);
     let row = "document.querySelector('[data-param=\"times.factor\"]')";
     page.wait_for(row);
-    page.value(&format!(
-        "{{ const text = {row}.querySelector('input[type=text]'); text.value = '5'; text.dispatchEvent(new Event('change')); }}"
-    ));
+    page.fill(&format!("{row}.querySelector('input[type=text]')"), "5");
     page.wait_for(&format!("{row}.classList.contains('is-changed')"));
     // Both curves in one plot.
-    page.value("document.querySelector('[data-tab=values]').click()");
+    page.click("document.querySelector('[data-tab=values]')");
     let product = "document.querySelector('[data-channel=\"times.out\"]')";
     page.wait_for(product);
-    page.value(&format!("{product}.querySelector('input').click()"));
+    page.click(&format!("{product}.querySelector('input')"));
     page.wait_for(&format!("Number({product}.dataset.beside) > 10"));
-    page.value("document.getElementById('take').click()");
+    page.click("document.getElementById('take')");
     look(&mut page, 0);
     page.wait_for(&format!("{row}?.classList.contains('is-changed')"));
     page.wait_for(&format!("{row}.querySelector('input[type=text]').value === '5'"));

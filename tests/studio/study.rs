@@ -79,14 +79,14 @@ fn append(folder: &Path, text: &str) {
 /// Numbers of the lanes that are drawn with their fates.
 const LANES: &str = "document.getElementById('candidates').dataset.lanes";
 
-/// A mouse event in the lane of a candidate, at a share of its width.
-fn mouse(page: &mut Browser, kind: &str, number: usize, x: f64) {
-    page.value(&format!(
-        "{{ const canvas = document.getElementById('candidates'), place = document.getElementById('lanes');
-            const box = canvas.getBoundingClientRect();
-            const y = box.top + ({number} * 18 - place.scrollTop) + 9;
-            canvas.dispatchEvent(new PointerEvent('{kind}', {{ bubbles: true, clientX: box.left + 170 + {x} * (box.width - 170), clientY: y }})); }}"
+/// The place in the lane of a candidate, at a share of its width.
+fn lane(page: &mut Browser, number: usize, x: f64) -> (f64, f64) {
+    let place = page.value(&format!(
+        "(() => {{ const box = document.getElementById('candidates').getBoundingClientRect();
+            const y = box.top + ({number} * 18 - document.getElementById('lanes').scrollTop) + 9;
+            return [box.left + 170 + {x} * (box.width - 170), y]; }})()"
     ));
+    (place[0].as_f64().expect("a number"), place[1].as_f64().expect("a number"))
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn a_study_is_followed_while_it_runs() {
     let (first, rest) = text.split_at(text.len() / 3);
     append(&folder, first);
     let Some(mut page) = Browser::open(&studio(&folder)) else { return };
-    page.size(1200, 1900, false);
+    page.size(1200, 2600, false);
     page.wait_for(&format!("document.getElementById('name').textContent === {NAME:?}"));
     page.wait_for("document.getElementById('run').textContent === 'running'");
     page.wait_for(&format!("{LANES}.startsWith('0:complete ') && {LANES}.includes(':running')"));
@@ -128,7 +128,7 @@ fn a_candidate_shows_its_values_and_offers_them_as_a_file() {
     let seen = follower.seen().expect("a study");
     let best = seen.best().expect("a best one").1;
     let Some(mut page) = Browser::open(&studio(&folder)) else { return };
-    page.size(1200, 1900, false);
+    page.size(1200, 2600, false);
     let title = "document.querySelector('#candidate h2').textContent";
     let toml = "document.getElementById('toml').textContent";
     let file = |number: usize| seen.study().params(&seen.trail(0).expect("a search").candidates()[number].values);
@@ -137,16 +137,18 @@ fn a_candidate_shows_its_values_and_offers_them_as_a_file() {
     page.wait_for(&format!("{toml} === {:?}", file(best)));
     page.wait_for(&format!("{LANES}.split(' ').length === 90"));
     // Under the pointer, and away again.
-    mouse(&mut page, "pointermove", 0, 0.01);
+    let first = lane(&mut page, 0, 0.01);
+    page.point_at(first);
     page.wait_for(&format!("{title} === 'Candidate 0'"));
     page.wait_for("document.getElementById('tip').textContent.startsWith('candidate 0\\nseed 0: ')");
     assert_eq!(page.value(toml), "");
     assert!(page.value("document.querySelectorAll('.param.is-changed').length") == 0);
-    mouse(&mut page, "pointerleave", 0, 0.01);
+    page.point_at((first.0, 2.0));
     page.wait_for(&format!("{title} === 'Candidate {best}, the best'"));
     assert!(page.value("document.querySelectorAll('.param.is-changed').length") == 2);
     // A click keeps it.
-    mouse(&mut page, "click", 7, 0.5);
+    let eighth = lane(&mut page, 7, 0.5);
+    page.click_at(eighth);
     page.wait_for(&format!("{title} === 'Candidate 7'"));
     page.wait_for(&format!("{toml} === {:?}", file(7)));
     page.press("c");
@@ -208,15 +210,13 @@ fn searches_and_goals_can_be_chosen() {
     let (folder, text) = folder("several-goals", &several);
     append(&folder, &text);
     let Some(mut page) = Browser::open(&studio(&folder)) else { return };
-    page.size(1200, 1900, false);
+    page.size(1200, 2600, false);
     page.wait_for("document.getElementById('progress').textContent === '60 of 60 candidates'");
     page.wait_for(
         "/^best .* % against the defaults, defaults .* m<\\/td>$/.test(document.getElementById('value').textContent)",
     );
     let choose = |page: &mut Browser, id: &str, number: usize| {
-        page.value(&format!(
-            "{{ const choice = document.getElementById('{id}'); choice.selectedIndex = {number}; choice.dispatchEvent(new Event('change')); }}"
-        ));
+        page.choose(&format!("document.getElementById('{id}')"), &format!("option.index === {number}"));
     };
     let title = "document.querySelector('#candidate h2').textContent";
     page.wait_for(&format!("/^Candidate .* of search 1, the best$/.test({title})"));
@@ -231,7 +231,8 @@ fn searches_and_goals_can_be_chosen() {
         .value("[...document.getElementById('scale').childNodes].map(({ textContent }) => parseFloat(textContent))");
     assert!(numbers[0].as_f64() > numbers[2].as_f64(), "{scale}: {numbers}");
     page.wait_for(&format!("{LANES}.startsWith('0:')"));
-    mouse(&mut page, "pointermove", 0, 0.99);
+    let first = lane(&mut page, 0, 0.99);
+    page.point_at(first);
     page.wait_for("/^candidate 0\\nseed 15: .* km$/.test(document.getElementById('tip').textContent)");
     assert_eq!(page.complaints, Vec::<String>::new());
     fs::remove_dir_all(folder).expect("it is still there");
@@ -251,14 +252,7 @@ fn the_page_of_a_robot_leads_to_its_studies_and_back() {
     };
     page.wait_for(RUNNING);
     let choose = |page: &mut Browser, name: &str| {
-        page.wait_for(&format!(
-            "[...document.getElementById('robot').options].some(({{ text }}) => text.startsWith('{name}'))"
-        ));
-        page.value(&format!(
-            "{{ const choice = document.getElementById('robot');
-                choice.selectedIndex = [...choice.options].findIndex(({{ text }}) => text.startsWith('{name}'));
-                choice.dispatchEvent(new Event('change')); }}"
-        ));
+        page.choose("document.getElementById('robot')", &format!("option.text.startsWith('{name}')"));
     };
     choose(&mut page, "study Other");
     page.wait_for("document.getElementById('run').textContent === 'finished'");

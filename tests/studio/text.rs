@@ -11,24 +11,49 @@ const SELECTED: &str = "document.querySelector('#text .is-selected')";
 /// Opens the text of a robot on its page.
 fn open(page: &mut Browser) {
     page.wait_for(RUNNING);
-    page.value("document.querySelector('[data-tab=text]').click()");
+    page.click("document.querySelector('[data-tab=text]')");
     page.wait_for(&format!("{AREA}.value.includes('graph Counts')"));
     page.wait_for("document.querySelector('#text .keyword')?.textContent === 'use'");
 }
 
-/// Replaces words of the text as if they were typed.
-fn replace(page: &mut Browser, old: &str, new: &str) {
-    page.value(&format!(
-        "{{ const area = {AREA}; const at = area.value.indexOf('{old}'); area.focus();
-           area.setSelectionRange(at, at + '{old}'.length); document.execCommand('insertText', false, '{new}'); }}"
+/// The place of the first letter of words in the text, and that behind their last one, where the coloured rows show
+/// them.
+fn ends(page: &mut Browser, words: &str) -> [(f64, f64); 2] {
+    let place = page.value(&format!(
+        "(() => {{
+            const at = {AREA}.value.indexOf('{words}');
+            const before = {AREA}.value.slice(0, at).split('\\n');
+            const row = document.querySelectorAll('#text .paper .row')[before.length - 1];
+            row.scrollIntoView({{ block: 'center' }});
+            const point = (column) => {{
+                const range = document.createRange(), walk = document.createTreeWalker(row, NodeFilter.SHOW_TEXT);
+                for (let node = walk.nextNode(); node; node = walk.nextNode()) {{
+                    if (column > node.length) {{ column -= node.length; continue; }}
+                    range.setStart(node, column);
+                    const box = range.getBoundingClientRect();
+                    return [box.left + 0.5, box.top + box.height / 2];
+                }}
+            }};
+            const column = before.at(-1).length;
+            return [point(column), point(column + '{words}'.length)]; }})()"
     ));
+    [0, 1].map(|end| (place[end][0].as_f64().expect(words), place[end][1].as_f64().expect(words)))
 }
 
-/// Presses Ctrl-S.
+/// Replaces words of the text: they are marked with the mouse, and others are typed.
+fn replace(page: &mut Browser, old: &str, new: &str) {
+    let [from, to] = ends(page, old);
+    page.drag(from, to, false);
+    assert_eq!(page.value(&format!("{AREA}.value.slice({AREA}.selectionStart, {AREA}.selectionEnd)")), old);
+    page.type_in(new);
+    // What was typed may have opened a list of names.
+    if page.value("document.querySelector('#text .menu').hidden") == false {
+        page.press("Escape");
+    }
+}
+
 fn save(page: &mut Browser) {
-    page.value(&format!(
-        "{AREA}.dispatchEvent(new KeyboardEvent('keydown', {{ key: 's', ctrlKey: true, bubbles: true, cancelable: true }}))"
-    ));
+    page.press("Control+s");
 }
 
 #[test]
@@ -85,7 +110,7 @@ fn a_text_is_saved_unless_others_have_changed_it() {
     page.wait_for("!document.getElementById('text-over').hidden");
     assert!(text.text.lock().unwrap().as_ref().is_some_and(|text| text.contains("factor = 6")));
     assert_eq!(page.value(&format!("{AREA}.value.includes('factor = 5')")), true);
-    page.value("document.getElementById('text-over').click()");
+    page.click("document.getElementById('text-over')");
     saved(&mut page);
     page.wait_for("document.getElementById('text-over').hidden");
     assert!(text.text.lock().unwrap().as_ref().is_some_and(|text| text.contains("factor = 5")));
@@ -99,16 +124,13 @@ fn names_are_completed_and_explained() {
     open(&mut page);
     // By the keyboard alone.
     replace(&mut page, "times -> gated.number", "times -> gated.numb");
-    page.value(&format!(
-        "{AREA}.dispatchEvent(new KeyboardEvent('keydown', {{ key: ' ', ctrlKey: true, bubbles: true, cancelable: true }}))"
-    ));
+    page.press("Control+ ");
     page.wait_for("document.querySelector('#text .menu li[aria-selected=true]')?.textContent.startsWith('number')");
     page.press("Enter");
     page.wait_for(&format!("{AREA}.value.includes('times -> gated.number;')"));
     page.wait_for("document.querySelector('#text .menu').hidden");
-    page.value(&format!(
-        "{{ const at = {AREA}.value.indexOf('CountUp() every'); {AREA}.setSelectionRange(at + 2, at + 2); }}"
-    ));
+    let [place, _] = ends(&mut page, "untUp() every");
+    page.click_at(place);
     page.press("F1");
     page.wait_for("document.getElementById('tip').textContent.includes('CountUp')");
     assert_eq!(page.complaints, Vec::<String>::new());
@@ -121,17 +143,14 @@ fn lines_and_nodes_are_selected_together_also_while_the_text_changes() {
     open(&mut page);
     replace(&mut page, "/// Lets", "/// One.\\n/// Two.\\n/// Lets");
     let click = |page: &mut Browser, words: &str| {
-        page.value(&format!(
-            "{{ const at = {AREA}.value.indexOf('{words}'); {AREA}.setSelectionRange(at, at); {AREA}.dispatchEvent(new MouseEvent('click')); }}"
-        ));
+        let [place, _] = ends(page, words);
+        page.click_at(place);
     };
     click(&mut page, "node times");
     page.wait_for("document.querySelector('[data-item=times].is-selected')");
     page.wait_for(&format!("{SELECTED}.textContent.includes('node times')"));
     let count = "document.querySelector('[data-item=count]')";
-    page.value(&format!(
-        "for (const kind of ['pointerdown', 'pointerup']) {count}.dispatchEvent(new PointerEvent(kind, {{ bubbles: true }}))"
-    ));
+    page.click(count);
     page.wait_for(&format!("{SELECTED}.textContent.includes('node count')"));
     assert_eq!(page.complaints, Vec::<String>::new());
 }

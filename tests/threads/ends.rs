@@ -244,7 +244,7 @@ fn told(program: &str, interrupted: bool) -> Vec<String> {
             }
         }
         told.push(text);
-        // If it were fed for ever, this would not end.
+        // If it were fed forever, this would not end.
         if told.len() > 200 || told.last().is_some_and(|text| text == "STOPPING=1") {
             break;
         }

@@ -145,7 +145,7 @@ fn what_no_value_fits_is_refused() {
     let ports = Ports::<Sampled>::new();
     let params = ports.params();
     let asks = thread::spawn(move || {
-        let error = params.get_text("long.text").expect_err("a text that lives for ever");
+        let error = params.get_text("long.text").expect_err("a text that lives forever");
         assert!(matches!(error, ParamError::Refused { refusal: Rejection::Opaque, .. }), "{error}");
     });
     // It ends when the question is answered: the clock stands until then.

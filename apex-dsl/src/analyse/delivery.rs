@@ -47,7 +47,7 @@ fn all_alone(graph: &Graph, asynchronous: &Asynchronous) -> bool {
 }
 
 /// Connections that each kind of step may send on, in the order in which tokens are emitted.
-fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<ConnectionId>> {
+pub fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<ConnectionId>> {
     let firings = analysis.clusters.iter().map(|c| c.sends.clone());
     let alone = |node: &NodeId| {
         let n = &graph.nodes[*node];

@@ -31,6 +31,7 @@ mod schedule;
 mod silences;
 mod stamps;
 mod steps;
+mod stuck;
 
 use crate::{
     catalog::Catalog,
@@ -53,6 +54,7 @@ pub use rates::has_rates;
 pub use schedule::{Block, Run, Step};
 pub use silences::{Silence, parameter as silence_parameter};
 pub use stamps::Stamps;
+pub use stuck::{blockers, find as find_stuck, is_possible as may_get_stuck};
 
 /// Results of the analysis of a graph.
 #[derive(Debug)]

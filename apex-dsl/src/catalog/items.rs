@@ -139,6 +139,8 @@ pub struct NodeItem {
     pub bounds: Vec<String>,
     /// `true` if its tokens take activity away.
     pub deactivates: bool,
+    /// `true` if nothing in its tokens comes from outside.
+    pub computed: bool,
     /// The signature of a function node.
     pub process: Option<Process>,
 }
@@ -533,6 +535,7 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
             .map(|field| Ty::from_syn(&field.ty))
             .collect(),
         deactivates: signature::marked(&item.attrs, signature::DEACTIVATES),
+        computed: signature::marked(&item.attrs, signature::COMPUTED),
         params,
         process: None,
     };
@@ -651,6 +654,7 @@ fn function(item: &syn::ItemFn, callable: &signature::Callable) -> NodeItem {
         stateful: false,
         state: vec![],
         deactivates: false,
+        computed: signature::marked(&item.attrs, signature::COMPUTED),
         process: Some(process(callable)),
     }
 }

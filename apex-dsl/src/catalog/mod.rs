@@ -244,6 +244,7 @@ impl Catalog {
             on_stop: methods.iter().find_map(|m| m.on_stop.clone()),
             moved: None,
             deactivates: node.deactivates,
+            computed: node.computed,
         }
     }
 

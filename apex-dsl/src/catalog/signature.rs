@@ -55,6 +55,8 @@ pub struct Signature {
     pub moved: Option<Vec<ArgSig>>,
     /// `true` if its tokens take activity away instead of passing it on.
     pub deactivates: bool,
+    /// `true` if nothing in its tokens comes from outside of the program, also if it has no inputs.
+    pub computed: bool,
     /// Part of the Rust libraries that the node needs, and the reason.
     pub needs: Option<(Need, String)>,
 }

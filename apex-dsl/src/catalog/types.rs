@@ -104,6 +104,11 @@ impl Type {
         }
     }
 
+    /// Returns `true` for a whole number.
+    pub fn is_integer(&self) -> bool {
+        matches!(self.without_unit(), Self::Primitive(name) if name.starts_with(['i', 'u']))
+    }
+
     /// Part of the Rust libraries that the type needs, and the type in it that is the reason.
     pub fn needs(&self) -> Option<(Need, String)> {
         let of_all = |types: &[Self]| types.iter().filter_map(Self::needs).max_by_key(|(need, _)| *need);

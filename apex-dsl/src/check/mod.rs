@@ -7,6 +7,7 @@ mod lints;
 mod modifiers;
 mod parallel;
 mod rates;
+mod stuck;
 mod target;
 mod types;
 
@@ -19,6 +20,7 @@ use crate::{
 
 pub use lints::check_lints;
 pub use rates::{check_periods, check_rates};
+pub use stuck::check_stuck;
 pub use types::compare as compare_types;
 
 /// Runs all checks on `graph` and on the bodies in it.

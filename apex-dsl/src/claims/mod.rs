@@ -74,7 +74,7 @@ pub fn decide(graph: &Graph, catalog: &Catalog, bound: usize, diagnostics: &mut 
                 diagnostics.push_once(failure(graph, &model, claim, run));
                 Verdict::Fails
             }
-            None if outcome.complete || checks.is_certain(number, claim.of.len() as u32) => Verdict::Holds,
+            None if outcome.complete || checks.is_certain(&model, number, claim.of.len() as u32) => Verdict::Holds,
             None => {
                 diagnostics.push_once(open(graph, claim, outcome.states));
                 Verdict::Undecided

@@ -266,8 +266,10 @@ impl Model {
         !matches!(self.places[place as usize], Place::Remembered(..))
     }
 
-    /// For each place, `true` if a path leads from it to one of `goals`. Other activity is ignored.
-    pub fn reaching(&self, goals: &[PlaceId]) -> Vec<bool> {
+    /// For each place, `true` if a path leads from it to one of `goals`. Other activity is ignored. With `memory`,
+    /// `cancel` and `resume` are taken to find what they need: an end that cannot be reached then can never be reached.
+    /// Without, it can be reached in any case.
+    pub fn reaching(&self, goals: &[PlaceId], memory: bool) -> Vec<bool> {
         let mut before: Vec<Vec<PlaceId>> = vec![vec![]; self.places.len()];
         let mut restarts = vec![];
         for place in 0..self.places.len() as PlaceId {
@@ -280,15 +282,23 @@ impl Model {
                 Some(Arrival::Cancels(number)) => {
                     self.interrupts[number].sends.iter().for_each(|to| before[*to as usize].push(place));
                 }
-                Some(Arrival::Resumes(number)) => {
+                Some(Arrival::Resumes(number)) if memory => {
                     self.interrupts[number].gives.values().for_each(|to| before[*to as usize].push(place));
                 }
                 _ => {}
             }
         }
-        for interrupt in &self.interrupts {
-            for to in &interrupt.sends {
-                before[*to as usize].extend(&interrupt.takes);
+        for (number, interrupt) in self.interrupts.iter().enumerate() {
+            if memory || self.cancels.contains(&number) {
+                for to in &interrupt.sends {
+                    before[*to as usize].extend(&interrupt.takes);
+                }
+            }
+            if memory {
+                for (from, all) in &interrupt.remembers {
+                    all.iter().for_each(|remembered| before[*remembered as usize].push(*from));
+                }
+                interrupt.gives.iter().for_each(|(remembered, node)| before[*node as usize].push(*remembered));
             }
         }
         for &place in &self.initial {

@@ -15,13 +15,15 @@ pub struct Checks {
     kinds: Vec<ClaimKind>,
     /// For each place the claims that it matters to: the number of the claim, and of the subject in it.
     groups: Vec<Vec<(u32, u32)>>,
+    /// For each `reaches`, the places of its second subject.
+    goals: BTreeMap<usize, Vec<PlaceId>>,
 }
 
 impl Checks {
     /// The claims of `graph`.
     pub fn new(graph: &Graph, model: &Model) -> Self {
-        let mut checks =
-            Self { kinds: graph.claims.iter().map(|c| c.kind).collect(), groups: vec![vec![]; model.places.len()] };
+        let kinds = graph.claims.iter().map(|c| c.kind).collect();
+        let mut checks = Self { kinds, groups: vec![vec![]; model.places.len()], goals: BTreeMap::new() };
         let mut nodes: BTreeMap<NodeId, Vec<(u32, u32)>> = BTreeMap::new();
         let mut scopes: BTreeMap<ScopeId, Vec<(u32, u32)>> = BTreeMap::new();
         for (claim, c) in (0..).zip(&graph.claims) {
@@ -51,7 +53,8 @@ impl Checks {
             return;
         }
         let goals = self.places(claim as usize, NEARER);
-        for (groups, nearer) in self.groups.iter_mut().zip(model.reaching(&goals)) {
+        self.goals.insert(claim as usize, goals.clone());
+        for (groups, nearer) in self.groups.iter_mut().zip(model.reaching(&goals, true)) {
             if nearer && !groups.contains(&(claim, NEARER)) {
                 groups.push((claim, NEARER));
             }
@@ -75,7 +78,22 @@ impl Checks {
         state.iter().map(|place| 1 + self.groups[*place as usize].len()).sum::<usize>() + self.kinds.len()
     }
 
-    /// The claims that do not hold in a state.
+    /// The claims about what can be reached from each state.
+    pub fn about_ways(&self) -> impl Iterator<Item = usize> + '_ {
+        self.goals.keys().copied()
+    }
+
+    /// Returns `true` if the first subject of a `reaches` is active in a state.
+    pub fn begins(&self, claim: usize, state: &State) -> bool {
+        state.iter().any(|place| self.groups[*place as usize].contains(&(claim as u32, FROM)))
+    }
+
+    /// Returns `true` if the second subject of a `reaches` is active in a state.
+    pub fn arrives(&self, claim: usize, state: &State) -> bool {
+        state.iter().any(|place| self.goals[&claim].contains(place))
+    }
+
+    /// The claims that do not hold in a state, whatever follows.
     pub fn broken(&self, model: &Model, state: &State) -> Vec<usize> {
         // For each claim the first subject that is active, and `true` if the claim is known to fail.
         let mut found: Vec<(Option<u32>, bool)> = vec![(None, false); self.kinds.len()];
@@ -98,12 +116,12 @@ impl Checks {
     }
 
     /// Returns `true` if a claim holds in every conceivable state, so that no search is needed.
-    pub fn is_certain(&self, claim: usize, names: u32) -> bool {
+    pub fn is_certain(&self, model: &Model, claim: usize, names: u32) -> bool {
         match self.kinds[claim] {
             ClaimKind::Exclusive => (0..names).filter(|group| !self.places(claim, *group).is_empty()).count() < 2,
             ClaimKind::Reaches => {
-                let nearer = (claim as u32, NEARER);
-                self.places(claim, FROM).iter().all(|place| self.groups[*place as usize].contains(&nearer))
+                let nearer = model.reaching(&self.goals[&claim], false);
+                self.places(claim, FROM).iter().all(|place| nearer[*place as usize])
             }
             ClaimKind::Conserved => false,
         }

@@ -4,7 +4,7 @@ use super::{
     model::{Model, Move, State},
     properties::Checks,
 };
-use std::{collections::BTreeSet, sync::Arc};
+use std::{collections::BTreeMap, sync::Arc};
 
 /// Largest number of states that are visited.
 pub const MAX_STATES: usize = 100_000;
@@ -31,10 +31,12 @@ struct Visited {
 /// Searches at most `bound` states for violations of the claims.
 pub fn search(model: &Model, checks: &Checks, bound: usize) -> Outcome {
     let initial = Arc::new(model.initial.clone());
-    let mut known = BTreeSet::from([initial.clone()]);
+    let mut known = BTreeMap::from([(initial.clone(), 0)]);
     let mut visited = vec![Visited { state: initial, before: 0, by: Move::Start }];
     let mut runs: Vec<Option<Vec<Move>>> = vec![None; checks.count()];
     let (mut at, mut work, mut complete) = (0, 0, true);
+    // Each state with those that follow it, as far as a claim asks for ways.
+    let mut ways = checks.about_ways().next().map(|_| vec![]);
     while at < visited.len() {
         let state = visited[at].state.clone();
         for claim in checks.broken(model, &state) {
@@ -51,20 +53,50 @@ pub fn search(model: &Model, checks: &Checks, bound: usize) -> Outcome {
         work += checks.cost(&state);
         model.moves(&state, &mut |by, next| {
             work += 1 + next.len();
-            if known.contains(&next) {
-                return;
-            }
-            if visited.len() >= bound {
-                complete = false;
-                return;
-            }
-            let next = Arc::new(next);
-            known.insert(next.clone());
-            visited.push(Visited { state: next, before: at, by });
+            let number = match known.get(&next) {
+                Some(number) => *number,
+                None if visited.len() >= bound => {
+                    complete = false;
+                    return;
+                }
+                None => {
+                    let next = Arc::new(next);
+                    known.insert(next.clone(), visited.len());
+                    visited.push(Visited { state: next, before: at, by });
+                    visited.len() - 1
+                }
+            };
+            ways.iter_mut().for_each(|ways| ways.push((number, at)));
         });
         at += 1;
     }
+    if complete {
+        let mut ways = ways.unwrap_or_default();
+        ways.sort_unstable();
+        for claim in checks.about_ways().filter(|claim| runs[*claim].is_none()).collect::<Vec<_>>() {
+            let lost = first_lost(checks, claim, &visited, &ways);
+            runs[claim] = lost.map(|lost| run(&visited, lost));
+        }
+    }
     Outcome { states: at, complete, runs }
+}
+
+/// The first state in which the first subject of a `reaches` is active, and from which no way leads to a state in which
+/// the second one is. `ways` has each state with one before it, in ascending order.
+fn first_lost(checks: &Checks, claim: usize, visited: &[Visited], ways: &[(usize, usize)]) -> Option<usize> {
+    let arrives = |at: &usize| checks.arrives(claim, &visited[*at].state);
+    let mut stack: Vec<usize> = (0..visited.len()).filter(arrives).collect();
+    let mut reaching = vec![false; visited.len()];
+    stack.iter().for_each(|at| reaching[*at] = true);
+    while let Some(at) = stack.pop() {
+        let first = ways.partition_point(|(to, _)| *to < at);
+        for (_, from) in ways[first..].iter().take_while(|(to, _)| *to == at) {
+            if !std::mem::replace(&mut reaching[*from], true) {
+                stack.push(*from);
+            }
+        }
+    }
+    (0..visited.len()).find(|at| !reaching[*at] && checks.begins(claim, &visited[*at].state))
 }
 
 /// The moves that led to a state.

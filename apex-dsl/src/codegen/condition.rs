@@ -12,16 +12,12 @@ use quote::{format_ident, quote};
 
 /// Expression that is `true` if `condition` holds for `*token`, which is of type `ty`.
 pub fn holds(condition: &Condition, ty: &Type) -> TokenStream {
-    let computes = condition.computes() && is_integer(ty);
+    let computes = condition.computes() && ty.is_integer();
     let test = Writer { ty, wide: computes.then(|| width(ty)) }.write(condition);
     match computes {
         true => quote!((|| ::core::option::Option::Some(#test))().unwrap_or(false)),
         false => test,
     }
-}
-
-fn is_integer(ty: &Type) -> bool {
-    matches!(ty.without_unit(), Type::Primitive(name) if name.starts_with(['i', 'u']))
 }
 
 /// The type in which tokens of type `ty` are computed with.

@@ -9,7 +9,7 @@ use super::{
     types::ident,
 };
 use crate::{
-    analyse::{Delivery, Guard, MANY, at_start},
+    analyse::{Delivery, Guard, MANY, at_start, blockers, may_get_stuck},
     graph::{Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
@@ -39,6 +39,9 @@ impl Generator<'_> {
         if view.analysis.asynchronous.endless {
             let kinds = slots + bits.dispatched().len();
             field("steps", quote!(::apex_rt::Steps<#kinds>), quote!(::apex_rt::Steps::new()));
+        }
+        if may_get_stuck(view.graph, view.analysis) {
+            field("stuck", quote!(usize), quote!(0));
         }
         if self.has_exit(view.graph) {
             field("exit", quote!(::core::option::Option<u8>), quote!(None));
@@ -197,6 +200,7 @@ impl Generator<'_> {
                 break;
             })
         };
+        let stuck = self.stuck(view);
         let stop = endless.then(|| quote! { if self.state.steps.is_used_up() { break; } });
         let serve_first = serve(true);
         let has_instants = Self::has_instants(view);
@@ -235,6 +239,7 @@ impl Generator<'_> {
             #body
             #exit
             #used_up
+            #stuck
             #[allow(unused_mut)]
             let mut next = ::apex_rt::Next::Input;
             #wishes
@@ -357,6 +362,28 @@ impl Generator<'_> {
                 let counts = self.state.steps.counts();
                 observer.endless(&[#(#nodes),*], &counts);
                 return ::apex_rt::Next::Now;
+            }
+        }
+    }
+
+    /// Tokens that wait for one another after a reaction are reported, once.
+    fn stuck(&self, view: ProgramView<'_>) -> TokenStream {
+        if !may_get_stuck(view.graph, view.analysis) {
+            return quote!();
+        }
+        let asynchronous = &view.analysis.asynchronous;
+        let rows = blockers(view.graph, view.analysis).into_iter().map(|before| {
+            let before = before.into_iter().map(|token| Literal::usize_unsuffixed(asynchronous.slot(token)));
+            quote!(&[#(#before),*])
+        });
+        let arms = asynchronous.slots.iter().enumerate().filter_map(|(slot, token)| {
+            let (slot, connection) = (slot as u16, self.connection(*token)?);
+            Some(quote!(#slot => observer.stuck(#connection),))
+        });
+        quote! {
+            if !self.state.queue.is_empty() {
+                let Self { state, .. } = self;
+                state.queue.stuck(&[#(#rows),*], &mut state.stuck, |slot| match slot { #(#arms)* _ => {} });
             }
         }
     }

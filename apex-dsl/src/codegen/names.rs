@@ -88,13 +88,13 @@ impl Names {
 
 /// Names that the generated code itself uses, and those that stand for values in every module.
 #[rustfmt::skip]
-const OWN: [&str; 70] = [
+const OWN: [&str; 71] = [
     "Err", "None", "Ok", "Some", "active", "agenda", "at", "begins", "bits", "carries", "code", "completes", "counts",
     "ctx", "dispatcher", "enabled", "ends", "event", "events", "exit", "first", "found", "gains",
     "i", "inputs", "last", "late", "left", "life", "list", "loses", "made", "missing", "next", "nodes",
     "now", "observer", "outputs", "parcel", "part", "parts", "place", "program", "queue", "quiet",
     "recorded", "result", "results", "round", "row", "self", "sent", "silences", "slot", "stamp", "stamps", "started",
-    "state", "step", "steps", "tap", "time", "timeouts", "timers", "token", "tokens", "told", "value",
+    "state", "step", "steps", "stuck", "tap", "time", "timeouts", "timers", "token", "tokens", "told", "value",
     "wake", "woken",
 ];
 /// Beginnings of names that the generated code itself uses.

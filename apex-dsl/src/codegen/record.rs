@@ -102,9 +102,10 @@ impl Channels {
     }
 }
 
-/// Returns `true` if the tokens of a node come from outside of the program: it is a source.
+/// Returns `true` if the tokens of a node come from outside of the program: it is a source, and not a computed one.
 fn is_recorded(graph: &Graph, analysis: &Analysis, catalog: &Catalog, node: NodeId) -> bool {
-    matches!(graph.nodes[node].kind, NodeKind::Library(_)) && is_source(graph, catalog, &analysis.links, node)
+    let NodeKind::Library(library) = &graph.nodes[node].kind else { return false };
+    !catalog.signatures[library.signature].computed && is_source(graph, catalog, &analysis.links, node)
 }
 
 /// The ports by which a source itself sends.
@@ -190,13 +191,14 @@ impl Generator<'_> {
 
     /// Contents of the mailboxes before a reaction and after it.
     fn mailboxes(&self, graph: &Graph, ports: &TokenStream) -> (TokenStream, TokenStream) {
-        let (mut before, mut after) = (quote!(), quote!());
+        let (mut before, mut after, mut puts) = (quote!(), quote!(), vec![]);
         for (number, (end, role)) in self.channels.iter().flat_map(|channels| channels.rows.iter().enumerate()) {
             let name = ident(&graph.nodes[end.node].name);
             match role {
                 Role::Mailbox => {
                     let codec = self.codec(graph, *end);
-                    before.extend(quote! { tap.put_in(#number, #codec, &mut #ports.inputs.#name); });
+                    let arrival = quote!(#ports.inputs.#name.arrival());
+                    puts.push((number, arrival, quote! { tap.put_in(#number, #codec, &mut #ports.inputs.#name); }));
                     after.extend(quote! { tap.keep_mailbox(#number, #ports.inputs.#name.is_full()); });
                 }
                 Role::Event => {
@@ -206,7 +208,8 @@ impl Generator<'_> {
                 Role::Source | Role::Chosen | Role::Port => {}
             }
         }
-        (before, after)
+        let puts = in_order(&puts);
+        (quote! { #puts #before }, after)
     }
 
     /// A look at a cell between two thread groups: what it finds is recorded, or comes from the recording.
@@ -302,6 +305,24 @@ impl Generator<'_> {
         }
         let name = self.name(end);
         self.observe(graph, end, &quote!(state.#name.as_ref()))
+    }
+}
+
+/// Code for the tokens of several mailboxes, each with its channel and the number of its token, in the order in which
+/// they came.
+fn in_order(mailboxes: &[(usize, TokenStream, TokenStream)]) -> TokenStream {
+    let channels = mailboxes.iter().map(|(channel, ..)| channel);
+    let arrivals = mailboxes.iter().map(|(_, arrival, _)| arrival);
+    let arms = mailboxes.iter().enumerate().map(|(place, (.., put))| quote!(#place => { #put }));
+    match mailboxes {
+        [] => quote!(),
+        [(_, _, put)] => put.clone(),
+        _ => quote! {
+            let mut arrivals = [#(#arrivals),*];
+            while let Some(place) = tap.next_in(&[#(#channels),*], &mut arrivals) {
+                match place { #(#arms)* _ => {} }
+            }
+        },
     }
 }
 

@@ -240,9 +240,9 @@ pub fn constant(value: &Value, ty: &Type) -> TokenStream {
 }
 
 fn number(n: &Number, ty: &Type) -> TokenStream {
-    let is_float = matches!(ty.name(), "f32" | "f64") || !n.dimension.is_none();
-    let tokens = match n.integer {
-        Some(integer) if !is_float => Literal::i128_unsuffixed(integer.abs()),
+    let is_integer = ty.is_integer() || !matches!(ty.name(), "f32" | "f64") && !n.is_float;
+    let tokens = match n.integer() {
+        Some(integer) if is_integer => Literal::i128_unsuffixed(integer.abs()),
         _ => Literal::f64_unsuffixed(n.value.abs()),
     };
     // A negative literal is an operator and a literal.

@@ -3,8 +3,9 @@
 use super::{NodeId, ScopeId};
 use crate::{
     catalog::Type,
+    fraction::Fraction,
     source::Span,
-    units::{self, Dimension, Unit},
+    units::{Dimension, Unit},
 };
 use std::time::Duration;
 
@@ -80,7 +81,7 @@ impl Value {
     /// The value as written in a source file, in SI units.
     pub fn text(&self) -> String {
         match self {
-            Self::Number(n) => n.integer.map_or_else(|| n.value.to_string(), |integer| integer.to_string()),
+            Self::Number(n) => n.integer().map_or_else(|| n.value.to_string(), |integer| integer.to_string()),
             Self::Bool(value) => value.to_string(),
             Self::Text(text) => format!("{text:?}"),
             Self::List(items) => format!("[{}]", items.iter().map(Self::text).collect::<Vec<_>>().join(", ")),
@@ -122,19 +123,44 @@ pub struct FieldValue {
 /// A number in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number {
-    /// Its value.
+    /// The nearest `f64`.
     pub value: f64,
-    /// Its exact value, if it was written as an integer without a unit.
-    pub integer: Option<i128>,
+    /// Its exact value, unless that is not a fraction, or has too many digits.
+    pub exact: Option<Fraction>,
+    /// `true` for a float where only rustc knows the type: it was written with a point, with a unit, or is a part.
+    pub is_float: bool,
     /// Dimension of the quantity.
     pub dimension: Dimension,
 }
 
 impl Number {
+    /// A plain whole number.
+    pub fn whole(number: i128) -> Self {
+        let exact = Fraction::whole(number);
+        Self { value: exact.value(), exact: Some(exact), is_float: false, dimension: Dimension::NONE }
+    }
+
+    /// A plain number as it is printed.
+    pub fn plain(value: f64) -> Self {
+        Self { value, exact: Fraction::of(value), is_float: true, dimension: Dimension::NONE }
+    }
+
+    /// The number, if it is whole.
+    pub fn integer(self) -> Option<i128> {
+        self.exact.and_then(Fraction::integer)
+    }
+
+    /// So many units, where it is a plain number.
+    pub fn times(self, unit: Unit) -> Self {
+        let exact = self.exact.and_then(|exact| exact.checked_mul(unit.factor));
+        let value = exact.map_or_else(|| self.value * unit.size(), Fraction::value);
+        Self { value, exact, is_float: true, dimension: unit.dimension }
+    }
+
     /// The number of units that the quantity is, as a plain number.
     pub fn in_unit(self, unit: Unit) -> Self {
-        let value = units::scaled(self.value, 1.0 / unit.factor);
-        let integer = (value.fract() == 0.0 && value.abs() < 2f64.powi(63)).then_some(value as i128);
-        Self { value, integer, dimension: Dimension::NONE }
+        let exact = self.exact.and_then(|exact| exact.checked_div(unit.factor));
+        let value = exact.map_or_else(|| self.value / unit.size(), Fraction::value);
+        Self { value, exact, is_float: true, dimension: Dimension::NONE }
     }
 }

@@ -77,8 +77,8 @@ fn replaced(old: &Expr, value: &str) -> Option<String> {
         ExprKind::Number(_, None) if value.parse::<f64>().is_ok() => Some(value.to_owned()),
         ExprKind::Number(_, Some(name)) => {
             let unit = units::parse(name).ok()?;
-            let value: f64 = value.parse().ok()?;
-            Some(format!("{}{name}", units::scaled(value, 1.0 / unit.factor)))
+            let value = crate::graph::Number::plain(value.parse().ok()?).in_unit(unit).value;
+            Some(format!("{value}{name}"))
         }
         _ => None,
     }

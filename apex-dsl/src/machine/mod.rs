@@ -163,6 +163,7 @@ impl Machine {
             line,
             path: vec!["super".to_owned(), self.module.clone(), self.name.clone()],
             stateful: true,
+            computed: true,
             ports,
             slots,
             moved: Some(self.moved().into_iter().map(ArgSig::Port).collect()),

@@ -48,6 +48,7 @@ pages! {
     "rates"
     "recursion"
     "robot-port"
+    "stuck"
     "syntax"
     "target"
     "threads"

@@ -11,7 +11,7 @@ use crate::{
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{Arg, Expr, ExprKind, Ident, Modifier, ModifierKind, ParamItem},
-    units::{self, Dimension, scaled},
+    units,
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -113,17 +113,12 @@ pub fn wanted<'a>(signature: &Signature, param: &'a ParamSig) -> Wanted<'a> {
 }
 
 fn default(signature: &Signature, param: &ParamSig, at: Span, fed: &dyn Fn(&str) -> bool) -> Evaluated<Value> {
-    let number = |value: f64, integer: bool| {
-        let integer = integer.then_some(value as i128);
-        Number { value, integer, dimension: Dimension::NONE }
-    };
     match &param.default {
         Some(DefaultValue::Literal(Literal::Number(value, _))) if param.ty.name() == "Duration" => {
-            seconds(*value, at).map(Value::Duration)
+            seconds(Number::plain(*value), at).map(Value::Duration)
         }
-        Some(DefaultValue::Literal(Literal::Number(value, integer))) => {
-            let is_float = matches!(param.ty.name(), "f32" | "f64");
-            Ok(Value::Number(number(*value, *integer && !is_float)))
+        Some(DefaultValue::Literal(Literal::Number(value, is_whole))) => {
+            Ok(Value::Number(if *is_whole { Number::whole(*value as i128) } else { Number::plain(*value) }))
         }
         Some(DefaultValue::Literal(Literal::Bool(value))) => Ok(Value::Bool(*value)),
         Some(DefaultValue::Literal(Literal::Text(text))) => Ok(Value::Text(text.clone())),
@@ -296,9 +291,7 @@ fn names_parameter(expr: &Expr) -> bool {
 
 fn in_unit(value: Value, unit: units::Unit) -> Value {
     match value {
-        Value::Number(n) if n.dimension.is_none() => {
-            Value::Number(Number { value: scaled(n.value, unit.factor), integer: None, dimension: unit.dimension })
-        }
+        Value::Number(n) if n.dimension.is_none() => Value::Number(n.times(unit)),
         Value::List(items) => Value::List(items.into_iter().map(|item| in_unit(item, unit)).collect()),
         value => value,
     }

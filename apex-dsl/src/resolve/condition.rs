@@ -217,8 +217,8 @@ impl Conditions<'_> {
             let message = "tokens have no unit in calculations, but this value has one";
             return Err(Box::new(Diagnostic::error("wrong-unit", expr.span, message)));
         }
-        match (limits(self.ty.name()), n.integer) {
-            (None, _) => Ok(Value::Number(Number { integer: None, ..n })),
+        match (limits(self.ty.name()), n.integer()) {
+            (None, _) => Ok(Value::Number(Number { is_float: true, ..n })),
             (Some(_), Some(integer)) if i64::try_from(integer).is_ok() => Ok(Value::Number(n)),
             (Some(_), Some(_)) => {
                 Err(Box::new(Diagnostic::error("bad-number", expr.span, "this number is too large for calculations")))

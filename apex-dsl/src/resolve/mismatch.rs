@@ -2,9 +2,10 @@
 
 use crate::{
     catalog::{Catalog, Match, Type},
+    fraction::Fraction,
     report::Diagnostic,
     source::Span,
-    units::{Unit, scaled},
+    units::Unit,
 };
 
 /// The node of the library that converts a number.
@@ -31,7 +32,7 @@ pub fn remedy(
         let (sent, taken) = (from.dimension.noun(), to.dimension.noun());
         return error.note(format!("{sent} is not {taken}: connect another port, or correct the unit of one of them"));
     }
-    let factor = scaled(from.factor, 1.0 / to.factor);
+    let factor = from.factor.checked_div(to.factor).map_or_else(|| from.size() / to.size(), Fraction::value);
     let error = error.note(format!("units are not converted implicitly: multiply by {factor}"));
     let path: Vec<String> = SCALE.split("::").map(str::to_owned).collect();
     let is_float = matches!(sent.name(), "f32" | "f64");

@@ -91,7 +91,7 @@ fn twice<'a>(writer: &mut Writer<'_>, all: impl Iterator<Item = &'a PortRef>) {
 /// A number of seeds.
 fn count(writer: &mut Writer<'_>, expr: &Expr) -> Option<u64> {
     match writer.value(expr)? {
-        Value::Number(n) if n.integer.is_some() && n.value >= 1.0 && n.value <= MOST_SEEDS => Some(n.value as u64),
+        Value::Number(n) if n.integer().is_some() && n.value >= 1.0 && n.value <= MOST_SEEDS => Some(n.value as u64),
         _ => {
             let error = Diagnostic::error("wrong-study", expr.span, "the number of seeds must be a whole number");
             writer.diagnostics.push(error.note(format!("from 1 to {MOST_SEEDS}, for example `seeds 32`")));

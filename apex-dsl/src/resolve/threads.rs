@@ -6,7 +6,7 @@ use super::{
     value::{Evaluated, evaluate},
 };
 use crate::{
-    graph::{self, MAIN_GROUP, Scope, ThreadSettings, Value},
+    graph::{MAIN_GROUP, Scope, ThreadSettings, Value},
     report::{Diagnostic, nearest},
     source::Span,
     syntax::tree::{Expr, ExprKind, GraphItem, Ident, ThreadItem},
@@ -143,8 +143,8 @@ fn wrong(span: Span, message: &str) -> Box<Diagnostic> {
 }
 
 fn whole(value: &Value, range: std::ops::RangeInclusive<usize>) -> Option<usize> {
-    let Value::Number(graph::Number { integer: Some(integer), .. }) = value else { return None };
-    usize::try_from(*integer).ok().filter(|n| range.contains(n))
+    let Value::Number(number) = value else { return None };
+    usize::try_from(number.integer()?).ok().filter(|n| range.contains(n))
 }
 
 /// Index of a value among two words.

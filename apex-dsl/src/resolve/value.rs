@@ -2,13 +2,14 @@
 
 use crate::{
     catalog::{Catalog, Constant, Match, Type},
+    fraction::Fraction,
     graph::{Number, Value},
     report::Diagnostic,
     source::Span,
     syntax::tree::{Expr, ExprKind, Ident, PathExpr},
-    units::{self, Dimension, Unit, scaled},
+    units::{self, Dimension, Unit},
 };
-use std::{collections::BTreeMap, time::Duration};
+use std::{cmp::Ordering, collections::BTreeMap, time::Duration};
 
 use super::names::{SourceSet, suggest};
 
@@ -89,27 +90,25 @@ fn unknown_name(path: &PathExpr, scope: &Scope<'_>) -> Diagnostic {
 }
 
 fn number(digits: &str, unit: Option<&str>, span: Span) -> Evaluated<Value> {
-    let hex = digits.strip_prefix("0x").map(|h| i128::from_str_radix(h, 16));
-    let integer = match hex {
-        Some(Ok(value)) => Some(value),
-        Some(Err(_)) => return error("bad-number", span, "this number is too large"),
-        None => digits.parse::<i128>().ok(),
+    let too_large = || error("bad-number", span, "this number is too large");
+    let whole = match digits.strip_prefix("0x") {
+        Some(hex) => i128::from_str_radix(hex, 16).ok(),
+        None => digits.parse().ok(),
     };
-    let value = integer.map_or_else(|| digits.parse::<f64>().unwrap_or(f64::INFINITY), |i| i as f64);
-    if !value.is_finite() {
-        return error("bad-number", span, "this number is too large");
-    }
-    let Some(unit) = unit else {
-        if integer.is_none() && digits.bytes().all(|b| b.is_ascii_digit()) {
-            return error("bad-number", span, "this number is too large");
+    let number = match whole {
+        Some(whole) => Number::whole(whole),
+        None if digits.starts_with("0x") || digits.bytes().all(|b| b.is_ascii_digit()) => return too_large(),
+        None => {
+            let value = digits.parse().unwrap_or(f64::INFINITY);
+            Number { exact: Fraction::parse(digits), ..Number::plain(value) }
         }
-        return Ok(Value::Number(Number { value, integer, dimension: Dimension::NONE }));
     };
-    match units::parse(unit) {
-        Ok(unit) => match scaled(value, unit.factor) {
-            value if value.is_finite() => Ok(Value::Number(Number { value, integer: None, dimension: unit.dimension })),
-            _ => error("bad-number", span, "this number is too large"),
-        },
+    let Some(unit) = unit else {
+        return if number.value.is_finite() { Ok(Value::Number(number)) } else { too_large() };
+    };
+    match units::parse(unit).map(|unit| number.times(unit)) {
+        Ok(number) if number.value.is_finite() => Ok(Value::Number(number)),
+        Ok(_) => too_large(),
         Err(part) => {
             // `part` is a piece of `unit`, which ends the number.
             let start = span.end as usize - unit.len() + (part.as_ptr() as usize - unit.as_ptr() as usize);
@@ -138,11 +137,11 @@ fn unary(operator: &str, value: Value, span: Span) -> Evaluated<Value> {
     match (operator, value) {
         (_, Value::RustDefault) => Ok(Value::RustDefault),
         ("-", Value::Number(n)) => {
-            let integer = n.integer.and_then(i128::checked_neg);
-            if integer.is_none() && n.integer.is_some() {
+            let exact = n.exact.and_then(Fraction::checked_neg);
+            if exact.is_none() && n.integer().is_some() {
                 return error("bad-number", span, "this number is too large");
             }
-            Ok(Value::Number(Number { value: -n.value, integer, ..n }))
+            Ok(Value::Number(Number { value: -n.value, exact, ..n }))
         }
         ("!", Value::Bool(b)) => Ok(Value::Bool(!b)),
         (_, value) => error("wrong-value", span, format!("`{operator}` cannot be applied to {}", describe(&value))),
@@ -186,30 +185,34 @@ fn arithmetic(operator: &str, (x, at_x): (Number, Span), (y, at_y): (Number, Spa
     let Some(dimension) = dimension else {
         return error("wrong-unit", span, "the exponents in the unit of this value are too large");
     };
-    // As in Rust, the result for integers is an integer, also in a division.
-    let result = |value: f64, exact: fn(i128, i128) -> Option<i128>| {
-        let integer = x.integer.zip(y.integer).map(|(a, b)| exact(a, b));
-        match integer {
-            Some(None) => error("bad-number", span, "this number is too large"),
-            None if !value.is_finite() => error("bad-number", span, "this number is too large"),
-            Some(Some(i)) => Ok(Value::Number(Number { value: i as f64, integer: Some(i), dimension })),
-            None => Ok(Value::Number(Number { value, integer: None, dimension })),
+    let exact = x.exact.zip(y.exact);
+    // What is no fraction, or too long for one, is rounded; whole numbers never are.
+    let result = |value: f64, exactly: fn(Fraction, Fraction) -> Option<Fraction>| {
+        let is_whole = x.integer().is_some() && y.integer().is_some();
+        match exact.and_then(|(a, b)| exactly(a, b)) {
+            None if is_whole || !value.is_finite() => error("bad-number", span, "this number is too large"),
+            exact => {
+                let value = exact.map_or(value, Fraction::value);
+                let is_float = x.is_float || y.is_float || exact.and_then(Fraction::integer).is_none();
+                Ok(Value::Number(Number { value, exact, is_float, dimension }))
+            }
         }
     };
-    let truth = |value: bool| Ok(Value::Bool(value));
+    let order = || exact.and_then(|(a, b)| a.checked_cmp(b)).or_else(|| x.value.partial_cmp(&y.value));
+    let truth = |is: fn(Ordering) -> bool| Ok(Value::Bool(order().is_some_and(is)));
     match operator {
-        "+" => result(x.value + y.value, i128::checked_add),
-        "-" => result(x.value - y.value, i128::checked_sub),
-        "*" => result(x.value * y.value, i128::checked_mul),
+        "+" => result(x.value + y.value, Fraction::checked_add),
+        "-" => result(x.value - y.value, Fraction::checked_sub),
+        "*" => result(x.value * y.value, Fraction::checked_mul),
         "/" | "%" if y.value == 0.0 => error("bad-number", span, "division by zero"),
-        "/" => result(x.value / y.value, i128::checked_div),
-        "%" => result(x.value % y.value, i128::checked_rem),
-        "<" => truth(x.value < y.value),
-        ">" => truth(x.value > y.value),
-        "<=" => truth(x.value <= y.value),
-        ">=" => truth(x.value >= y.value),
-        "==" => truth(x.value == y.value),
-        "!=" => truth(x.value != y.value),
+        "/" => result(x.value / y.value, Fraction::checked_div),
+        "%" => result(x.value % y.value, Fraction::checked_rem),
+        "<" => truth(Ordering::is_lt),
+        ">" => truth(Ordering::is_gt),
+        "<=" => truth(Ordering::is_le),
+        ">=" => truth(Ordering::is_ge),
+        "==" => truth(Ordering::is_eq),
+        "!=" => truth(Ordering::is_ne),
         _ => error("wrong-value", span, format!("`{operator}` cannot be applied to numbers")),
     }
 }
@@ -220,6 +223,11 @@ fn kind(n: Number) -> String {
     } else {
         format!("{} ({})", n.dimension.noun(), n.dimension)
     }
+}
+
+/// A number with its unit, as written in a source file.
+fn si(n: Number) -> String {
+    if n.dimension.is_none() { n.value.to_string() } else { format!("{}{}", n.value, n.dimension) }
 }
 
 /// Description of a value for messages.
@@ -374,7 +382,7 @@ impl Wanted<'_> {
                 if ty.name() == "f32" && n.value.abs() > f32::MAX.into() {
                     return error("out-of-range", expr.span, format!("{} does not fit into `{ty}`", n.value));
                 }
-                Ok(Value::Number(Number { integer: None, ..n }))
+                Ok(Value::Number(Number { is_float: true, ..n }))
             }
             Value::Path(..) | Value::RustDefault => Ok(value),
             _ => self.wrong(&value, ty, expr.span),
@@ -386,8 +394,9 @@ impl Wanted<'_> {
             Value::Number(n) => {
                 self.check_unit(n, expr)?;
                 self.check_range(n.value, expr.span)?;
-                let Some(integer) = n.integer else {
-                    return error("wrong-value", expr.span, format!("`{}` must be a whole number (`{ty}`)", self.name));
+                let Some(integer) = n.integer() else {
+                    let message = format!("`{}` must be a whole number (`{ty}`), but this is {}", self.name, si(n));
+                    return error("wrong-value", expr.span, message);
                 };
                 match limits(ty.name()) {
                     Some((low, high)) if integer < low || integer > high => {
@@ -466,16 +475,25 @@ pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
         let message = format!("expected a time, but this is {}", kind(n));
         return Err(Box::new(minutes(Diagnostic::error("wrong-unit", expr.span, message), expr)));
     }
-    seconds(n.value, expr.span)
+    seconds(n, expr.span)
 }
 
-/// A number of seconds as a duration.
-pub fn seconds(value: f64, span: Span) -> Evaluated<Duration> {
-    let nanos = (value * 1e9).round();
-    if !(0.0..=i64::MAX as f64).contains(&nanos) {
+/// A number of seconds as a duration, of which a program counts the nanoseconds.
+pub fn seconds(n: Number, span: Span) -> Evaluated<Duration> {
+    let nanos = n.value * 1e9;
+    if !(0.0..=i64::MAX as f64).contains(&nanos.round()) {
         return error("out-of-range", span, "this time is negative or longer than 292 years");
     }
-    Ok(Duration::from_nanos(nanos as u64))
+    let whole = n.exact.and_then(|exact| exact.checked_mul(Fraction::whole(1_000_000_000))).and_then(Fraction::integer);
+    match whole.and_then(|nanos| u64::try_from(nanos).ok()) {
+        Some(nanos) => Ok(Duration::from_nanos(nanos)),
+        None => {
+            let message = format!("this time is {nanos}ns, but a program counts whole nanoseconds");
+            let nearest = format!("{}ns", nanos.round().max(1.0));
+            let error = Diagnostic::error("wrong-value", span, message);
+            Err(Box::new(error.guess(format!("round it to `{nearest}`"), span, nearest)))
+        }
+    }
 }
 
 /// The smallest and the largest value of an integer type.

@@ -8,7 +8,7 @@ use super::{
     waits::{ReplayBarrier, WaitOutcome},
 };
 use crate::{
-    Parameters, Program, Time,
+    Info, Parameters, Program, Time,
     params::{Access, ParamInfo, ParamVisitor, set_text},
 };
 use core::{fmt, time::Duration};
@@ -119,6 +119,8 @@ struct Reaction {
     ended: bool,
     /// Tokens of each channel, with the number of their node's call.
     tokens: Vec<VecDeque<(u32, Vec<u8>)>>,
+    /// Mailboxes into which tokens were put, in that order.
+    put_in: VecDeque<usize>,
 }
 
 impl Reaction {
@@ -218,7 +220,7 @@ impl Replay {
                 return Err(at(io::Error::new(io::ErrorKind::UnexpectedEof, what)));
             }
         }
-        let changed = replay.match_channels();
+        let changed = replay.match_channels(info);
         if !changed.is_empty() {
             return Err(ReplayError::OtherTypes { path: path.to_owned(), changed });
         }
@@ -256,7 +258,7 @@ impl Replay {
     }
 
     /// Matches the channels of the program with those of the file. Returns the inputs whose types have changed.
-    fn match_channels(&mut self) -> Vec<TypeChange> {
+    fn match_channels(&mut self, info: &Info) -> Vec<TypeChange> {
         let (mut missing, mut changed) = (vec![], vec![]);
         let group = self.group.as_ref().map(|group| group.number);
         let own = |c: &&Channel| c.role != Role::Port && group.is_none_or(|group| c.group == group);
@@ -294,6 +296,9 @@ impl Replay {
         let names = self.channels.iter().map(|c| c.name).chain(OWN.iter().map(|(name, _)| *name));
         let names: Vec<&str> = names.collect();
         let gone = self.source.channels.values().filter(|f| !names.contains(&f.name.as_str()));
+        let slots = |node: &usize| info.connections.iter().any(|connection| connection.to == *node);
+        let not_called = (0..info.nodes.len()).filter(|node| self.recorded[*node] && slots(node));
+        self.report.not_called = not_called.map(|node| info.nodes[node].name).collect();
         self.report.gone = gone.map(|f| f.name.clone()).collect();
         changed
     }
@@ -405,6 +410,9 @@ impl Replay {
             Meaning::Ended => self.reaction.ended |= fields.u32().is_ok_and(|group| self.is_own(group)),
             Meaning::Token(channel) if self.is_own(self.channels[channel].group as u32) => {
                 self.reaction.tokens[channel].push_back((message.sequence, message.data));
+                if self.channels[channel].role == Role::Mailbox {
+                    self.reaction.put_in.push_back(channel);
+                }
             }
             Meaning::Token(_) => {}
         }
@@ -481,6 +489,11 @@ impl Replay {
                 None => self.report.params.push(format!("`{name}` was {value} and no longer exists")),
             }
         }
+    }
+
+    /// Returns the next mailbox into which a token was put.
+    pub(super) fn next_in(&mut self) -> Option<usize> {
+        self.reaction.put_in.pop_front()
     }
 
     pub(super) fn calls(&mut self, node: usize) -> bool {

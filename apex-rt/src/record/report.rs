@@ -23,6 +23,8 @@ pub struct Report {
     pub gone: Vec<String>,
     /// Messages on parameters whose values differ from the recorded ones.
     pub params: Vec<String>,
+    /// Nodes whose tokens come from the recording, although connections lead to their slots.
+    pub not_called: Vec<&'static str>,
     /// Numbers of messages that were lost during the recording, by channel.
     pub dropped: Vec<(String, u64)>,
     /// Numbers of recorded tokens that are not values of their types, by channel, with the reason for the first one.
@@ -103,6 +105,7 @@ impl Report {
                 all.dropped = report.dropped;
             }
             all.params.extend(report.params);
+            all.not_called.extend(report.not_called);
             if group == 0 {
                 all.file = report.file;
                 all.gone = report.gone;
@@ -159,6 +162,10 @@ impl Display for Report {
         }
         for line in &self.params {
             writeln!(f, "parameter {line}")?;
+        }
+        if !self.not_called.is_empty() {
+            let names = self.not_called.join("`, `");
+            writeln!(f, "the tokens of `{names}` come from the recording, whatever reaches the slots")?;
         }
         for (name, role) in &self.missing {
             let why = match role {

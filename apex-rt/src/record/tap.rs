@@ -1,5 +1,5 @@
 use super::{Codec, Recorder, Replay, Report, Role};
-use crate::{Mailbox, Observer, Parameters, Time};
+use crate::{Arrival, Mailbox, Observer, Parameters, Time, first_arrival};
 use core::time::Duration;
 
 /// Tap of a program: records its tokens, or supplies recorded ones. Generated code calls the tap of the reaction's
@@ -88,6 +88,26 @@ impl Tap {
     pub fn keep_params<P: Parameters>(&mut self, program: &mut P) {
         if let Self::Record(recorder) = self {
             recorder.keep_params(program);
+        }
+    }
+
+    /// Returns the mailbox, by its place in `channels`, whose token came next, or whose token is next in the recording.
+    /// Called before a reaction, until there is none. `arrivals` has the tokens that wait.
+    pub fn next_in<const N: usize>(
+        &mut self,
+        channels: &[usize; N],
+        arrivals: &mut [Option<Arrival>; N],
+    ) -> Option<usize> {
+        match self {
+            Self::Record(_) => {
+                let next = first_arrival(arrivals)?;
+                arrivals[next] = None;
+                Some(next)
+            }
+            Self::Replay(replay) => {
+                let next = replay.next_in()?;
+                channels.iter().position(|channel| *channel == next)
+            }
         }
     }
 

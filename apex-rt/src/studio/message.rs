@@ -133,6 +133,8 @@ pub enum Report {
     ReadOnly,
     /// The robot ends the connection, for this reason.
     Dismissed(String),
+    /// The token on this connection can never be taken any more.
+    Stuck(u32),
 }
 
 /// A message of a viewer.

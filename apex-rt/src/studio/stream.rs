@@ -190,6 +190,12 @@ impl Observer for Option<Stream> {
         }
     }
 
+    fn stuck(&mut self, connection: usize) {
+        if let Some(stream) = self {
+            stream.send(|| Report::Stuck(connection as u32));
+        }
+    }
+
     fn failed(&mut self, node: usize, error: &impl Display) {
         if let Some(stream) = self {
             stream.send(|| Report::Failed { node: node as u32, error: shortened(error.to_string(), MAX_TEXT) });

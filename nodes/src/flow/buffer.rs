@@ -5,12 +5,14 @@ use apex_rt::node;
 
 /// Sends the same value in every firing.
 #[node]
+#[computed]
 pub fn constant<T: Clone>(#[param] value: T) -> T {
     value
 }
 
 /// Sends the last received value in every firing; ⊥ before the first one (thesis 3.6.3, *latching*).
 #[node]
+#[computed]
 #[derive(Debug, Clone, Default)]
 pub struct Latch<T> {
     value: Option<T>,
@@ -37,6 +39,7 @@ impl<T: Clone> Latch<T> {
 
 /// Sends every received value at most once: the last one since the previous firing, or ⊥ (thesis 3.6.3).
 #[node]
+#[computed]
 #[derive(Debug, Clone, Default)]
 pub struct Latest<T> {
     value: Option<T>,
@@ -57,6 +60,7 @@ impl<T: Clone> Latest<T> {
 
 /// Fills the gaps of a stream: sends the last value again in place of ⊥.
 #[node]
+#[computed]
 #[derive(Debug, Clone, Default)]
 pub struct Hold<T> {
     value: Option<T>,

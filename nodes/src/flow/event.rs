@@ -23,6 +23,7 @@ pub fn either(value: &bool, yes: Event<()>, no: Event<()>) {
 
 /// Triggers its event in every firing: a clock with `every`, an alarm with `after`.
 #[node]
+#[computed]
 pub fn tick(signal: Event<()>) {
     signal.emit(());
 }

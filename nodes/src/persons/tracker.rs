@@ -46,6 +46,7 @@ struct Waiting {
 /// Detections that are older than used ones, or from the future by more than `delay` and 1 s, are an error and change
 /// nothing.
 #[node]
+#[computed]
 #[derive(Debug, Clone)]
 pub struct PersonTracker {
     /// Standard deviation of the positions that cameras detect, along each axis.

@@ -153,7 +153,7 @@ pub fn script_of(graph: &Graph, catalog: &Catalog) -> BTreeMap<NodeId, (i64, scr
 
 fn integer(value: &Value) -> Option<i64> {
     match value {
-        Value::Number(number) => number.integer.and_then(|i| i64::try_from(i).ok()).or(Some(number.value as i64)),
+        Value::Number(number) => number.integer().and_then(|i| i64::try_from(i).ok()).or(Some(number.value as i64)),
         _ => None,
     }
 }
