@@ -78,7 +78,7 @@ pub fn messages() -> Box<dyn Target> {
         (codec.expect("a message").write)(token, &mut bytes);
         bytes
     }
-    /// What was read can be written, and read again.
+    /// Checks that a token that was read can be written and read again.
     fn again<T>(codec: Option<Codec<T>>, bytes: &[u8]) {
         let codec = codec.expect("a message");
         if let Ok(token) = (codec.read)(bytes) {
