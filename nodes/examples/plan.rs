@@ -8,11 +8,12 @@
 //! black is occupied, and grey is unknown. In the output image, costs are red and the path is blue.
 
 use apex_nodes::{
+    io::read_map,
     map::{Cell, DistanceTransform, Grid, Occupancy, Raster, UnknownRegions, grow},
     nav::{Path, Planner, Smoothing, Terrain, write_costs},
-    scan::{Point2, Pose2},
+    scan::Pose2,
 };
-use image::{GrayImage, Luma, Rgb, RgbImage};
+use image::{Rgb, RgbImage};
 use std::{
     env, fs,
     path::Path as FilePath,
@@ -63,11 +64,9 @@ fn main() -> ExitCode {
 
 fn run(words: &[String]) -> Result<(), Failure> {
     let request = parse(words)?;
-    let picture =
-        image::open(&request.map).map_err(|e| Failure::command(format!("{}: {e}", request.map)))?.into_luma8();
-    let map = read(&picture, request.resolution)?;
+    let map = read_map(&request.map, request.resolution).map_err(Failure::command)?;
     let (costs, path) = plan(&map, &request)?;
-    save(&draw(&picture, &costs, &path), &request.picture)
+    save(&draw(&map, &costs, &path), &request.picture)
 }
 
 fn parse(words: &[String]) -> Result<Request, Failure> {
@@ -88,24 +87,6 @@ fn parse(words: &[String]) -> Result<Request, Failure> {
         goal: pose(goal)?,
         picture: picture.clone(),
     })
-}
-
-/// Map of an image, with the thresholds of the ROS map server. The first row of the image is the upper one.
-fn read(picture: &GrayImage, resolution: f32) -> Result<Grid<Occupancy>, Failure> {
-    let (width, height) = (picture.width() as usize, picture.height() as usize);
-    let raster = Raster { corner: Point2::default(), resolution, width, height };
-    let mut map = Grid::new(raster, Occupancy::Unknown).map_err(Failure::command)?;
-    for (x, y, Luma([value])) in picture.enumerate_pixels() {
-        let cell = Cell::new(x as usize, height - 1 - y as usize);
-        if let Some(occupancy) = map.get_mut(cell) {
-            *occupancy = match (255.0 - f32::from(*value)) / 255.0 {
-                p if p > 0.65 => Occupancy::Occupied,
-                p if p < 0.196 => Occupancy::Free,
-                _ => Occupancy::Unknown,
-            };
-        }
-    }
-    Ok(map)
 }
 
 fn plan(map: &Grid<Occupancy>, request: &Request) -> Result<(Grid<f32>, Path), Failure> {
@@ -143,10 +124,19 @@ fn timed<T>(step: impl FnOnce() -> T) -> (Duration, T) {
     (start.elapsed(), result)
 }
 
-/// Image with costs in red and the path in blue.
-fn draw(picture: &GrayImage, costs: &Grid<f32>, path: &Path) -> RgbImage {
-    let row = |y: usize| picture.height() - 1 - y as u32;
-    let mut drawn = RgbImage::from_fn(picture.width(), picture.height(), |x, y| Rgb([picture.get_pixel(x, y)[0]; 3]));
+/// Image of the map with costs in red and the path in blue.
+fn draw(map: &Grid<Occupancy>, costs: &Grid<f32>, path: &Path) -> RgbImage {
+    let Raster { width, height, .. } = *map.raster();
+    let row = |y: usize| (height - 1 - y) as u32;
+    let mut drawn = RgbImage::new(width as u32, height as u32);
+    for (cell, occupancy) in map.iter() {
+        let grey = match occupancy {
+            Occupancy::Free => 255,
+            Occupancy::Unknown => 205,
+            Occupancy::Occupied => 0,
+        };
+        drawn.put_pixel(cell.x as u32, row(cell.y), Rgb([grey; 3]));
+    }
     for (cell, cost) in costs.iter() {
         let pale = 1.0 - 0.7 * cost / HIGHEST;
         let Rgb([_, green, blue]) = drawn.get_pixel_mut(cell.x as u32, row(cell.y));

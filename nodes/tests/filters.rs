@@ -13,7 +13,7 @@ graph!("filters.afg");
 const ODD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
 /// Outputs after 100 values up and down, `odd` instead of one of them, and 200 more.
-fn after(odd: Option<f64>) -> [f64; 4] {
+fn after(odd: Option<f64>) -> [f64; 5] {
     let mut filters = Filters::new();
     for step in 0..300 {
         let x = if step % 10 < 5 { 0.25 } else { 0.75 };
@@ -28,6 +28,7 @@ fn after(odd: Option<f64>) -> [f64; 4] {
         number(outputs.low_pass),
         number(outputs.moving_average),
         number(outputs.rate_limit),
+        number(outputs.pid),
     ]
 }
 
@@ -50,7 +51,7 @@ fn every_filter_of_the_library_is_tried() {
     let text = fs::read_to_string(folder.join("tests/filters.afg")).expect("the file is there");
     let filters = catalog.signatures.iter().filter(|s| s.stateful && s.path.get(1..3).is_some_and(is_math));
     let names: Vec<&str> = filters.map(|s| s.name.as_str()).collect();
-    assert!(names.len() >= 4, "{names:?}");
+    assert!(names.len() >= 5, "{names:?}");
     for name in names {
         assert!(text.contains(&format!("-> {name}")), "`{name}` is not in `tests/filters.afg`");
     }

@@ -3,7 +3,7 @@ use apex_rt::{
     drive_with,
     prelude::*,
     record::{
-        Message, Recorder, Tap, WhenFull,
+        Message, Reason, Recorder, Tap, WhenFull,
         cdr::{Reader, Writer},
         replay,
     },
@@ -25,7 +25,7 @@ float64 variance";
         message.f64(0.0);
     }
 
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.header()?;
         message.f64().map(Self)
     }

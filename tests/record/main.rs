@@ -3,6 +3,7 @@
 mod cut;
 mod damage;
 mod feed;
+mod foreign;
 mod full;
 mod limits;
 mod python;

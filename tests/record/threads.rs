@@ -392,8 +392,8 @@ fn a_file_that_lost_messages_never_hangs() {
     let mut looks = 0;
     for message in mcap::MessageStream::new(&bytes).expect("a recording") {
         let message = message.expect("a message");
-        looks += u32::from(message.channel.topic == "apex/looked");
-        if message.channel.topic != "apex/looked" || looks % 50 != 0 {
+        looks += u32::from(message.channel.topic == "/apex/looked");
+        if message.channel.topic != "/apex/looked" || looks % 50 != 0 {
             writer.write(&message).expect("room for it");
         }
     }

@@ -7,7 +7,7 @@ use apex_rt::{
     drive_with,
     prelude::*,
     record::{
-        Codec, Message, Report,
+        Codec, Message, Reason, Report,
         cdr::{Reader, Writer},
         replay, tokens,
     },
@@ -254,7 +254,7 @@ pub mod celsius {
         fn write(&self, message: &mut Writer<'_>) {
             message.f32(self.0);
         }
-        fn read(message: &mut Reader<'_>) -> Option<Self> {
+        fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
             message.f32().map(Self)
         }
     }
@@ -295,7 +295,7 @@ pub mod commented {
         fn write(&self, message: &mut Writer<'_>) {
             message.f32(self.0);
         }
-        fn read(message: &mut Reader<'_>) -> Option<Self> {
+        fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
             message.f32().map(Self)
         }
     }
@@ -336,7 +336,7 @@ pub mod kelvin {
         fn write(&self, message: &mut Writer<'_>) {
             message.f32(self.0);
         }
-        fn read(message: &mut Reader<'_>) -> Option<Self> {
+        fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
             message.f32().map(Self)
         }
     }
@@ -463,7 +463,8 @@ fn rewritten(from: &Path, to: &Path, right: bool) {
         let is_message = channel.message_encoding == "cdr";
         let (encoding, data) = if is_message { ("ros2msg", &*schema.data) } else { ("", &[][..]) };
         let schema = writer.add_schema(&schema.name, encoding, data).expect("room");
-        let id = writer.add_channel(schema, &channel.topic, &channel.message_encoding, &BTreeMap::new());
+        let name = &channel.metadata["apex/name"];
+        let id = writer.add_channel(schema, name, &channel.message_encoding, &BTreeMap::new());
         ids.insert(channel.topic.clone(), id.expect("room"));
     }
     for message in MessageStream::new(&bytes).expect("a recording") {
@@ -500,5 +501,8 @@ fn bytes_that_are_left_over_are_an_error() {
     let report = replayed(first::Base::new(), &old).expect("it can be read");
     assert!(!report.is_whole(), "{report}");
     let text = report.to_string();
-    assert!(text.contains("3 recorded tokens of `measure.out` are not values of its type"), "{text}");
+    assert!(
+        text.contains("3 recorded tokens of `measure.out` are not values of its type: bytes are left over"),
+        "{text}"
+    );
 }

@@ -198,7 +198,7 @@ impl Graph {
     fn note_ports(&mut self, end: &PortId) {
         match end {
             PortId::Own(kind, k) => drop(self.ports.insert((*kind, *k))),
-            PortId::Whole(_) => {}
+            PortId::Whole(_) | PortId::Plugin(..) => {}
             PortId::Node(index, port) => {
                 let graph = self.nodes[*index].graph.as_mut();
                 graph.and_then(|graph| port.of_graph().map(|port| graph.ports.insert(port)));

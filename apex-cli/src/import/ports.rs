@@ -29,6 +29,8 @@ pub enum PortId {
     Own(Kind, u32),
     /// Slot or event of CS::APEX as a whole.
     Whole(&'static Whole),
+    /// Slot or event that a plugin has added to CS::APEX.
+    Plugin(Kind, String),
 }
 
 impl PortId {
@@ -36,7 +38,7 @@ impl PortId {
     pub fn sends_signals(&self) -> bool {
         match self {
             Self::Node(_, port) => port.common().is_some(),
-            Self::Whole(_) => true,
+            Self::Whole(_) | Self::Plugin(..) => true,
             Self::Own(..) => false,
         }
     }
@@ -46,7 +48,7 @@ impl PortId {
         match self {
             Self::Node(_, port) => port.common().is_some(),
             Self::Whole(whole) => whole.ours.is_some(),
-            Self::Own(..) => false,
+            Self::Own(..) | Self::Plugin(..) => false,
         }
     }
 }
@@ -129,7 +131,9 @@ impl PortId {
             let own = id.rsplit_once('_').and_then(|(name, k)| {
                 Some(Self::Own(kinds.iter().find(|(relay, _)| *relay == name)?.1, k.parse().ok()?))
             });
-            return own.ok_or_else(|| unknown("it is not a port such as `node:|:in_0` or `relayin_0`".to_owned()));
+            return own
+                .or_else(|| plugin(id))
+                .ok_or_else(|| unknown("it is not a port such as `node:|:in_0` or `relayin_0`".to_owned()));
         };
         let index = node(owner).ok_or_else(|| unknown(format!("there is no node `{owner}` in this graph")))?;
         let port = read_port(port).ok_or_else(|| unknown(format!("`{port}` is not a port")))?;
@@ -137,9 +141,10 @@ impl PortId {
     }
 
     /// Name in CS::APEX of a port for which the language has no equivalent.
-    pub fn without_counterpart(&self) -> Option<&'static str> {
+    pub fn without_counterpart(&self) -> Option<&str> {
         match self {
             Self::Whole(Whole { theirs, ours: None, .. }) => Some(theirs),
+            Self::Plugin(_, theirs) => Some(theirs),
             _ => None,
         }
     }
@@ -150,8 +155,17 @@ impl PortId {
             Self::Node(_, port) => matches!(port.kind(), Kind::Out | Kind::Event),
             Self::Own(kind, _) => matches!(kind, Kind::In | Kind::Slot),
             Self::Whole(whole) => whole.kind == Kind::Event,
+            Self::Plugin(kind, _) => *kind == Kind::Event,
         }
     }
+}
+
+/// Reads the id of a slot or an event of a plugin.
+fn plugin(id: &str) -> Option<PortId> {
+    let (word, name) = id.split_once('_')?;
+    let kind = [Kind::Slot, Kind::Event].into_iter().find(|kind| kind.word() == word)?;
+    let is_name = !name.is_empty() && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    is_name.then(|| PortId::Plugin(kind, id.to_owned()))
 }
 
 fn read_port(port: &str) -> Option<Port> {

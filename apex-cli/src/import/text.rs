@@ -120,6 +120,7 @@ fn end(graph: &Graph, end: &PortId) -> String {
     match end {
         PortId::Own(kind, k) => format!("{}_{k}", kind.word()),
         PortId::Whole(whole) => whole.ours.unwrap_or(whole.theirs).to_owned(),
+        PortId::Plugin(_, theirs) => theirs.clone(),
         PortId::Node(index, port) => {
             let node = &graph.nodes[*index];
             format!("{}.{}", node.name, port_name(node, port))

@@ -220,7 +220,8 @@ fn recorded(path: &Path, file: String) -> Result<Replayed, String> {
     // A file that was cut off has no statistics.
     let stats = summary.stats.ok_or("it is incomplete")?;
     let has_tokens = |id: &u16| stats.channel_message_counts.get(id).is_some_and(|count| *count > 0);
-    let channels = summary.channels.iter().filter(|(id, _)| has_tokens(id)).map(|(_, c)| c.topic.clone()).collect();
+    let name = |channel: &mcap::Channel<'_>| channel.metadata.get("apex/name").unwrap_or(&channel.topic).clone();
+    let channels = summary.channels.iter().filter(|(id, _)| has_tokens(id)).map(|(_, channel)| name(channel)).collect();
     let time = |time: u64| i64::try_from(time).ok();
     let range = time(stats.message_start_time).zip(time(stats.message_end_time)).filter(|_| stats.message_count > 0);
     Ok(Replayed { file, channels, range })

@@ -58,6 +58,7 @@ nodes:
 connections:
   - {uuid: event_activation, targets: ['csapex::Filter_0:|:slot_2', 'count:|:slot_1'], types: [default, active]}
   - {uuid: event_deactivation, targets: ['csapex::Filter_0:|:slot_3']}
+  - {uuid: event_ros_clock_reset, targets: ['csapex::Filter_0:|:slot_2', slot_exit]}
   - {uuid: 'csapex::Filter_0:|:out_0', targets: [slot_exit, slot_save]}
   - {uuid: 'csapex::Filter_0:|:event_3', targets: [slot_abort], types: [active]}
 ";
@@ -77,6 +78,8 @@ const SHAPES_TEXT: &str = "    // `csapex::Filter` is not in the library; uses o
     start            -> filter_0.slot_2;
     start            => count.disable;
     // `event_deactivation` of CS::APEX itself has no counterpart here: event_deactivation -> filter_0.slot_3;
+    // `event_ros_clock_reset` of CS::APEX itself has no counterpart here: event_ros_clock_reset -> filter_0.slot_2;
+    // `event_ros_clock_reset` of CS::APEX itself has no counterpart here: event_ros_clock_reset -> exit;
     filter_0.out_0   -> Signal() -> exit;
     // `slot_save` of CS::APEX itself has no counterpart here: filter_0.out_0 -> slot_save;
     filter_0.event_3 => Signal() => abort;
@@ -102,7 +105,10 @@ fn parameters_of_any_shape_and_ports_of_the_program() {
     for (uuid, target, message) in [
         ("slot_exit", "count:|:slot_0", "`slot_exit` sends nothing"),
         ("event_activation", "event_activation", "`event_activation` takes nothing"),
-        ("event_unheard_of", "count:|:slot_0", "unknown id `event_unheard_of`"),
+        ("event_", "count:|:slot_0", "unknown id `event_`"),
+        ("\"event_a\\nb\"", "count:|:slot_0", "unknown id `event_a"),
+        ("event_of_a_plugin", "event_of_a_plugin", "`event_of_a_plugin` takes nothing"),
+        ("slot_of_a_plugin", "count:|:slot_0", "`slot_of_a_plugin` sends nothing"),
     ] {
         let graph = format!(
             "nodes:\n  - {{type: C, uuid: count}}\nconnections:\n  - {{uuid: {uuid}, targets: ['{target}']}}\n"

@@ -1,6 +1,7 @@
 //! CDR, the binary encoding of ROS 2 messages (XCDR1, little endian). Foxglove and the Python package
 //! `mcap-ros2-support` read it.
 
+use super::Reason;
 use crate::Time;
 
 /// Definition of `std_msgs/Header` and of its contents.
@@ -16,6 +17,9 @@ uint32 nanosec";
 
 /// Prefix of each message: little endian, no options.
 const HEADER: [u8; 4] = [0, 1, 0, 0];
+
+/// First bytes of what zstd has compressed.
+pub(super) const ZSTD: &[u8; 4] = &[0x28, 0xb5, 0x2f, 0xfd];
 
 /// Nanoseconds in a second.
 const NANOS: i64 = 1_000_000_000;
@@ -60,42 +64,70 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Reader of the messages of a [`Writer`]. All methods return `None` if the bytes do not have such a value.
+/// Reader of messages. All methods return the reason if the bytes do not have such a value.
 #[derive(Debug)]
 pub struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
+/// Reason for a message that ends too early.
+const MISSING: Reason = Reason::Borrowed("bytes are missing");
+
 impl<'a> Reader<'a> {
-    /// Reads the message `bytes`; `None` if the prefix is another one.
-    pub fn new(bytes: &'a [u8]) -> Option<Self> {
-        Some(Self { bytes: bytes.strip_prefix(&HEADER)?, at: 0 })
+    /// Reads the message `bytes`.
+    ///
+    /// # Errors
+    /// The bytes are not CDR, or in an order or a version that is not supported.
+    pub fn new(bytes: &'a [u8]) -> Result<Self, Reason> {
+        let (prefix, rest) = bytes.split_first_chunk::<4>().ok_or(MISSING)?;
+        match prefix {
+            // The last two bits are the number of bytes that were added at the end.
+            [0, 1, _, options] => {
+                let length = rest.len().checked_sub(usize::from(options & 3)).ok_or(MISSING)?;
+                Ok(Self { bytes: &rest[..length], at: 0 })
+            }
+            [0, 0, ..] => Err("its numbers are big-endian, which is not supported".into()),
+            [0, 2..=11, ..] => Err("it is encoded in a version of CDR that is not supported".into()),
+            ZSTD => Err("it is compressed with zstd: record without a compression of messages".into()),
+            _ => Err("it does not begin as CDR".into()),
+        }
     }
 
-    fn get<const N: usize>(&mut self) -> Option<[u8; N]> {
+    fn get<const N: usize>(&mut self) -> Result<[u8; N], Reason> {
         let at = self.at.next_multiple_of(N);
-        let number = self.bytes.get(at..at.checked_add(N)?)?;
+        let number = self.bytes.get(at..).and_then(<[u8]>::first_chunk).ok_or(MISSING)?;
         self.at = at + N;
-        number.try_into().ok()
+        Ok(*number)
+    }
+
+    /// Reads a number of bytes.
+    pub fn bytes(&mut self, count: usize) -> Result<&'a [u8], Reason> {
+        let end = self.at.checked_add(count).ok_or(MISSING)?;
+        let bytes = self.bytes.get(self.at..end).ok_or(MISSING)?;
+        self.at = end;
+        Ok(bytes)
+    }
+
+    /// Number of bytes that have not been read yet.
+    pub fn left(&self) -> usize {
+        self.bytes.len().saturating_sub(self.at)
     }
 
     /// Reads a `std_msgs/Header` and returns its stamp.
-    pub fn header(&mut self) -> Option<Time> {
+    pub fn header(&mut self) -> Result<Time, Reason> {
         let (seconds, rest) = (self.i32()?, self.u32()?);
         self.text()?;
-        Some(Time::from_nanos(i64::from(seconds) * NANOS + i64::from(rest)))
+        Ok(Time::from_nanos(i64::from(seconds) * NANOS + i64::from(rest)))
     }
 
     /// Reads a text.
-    pub fn text(&mut self) -> Option<&'a str> {
-        let length = usize::try_from(self.u32()?).ok()?;
-        let (zero, text) = self.bytes.get(self.at..self.at.checked_add(length)?)?.split_last()?;
-        self.at += length;
-        if *zero != 0 {
-            return None;
+    pub fn text(&mut self) -> Result<&'a str, Reason> {
+        let length = usize::try_from(self.u32()?).map_err(|_| MISSING)?;
+        match self.bytes(length)?.split_last() {
+            Some((0, text)) => core::str::from_utf8(text).map_err(|_| "a text is not UTF-8".into()),
+            _ => Err("a text does not end with a zero byte".into()),
         }
-        core::str::from_utf8(text).ok()
     }
 }
 
@@ -112,7 +144,7 @@ macro_rules! numbers {
         impl Reader<'_> {
             $(
                 /// Reads a number.
-                pub fn $ty(&mut self) -> Option<$ty> {
+                pub fn $ty(&mut self) -> Result<$ty, Reason> {
                     self.get().map($ty::from_le_bytes)
                 }
             )*

@@ -129,8 +129,15 @@ impl Out {
         Ok(out)
     }
 
-    /// Adds a channel with a schema of its own.
-    pub fn channel(&mut self, id: u16, name: &str, encoding: &str, schema: (&str, &str, &str)) -> io::Result<()> {
+    /// Adds a channel with an entry of metadata and a schema of its own.
+    pub fn channel(
+        &mut self,
+        id: u16,
+        topic: &str,
+        metadata: (&str, &str),
+        encoding: &str,
+        schema: (&str, &str, &str),
+    ) -> io::Result<()> {
         self.schema_count += 1;
         self.channel_count += 1;
         let (schema_id, (schema_name, schema_encoding, data)) = (self.schema_count, schema);
@@ -144,9 +151,12 @@ impl Out {
         let written = self.whole(op::CHANNEL, |record| {
             record.extend_from_slice(&id.to_le_bytes());
             record.extend_from_slice(&schema_id.to_le_bytes());
-            text(name, record);
+            text(topic, record);
             text(encoding, record);
-            table([(); 0], record, |(), _| {});
+            table([metadata], record, |(key, value), record| {
+                text(key, record);
+                text(value, record);
+            });
         })?;
         self.channels.extend_from_slice(&written);
         Ok(())

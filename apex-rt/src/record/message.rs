@@ -7,6 +7,15 @@ use super::{
 use crate::{Failure, Time};
 use core::{any::type_name, marker::PhantomData};
 use serde::{Serialize, de::DeserializeOwned};
+use std::borrow::Cow;
+
+/// Reason why bytes are not a token, for example "its encoding is `bayer_rggb8`".
+pub type Reason = Cow<'static, str>;
+
+/// Reason for bytes that serde cannot read.
+const WRONG: Reason = Cow::Borrowed("bytes are missing, or are those of another type");
+/// Reason for bytes after a token.
+const LEFT_OVER: Reason = Cow::Borrowed("bytes are left over");
 
 /// A type whose tokens are recorded as ROS 2 messages, so that other programs can read them.
 ///
@@ -22,8 +31,11 @@ pub trait Message: Sized {
     /// Writes the fields in the order of the definition.
     fn write(&self, message: &mut Writer<'_>);
 
-    /// Reads the fields; `None` if they are not a value of this type.
-    fn read(message: &mut Reader<'_>) -> Option<Self>;
+    /// Reads the fields.
+    ///
+    /// # Errors
+    /// The fields are not a value of this type: the reason.
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason>;
 }
 
 /// Schema of a channel: type and encoding of its tokens.
@@ -51,8 +63,8 @@ pub struct Codec<T> {
     pub schema: Schema,
     /// Appends a token to the bytes; `false` if it cannot be written.
     pub write: fn(&T, &mut Vec<u8>) -> bool,
-    /// Reads a token; `None` if the bytes are not one, or more than one.
-    pub read: fn(&[u8]) -> Option<T>,
+    /// Reads a token. Fails with the reason if the bytes are not one, or more than one.
+    pub read: fn(&[u8]) -> Result<T, Reason>,
     /// Returns the shape of the type: the definition of the message, or all that serde reads.
     pub shape: fn() -> String,
 }
@@ -90,15 +102,23 @@ impl<T: Message> ByMessage<T> for &&Kind<T> {
                 true
             },
             read: |bytes| {
-                let token = T::read(&mut Reader::new(bytes)?)?;
-                // A type need not read the fields that it only writes, such as those that are always zero.
-                let mut again = Vec::with_capacity(bytes.len());
-                token.write(&mut Writer::new(&mut again));
-                (again.len() == bytes.len()).then_some(token)
+                let mut message = Reader::new(bytes)?;
+                let token = T::read(&mut message)?;
+                let is_whole = message.left() == 0 || message.left() == unread(&token)?;
+                if is_whole { Ok(token) } else { Err(LEFT_OVER) }
             },
             shape: || message::<T>().complete_definition(),
         })
     }
+}
+
+/// Number of bytes at the end of a token that its type writes and does not read, such as fields that are always zero.
+fn unread<T: Message>(token: &T) -> Result<usize, Reason> {
+    let mut bytes = vec![];
+    token.write(&mut Writer::new(&mut bytes));
+    let mut message = Reader::new(&bytes)?;
+    T::read(&mut message)?;
+    Ok(message.left())
 }
 
 fn message<T: Message>() -> Schema {
@@ -117,8 +137,8 @@ impl<T: Serialize + DeserializeOwned> BySerde<T> for &Kind<T> {
             schema: Schema { name: type_name::<T>(), definition: "", encoding: "postcard" },
             write: |token, bytes| postcard::to_io(token, &mut *bytes).is_ok(),
             read: |bytes| {
-                let (token, rest) = postcard::take_from_bytes(bytes).ok()?;
-                rest.is_empty().then_some(token)
+                let (token, rest) = postcard::take_from_bytes(bytes).map_err(|_| WRONG)?;
+                if rest.is_empty() { Ok(token) } else { Err(LEFT_OVER) }
             },
             shape: shape::<T>,
         })
@@ -145,7 +165,7 @@ macro_rules! numbers {
             fn write(&self, message: &mut Writer<'_>) {
                 message.$ty(*self);
             }
-            fn read(message: &mut Reader<'_>) -> Option<Self> {
+            fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
                 message.$ty()
             }
         }
@@ -170,7 +190,7 @@ impl Message for bool {
     fn write(&self, message: &mut Writer<'_>) {
         message.u8(u8::from(*self));
     }
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.u8().map(|byte| byte != 0)
     }
 }
@@ -182,7 +202,7 @@ impl Message for () {
         // An empty ROS message still has one byte.
         message.u8(0);
     }
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.u8().map(drop)
     }
 }
@@ -193,7 +213,7 @@ impl Message for String {
     fn write(&self, message: &mut Writer<'_>) {
         message.text(self);
     }
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.text().map(str::to_owned)
     }
 }
@@ -204,7 +224,7 @@ impl Message for Failure {
     fn write(&self, message: &mut Writer<'_>) {
         message.text(self.text());
     }
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.text().map(|text| Self::new(&text))
     }
 }
@@ -215,24 +235,22 @@ impl Message for Time {
     fn write(&self, message: &mut Writer<'_>) {
         message.i64(self.as_nanos());
     }
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.i64().map(Self::from_nanos)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::cdr::ZSTD, *};
     use core::fmt::Debug;
 
     /// Writes and reads a token.
     fn again<T>(codec: Option<Codec<T>>, token: &T) -> (Schema, Option<T>) {
         let (codec, mut bytes) = (codec.expect("it can be recorded"), vec![]);
         assert!((codec.write)(token, &mut bytes));
-        assert!(
-            (0..bytes.len()).all(|cut| { (codec.read)(&bytes[..cut]).is_none() || codec.schema.encoding != "cdr" })
-        );
-        (codec.schema, (codec.read)(&bytes))
+        assert!((0..bytes.len()).all(|cut| { (codec.read)(&bytes[..cut]).is_err() || codec.schema.encoding != "cdr" }));
+        (codec.schema, (codec.read)(&bytes).ok())
     }
 
     fn same<T: Message + PartialEq + Debug>(token: T) {
@@ -266,16 +284,75 @@ mod tests {
 
     #[test]
     fn bytes_that_are_left_over_are_an_error() {
-        fn longer<T>(codec: Option<Codec<T>>, token: &T) -> bool {
+        fn longer<T>(codec: Option<Codec<T>>, token: &T) -> Option<Reason> {
             let (codec, mut bytes) = (codec.expect("it can be recorded"), vec![]);
             (codec.write)(token, &mut bytes);
             bytes.push(0);
-            (codec.read)(&bytes).is_some()
+            (codec.read)(&bytes).err()
         }
-        assert!(!longer(crate::__codec!(f64), &1.0));
-        assert!(!longer(crate::__codec!(String), &"one".to_owned()));
-        assert!(!longer(crate::__codec!(Vec<u8>), &vec![1]));
-        assert!(!longer(crate::__codec!((u8, f32)), &(1, 1.0)));
+        assert_eq!(longer(crate::__codec!(f64), &1.0), Some(LEFT_OVER));
+        assert_eq!(longer(crate::__codec!(String), &"one".to_owned()), Some(LEFT_OVER));
+        assert_eq!(longer(crate::__codec!(Vec<u8>), &vec![1]), Some(LEFT_OVER));
+        assert_eq!(longer(crate::__codec!((u8, f32)), &(1, 1.0)), Some(LEFT_OVER));
+    }
+
+    /// A number whose message also has a frame, which it does not keep, and a part that it does not read.
+    #[derive(Debug, PartialEq)]
+    struct Framed(f64);
+
+    impl Message for Framed {
+        const NAME: &'static str = "framed";
+        const DEFINITION: &'static str = "string frame\nfloat64 data\nfloat64 variance";
+        fn write(&self, message: &mut Writer<'_>) {
+            message.text("robot");
+            message.f64(self.0);
+            message.f64(0.0);
+        }
+        fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
+            message.text()?;
+            message.f64().map(Self)
+        }
+    }
+
+    #[test]
+    fn messages_of_other_programs_may_differ_where_nothing_is_kept() {
+        let codec = crate::__codec!(Framed).expect("a message");
+        let write = |frame: &str, rest: &[f64]| {
+            let mut bytes = vec![];
+            let mut message = Writer::new(&mut bytes);
+            message.text(frame);
+            message.f64(2.5);
+            rest.iter().for_each(|number| message.f64(*number));
+            bytes
+        };
+        assert_eq!((codec.read)(&write("robot", &[0.0])), Ok(Framed(2.5)));
+        assert_eq!((codec.read)(&write("base_link_of_another_robot", &[1.0])), Ok(Framed(2.5)));
+        assert_eq!((codec.read)(&write("robot", &[])), Ok(Framed(2.5)), "an earlier version of the message");
+        assert_eq!((codec.read)(&write("robot", &[0.0, 0.0])), Err(LEFT_OVER));
+    }
+
+    #[test]
+    fn the_reason_tells_what_is_wrong_with_a_message() {
+        let codec = crate::__codec!(f64).expect("a message");
+        let number = 1.5_f64.to_le_bytes();
+        let read = |prefix: &[u8], rest: &[u8]| (codec.read)(&[prefix, rest].concat());
+        assert_eq!(read(&[0, 1, 0, 0], &number), Ok(1.5));
+        assert_eq!(read(&[0, 1, 0, 3], &[&number[..], &[0; 3]].concat()), Ok(1.5), "padding as RTPS allows it");
+        for (prefix, rest, reason) in [
+            (&[0, 1, 0, 0][..], &number[..7], "bytes are missing"),
+            (&[0, 1, 0, 3], &[], "bytes are missing"),
+            (&[0, 1], &[], "bytes are missing"),
+            (&[0, 0, 0, 0], &number, "its numbers are big-endian, which is not supported"),
+            (&[0, 7, 0, 0], &number, "it is encoded in a version of CDR that is not supported"),
+            (ZSTD, &number, "it is compressed with zstd: record without a compression of messages"),
+            (b"{\"da", &number, "it does not begin as CDR"),
+        ] {
+            assert_eq!(read(prefix, rest), Err(reason.into()), "{prefix:?}");
+        }
+        let text = crate::__codec!(String).expect("a message");
+        let read = |bytes: &[u8]| (text.read)(&[&[0, 1, 0, 0, bytes.len() as u8, 0, 0, 0], bytes].concat());
+        assert_eq!(read(b"a"), Err("a text does not end with a zero byte".into()));
+        assert_eq!(read(b"\xe4\0"), Err("a text is not UTF-8".into()));
     }
 
     #[test]

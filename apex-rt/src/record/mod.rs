@@ -6,10 +6,12 @@
 //! between them. All of this is recorded, and also the tokens of selected ports, for comparison.
 
 pub mod cdr;
+mod definition;
 mod file;
 mod limits;
 mod message;
 mod recorder;
+mod records;
 mod replay;
 mod report;
 mod run;
@@ -25,7 +27,7 @@ mod waits;
 pub use limits::RecordOptions;
 #[doc(hidden)]
 pub use message::{ByMessage, ByNothing, BySerde, Kind};
-pub use message::{Codec, Message, Schema};
+pub use message::{Codec, Message, Reason, Schema};
 pub use recorder::{Finished, Recorder, WhenFull};
 pub use replay::{Replay, ReplayError};
 pub use report::{Compared, Difference, Report};
@@ -119,7 +121,7 @@ macro_rules! __format {
                 shape: || $codec().map(|codec| (codec.shape)()).unwrap_or_default(),
                 show: |bytes| {
                     use $crate::testing::{ByDebug as _, ByType as _};
-                    let token = ($codec()?.read)(bytes)?;
+                    let token = ($codec()?.read)(bytes).ok()?;
                     Some((&$crate::testing::Shown(&token)).shown())
                 },
             }

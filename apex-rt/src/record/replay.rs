@@ -380,7 +380,7 @@ impl Replay {
     }
 
     fn keep(&mut self, meaning: Meaning, message: FileMessage) {
-        let Some(mut fields) = Reader::new(&message.data).or_else(|| Reader::new(&[0, 1, 0, 0])) else { return };
+        let Ok(mut fields) = Reader::new(&message.data).or_else(|_| Reader::new(&[0, 1, 0, 0])) else { return };
         match meaning {
             Meaning::Reaction => {}
             Meaning::Elapsed => {
@@ -393,7 +393,7 @@ impl Replay {
             Meaning::Parameter => {
                 let (name, value) = (fields.text().map(str::to_owned), fields.text().map(str::to_owned));
                 let changed = bool::read(&mut fields).unwrap_or(true);
-                if let (Some(name), Some(value)) = (name, value)
+                if let (Ok(name), Ok(value)) = (name, value)
                     && self.is_own(fields.u32().unwrap_or(0))
                 {
                     self.reaction.params.push((name, value, changed));
@@ -401,13 +401,13 @@ impl Replay {
             }
             Meaning::Taken => self.reaction.taken.extend(fields.text().map(str::to_owned)),
             Meaning::Looked => {
-                if let (Some(group), Some(look)) = (fields.u32(), fields.u32())
+                if let (Ok(group), Ok(look)) = (fields.u32(), fields.u32())
                     && self.is_own(group)
                 {
                     self.reaction.looks.insert(look);
                 }
             }
-            Meaning::Ended => self.reaction.ended |= fields.u32().is_some_and(|group| self.is_own(group)),
+            Meaning::Ended => self.reaction.ended |= fields.u32().is_ok_and(|group| self.is_own(group)),
             Meaning::Token(channel) if self.is_own(self.channels[channel].group as u32) => {
                 self.reaction.tokens[channel].push_back((message.sequence, message.data));
                 if self.channels[channel].role == Role::Mailbox {
@@ -508,17 +508,22 @@ impl Replay {
             waiting.pop_front();
         }
         let (_, bytes) = if waiting.front()?.0 == call { waiting.pop_front()? } else { return None };
-        let token = codec.and_then(|codec| (codec.read)(&bytes));
-        match token {
-            Some(_) => self.last[channel] = Some(bytes),
-            None => *self.report.unreadable.entry(self.channels[channel].name).or_default() += 1,
+        match (codec?.read)(&bytes) {
+            Ok(token) => {
+                self.last[channel] = Some(bytes);
+                Some(token)
+            }
+            Err(reason) => {
+                let unreadable = &mut self.report.unreadable;
+                unreadable.entry(self.channels[channel].name).or_insert((0, reason)).0 += 1;
+                None
+            }
         }
-        token
     }
 
     pub(super) fn take_or_last<T>(&mut self, channel: usize, codec: Option<Codec<T>>) -> Option<T> {
         self.take(channel, codec).or_else(|| {
-            let token = codec.and_then(|codec| (codec.read)(self.last[channel].as_ref()?))?;
+            let token = codec.and_then(|codec| (codec.read)(self.last[channel].as_ref()?).ok())?;
             self.report.repeated += u64::from(!self.leads_in);
             Some(token)
         })
@@ -561,8 +566,8 @@ impl Replay {
 
 /// Returns the group and the time of a reaction.
 fn time_of(reaction: &[u8]) -> Option<(u32, Time)> {
-    let mut fields = Reader::new(reaction)?;
-    Some((fields.u32()?, Time::from_nanos(fields.i64()?)))
+    let mut fields = Reader::new(reaction).ok()?;
+    Some((fields.u32().ok()?, Time::from_nanos(fields.i64().ok()?)))
 }
 
 /// Returns the value of a parameter in TOML.

@@ -1,4 +1,4 @@
-use super::{Channel, Role, TypeChange};
+use super::{Channel, Reason, Role, TypeChange};
 use crate::Time;
 use core::fmt::{self, Display, Formatter};
 use std::collections::BTreeMap;
@@ -27,8 +27,8 @@ pub struct Report {
     pub not_called: Vec<&'static str>,
     /// Numbers of messages that were lost during the recording, by channel.
     pub dropped: Vec<(String, u64)>,
-    /// Numbers of recorded tokens that are not values of their types, by channel: bytes are missing or left over.
-    pub unreadable: BTreeMap<&'static str, u64>,
+    /// Numbers of recorded tokens that are not values of their types, by channel, with the reason for the first one.
+    pub unreadable: BTreeMap<&'static str, (u64, Reason)>,
     /// Ports of the `record` statement that cannot be compared, because their types have changed.
     pub changed: Vec<TypeChange>,
     /// Channels for which the recording has no description of the type, as it is of an earlier version.
@@ -144,11 +144,8 @@ impl Display for Report {
                 "warning: the recording does not describe the types of `{names}`: if one has changed, nothing tells"
             )?;
         }
-        for (channel, count) in &self.unreadable {
-            writeln!(
-                f,
-                "{count} recorded tokens of `{channel}` are not values of its type: bytes are missing or left over"
-            )?;
+        for (channel, (count, reason)) in &self.unreadable {
+            writeln!(f, "{count} recorded tokens of `{channel}` are not values of its type: {reason}")?;
         }
         for change in &self.changed {
             writeln!(f, "cannot compare: {change}")?;

@@ -60,6 +60,8 @@ const fn own(name: &'static str, definition: &'static str) -> Schema {
     Schema { name, definition, encoding: "cdr" }
 }
 
+/// Key of the name of a channel, in its metadata.
+pub const CHANNEL_NAME: &str = "apex/name";
 /// Name of the metadata with the numbers of lost messages.
 pub const DROPPED: &str = "apex/dropped";
 /// Name of the metadata on the recorded program.
@@ -75,8 +77,10 @@ pub const NUMBER: &str = "file";
 /// Key of the thread groups that ran in parallel, in the metadata on the program.
 pub const THREADS: &str = "threads";
 
+/// Encoding of the schemas of messages.
+pub const MESSAGES: &str = "ros2msg";
 /// Encoding of the schemas of types that are not messages.
-const SHAPE: &str = "apex";
+pub const SHAPE: &str = "apex";
 
 /// Number in the header of a frame with the numbers of lost messages.
 const LOST: u16 = u16::MAX;
@@ -291,6 +295,20 @@ impl Near {
     }
 }
 
+/// Topic of a channel: its name in the form that ROS 2 allows, such as `/laser/scan` for `laser.scan`.
+fn topic(name: &str) -> String {
+    let mut topic = String::with_capacity(name.len() + 1);
+    for part in name.split(['.', '/']).filter(|part| !part.is_empty()) {
+        topic.push('/');
+        // A part does not begin with a digit.
+        if part.starts_with(|letter: char| letter.is_ascii_digit()) {
+            topic.push('_');
+        }
+        topic.extend(part.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }));
+    }
+    topic
+}
+
 /// A channel in a file: name, encoding, and the name, encoding and text of its schema.
 type Row = (u16, &'static str, &'static str, (&'static str, &'static str, String));
 
@@ -299,7 +317,7 @@ fn rows(channels: &[Channel]) -> Vec<Row> {
     let others = channels.iter().map(|c| c.schema.map(|schema| (c.name, schema, (c.shape)())));
     let all = own.chain(others).enumerate().filter_map(|(index, row)| Some((index as u16, row?)));
     all.map(|(id, (name, schema, shape))| {
-        let encoding = if schema.encoding == "cdr" { "ros2msg" } else { SHAPE };
+        let encoding = if schema.encoding == "cdr" { MESSAGES } else { SHAPE };
         (id, name, schema.encoding, (schema.name, encoding, shape))
     })
     .collect()
@@ -321,7 +339,8 @@ impl Beginning {
         about.extend(number.map(|number| (NUMBER.to_owned(), number.to_string())));
         out.metadata(PROGRAM, &about)?;
         for (id, name, encoding, (schema, schema_encoding, text)) in &self.channels {
-            out.channel(*id, name, encoding, (schema, schema_encoding, text))?;
+            let metadata = (CHANNEL_NAME, *name);
+            out.channel(*id, &topic(name), metadata, encoding, (schema, schema_encoding, text))?;
         }
         out.flush()?;
         Ok((file, out))
@@ -509,4 +528,23 @@ pub fn first_free(path: &Path, taken: impl Fn(&Path) -> bool) -> PathBuf {
         file
     };
     std::iter::once(path.to_owned()).chain((2..).map(numbered)).find(|p| !taken(p)).unwrap_or_else(|| path.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::topic;
+
+    #[test]
+    fn topics_are_names_that_ros_allows() {
+        for (name, expected) in [
+            ("laser.scan", "/laser/scan"),
+            ("find.jumps.segments", "/find/jumps/segments"),
+            ("apex/reaction", "/apex/reaction"),
+            ("start", "/start"),
+            ("merge.2", "/merge/_2"),
+            ("a[0].b", "/a_0_/b"),
+        ] {
+            assert_eq!(topic(name), expected);
+        }
+    }
 }

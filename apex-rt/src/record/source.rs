@@ -5,14 +5,12 @@
 
 use super::{
     file::LZ4,
-    sink::{DROPPED, GOES_ON, NEXT, NUMBER, PROGRAM, THREADS},
+    records::{Record, Statistics},
+    sink::{CHANNEL_NAME, DROPPED, GOES_ON, MESSAGES, NEXT, NUMBER, PROGRAM, SHAPE, THREADS},
 };
 use crc32fast::Hasher;
 use lz4_flex::frame::FrameDecoder;
-use mcap::{
-    MAGIC, McapError, parse_record,
-    records::{Record, Statistics, op},
-};
+use mcap::{MAGIC, records::op};
 use std::{
     collections::BTreeMap,
     env,
@@ -30,6 +28,8 @@ const LOOK: Duration = Duration::from_millis(5);
 
 /// Maximum length of a record, in bytes. A larger length is damage.
 const LARGEST: u64 = 1 << 30;
+/// The message without a field.
+const EMPTY: &str = "std_msgs/msg/Empty";
 /// Reason for the end of a file that ends in the middle of a record.
 pub const CUT: &str = "it was cut off";
 /// Length of a chunk before its records, in bytes.
@@ -53,8 +53,10 @@ const SUMMARY: [u8; 7] = [
 /// Channel of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileChannel {
-    /// Name of the channel.
+    /// Name of the channel: that of the port and its node, or the topic in a file of another program.
     pub name: String,
+    /// Topic of the channel.
+    pub topic: String,
     /// Name of its schema.
     pub schema: String,
     /// Shape of its tokens: the definition of their message, or the description of their type; `None` if the recording
@@ -185,6 +187,8 @@ enum Stop {
     Cut,
     /// The file is damaged.
     Damage(String),
+    /// The file has something that is not supported.
+    Unsupported(String),
     /// The file cannot be read.
     Io(io::Error),
 }
@@ -225,6 +229,7 @@ impl Source {
                 Err(Stop::Io(error)) => return Err(error),
                 Err(Stop::Cut) => self.stop(CUT),
                 Err(Stop::Damage(what)) => self.stop(&format!("it is damaged: {what}")),
+                Err(Stop::Unsupported(what)) => self.stop(&what),
             }
         }
         Ok(None)
@@ -271,7 +276,7 @@ impl Source {
         self.cut = Some(why.to_owned());
     }
 
-    fn next_record(&mut self) -> Result<Record<'static>, Stop> {
+    fn next_record(&mut self) -> Result<Record, Stop> {
         loop {
             if self.chunk.position() < self.chunk.get_ref().len() as u64 {
                 let (kind, length) = read_head(&mut self.chunk)?;
@@ -286,8 +291,8 @@ impl Source {
             }
             belongs(kind, &DATA)?;
             let record = parse(kind, &read_body(&mut self.file, length)?)?;
-            if let Record::DataEnd(end) = &record {
-                is_sum(before, end.data_section_crc, "its data")?;
+            if let Record::DataEnd(sum) = &record {
+                is_sum(before, *sum, "its data")?;
             }
             return Ok(record);
         }
@@ -308,7 +313,12 @@ impl Source {
                 statistics = Some(found);
             }
         }
-        self.compare(&statistics.ok_or_else(|| Stop::Damage("it has no statistics".to_owned()))?)
+        match statistics {
+            Some(statistics) => self.compare(&statistics),
+            // Other programs need not write any.
+            None if self.program.is_none() => Ok(()),
+            None => Err(Stop::Damage("it has no statistics".to_owned())),
+        }
     }
 
     /// Reads the last record, whose last field is the checksum of everything after the data, and the end of the file.
@@ -331,12 +341,12 @@ impl Source {
     fn compare(&self, said: &Statistics) -> Result<(), Stop> {
         let count: u64 = self.counts.values().sum();
         // Channels without messages are not counted.
-        let mut of_channels = said.channel_message_counts.iter().filter(|(_, count)| **count > 0);
-        let is_same = count == said.message_count && said.chunk_count == self.chunks;
+        let mut of_channels = said.counts.iter().filter(|(_, count)| **count > 0);
+        let is_same = count == said.messages && said.chunks == self.chunks;
         match is_same && self.counts.iter().all(|found| of_channels.next() == Some(found)) {
             true => Ok(()),
             false => {
-                let (chunks, messages) = (said.chunk_count, said.message_count);
+                let (chunks, messages) = (said.chunks, said.messages);
                 let found = self.chunks;
                 let what = format!(
                     "its statistics count {messages} messages in {chunks} chunks, but it has {count} in {found}"
@@ -359,7 +369,11 @@ impl Source {
         let is_compressed = match name {
             [] => false,
             name if name == LZ4.as_bytes() => true,
-            _ => return Err(Stop::Damage("or its compression is not that of `apex`".to_owned())),
+            name => {
+                let name = String::from_utf8_lossy(&name[..name.len().min(20)]);
+                let why = "which is not supported: write it again with `mcap compress --compression lz4`";
+                return Err(Stop::Unsupported(format!("it is compressed with `{name}`, {why}")));
+            }
         };
         let (size, records) = rest.split_first_chunk::<8>().ok_or(Stop::Cut)?;
         let (is_whole, size_here) = (body.len() as u64 == length, u64::from_le_bytes(*size));
@@ -377,41 +391,37 @@ impl Source {
         if self.chunk.get_ref().is_empty() && !is_whole { Err(Stop::Cut) } else { Ok(()) }
     }
 
-    fn record(&mut self, record: Record<'static>) -> Result<Option<FileMessage>, Stop> {
+    fn record(&mut self, record: Record) -> Result<Option<FileMessage>, Stop> {
         match record {
-            Record::Schema { header, data } => {
-                // Earlier versions wrote nothing for types that are not messages.
-                let text = || String::from_utf8_lossy(&data).into_owned();
-                let shape = (!header.encoding.is_empty()).then(text);
-                self.schemas.insert(header.id, (header.name, shape));
+            Record::Schema { id, name, encoding, data } => {
+                // Earlier versions wrote nothing for types that are not messages. Other programs may write none for
+                // messages, or write them in another language.
+                let text = String::from_utf8_lossy(&data).into_owned();
+                let is_empty = text.is_empty() && name != EMPTY;
+                let shape = Some(text).filter(|_| !is_empty && [MESSAGES, SHAPE].contains(&&*encoding));
+                self.schemas.insert(id, (name, shape));
             }
-            Record::Channel(channel) => {
-                let (schema, shape) = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
-                let found = FileChannel { name: channel.topic, schema, shape, encoding: channel.message_encoding };
-                let before = self.channels.insert(channel.id, found);
-                if before.is_some_and(|before| Some(&before) != self.channels.get(&channel.id)) {
+            Record::Channel { id, schema, topic, encoding, mut metadata } => {
+                let (schema, shape) = self.schemas.get(&schema).cloned().unwrap_or_default();
+                // Earlier versions wrote the name as the topic.
+                let name = metadata.remove(CHANNEL_NAME).unwrap_or_else(|| topic.clone());
+                let before = self.channels.insert(id, FileChannel { name, topic, schema, shape, encoding });
+                if before.is_some_and(|before| Some(&before) != self.channels.get(&id)) {
                     return Err(Stop::Damage("its channels are not those of the file before".to_owned()));
                 }
             }
-            Record::Metadata(metadata) if metadata.name == PROGRAM => self.begin_program(&metadata.metadata)?,
-            Record::Metadata(metadata) if metadata.name == GOES_ON => {
-                self.next_file = metadata.metadata.get(NEXT).cloned();
-            }
-            Record::Metadata(metadata) if metadata.name == DROPPED => {
-                let counts = metadata.metadata.into_iter();
+            Record::Metadata { name, entries } if name == PROGRAM => self.begin_program(&entries)?,
+            Record::Metadata { name, entries } if name == GOES_ON => self.next_file = entries.get(NEXT).cloned(),
+            Record::Metadata { name, entries } if name == DROPPED => {
+                let counts = entries.into_iter();
                 self.dropped = counts.filter_map(|(name, count)| Some((name, count.parse().ok()?))).collect();
             }
-            Record::Message { header, .. } if !self.channels.contains_key(&header.channel_id) => {
+            Record::Message { channel, .. } if !self.channels.contains_key(&channel) => {
                 return Err(Stop::Damage("a message belongs to an unknown channel".to_owned()));
             }
-            Record::Message { header, data } => {
-                *self.counts.entry(header.channel_id).or_default() += 1;
-                return Ok(Some(FileMessage {
-                    channel: header.channel_id,
-                    time: header.log_time,
-                    sequence: header.sequence,
-                    data: data.into_owned(),
-                }));
+            Record::Message { channel, sequence, time, data } => {
+                *self.counts.entry(channel).or_default() += 1;
+                return Ok(Some(FileMessage { channel, time, sequence, data }));
             }
             Record::DataEnd(_) => {
                 self.read_summary()?;
@@ -479,9 +489,8 @@ fn read_body(from: &mut impl Read, length: u64) -> Result<Vec<u8>, Stop> {
     if body.len() as u64 == length { Ok(body) } else { Err(Stop::Cut) }
 }
 
-fn parse(kind: u8, body: &[u8]) -> Result<Record<'static>, Stop> {
-    let wrong = |error: McapError| Stop::Damage(error.to_string());
-    parse_record(kind, body).map(Record::into_owned).map_err(wrong)
+fn parse(kind: u8, body: &[u8]) -> Result<Record, Stop> {
+    Record::read(kind, body).map_err(Stop::Damage)
 }
 
 fn stop(error: io::Error) -> Stop {

@@ -25,21 +25,22 @@ fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<
         codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
     let cannot_read = |error| format!("cannot read `{}`: {error}", path.display());
     let mut source = Source::open(path).map_err(cannot_read)?;
-    let (mut tokens, mut compared, mut start) = (vec![], None, 0);
+    let (mut tokens, mut compared, mut start) = (vec![], None, None);
     while let Some(message) = source.next().map_err(cannot_read)? {
-        // A later file of a recording that is divided begins in the middle of its run.
-        if start == 0 && matches!(source.files, Some((2.., _))) {
-            start = message.time;
-        }
-        let Some(found) = source.channels.get(&message.channel).filter(|c| c.name == channel) else { continue };
+        // A later file of a recording that is divided begins in the middle of its run, and the times of other programs
+        // may begin in 1970.
+        let begins_late = source.program.is_none() || matches!(source.files, Some((2.., _)));
+        let start = *start.get_or_insert(if begins_late { message.time } else { 0 });
+        let found = source.channels.get(&message.channel);
+        let Some(found) = found.filter(|c| c.name == channel || c.topic == channel) else { continue };
         if compared != Some(message.channel) {
             check(path, found, codec)?;
             compared = Some(message.channel);
         }
         let token = (codec.read)(&message.data);
-        let token = token.ok_or_else(|| {
+        let token = token.map_err(|reason| {
             let (ty, file) = (codec.schema.name, path.display());
-            format!("a token of `{channel}` in `{file}` is not one of `{ty}`: bytes are missing or left over")
+            format!("a token of `{channel}` in `{file}` is not one of `{ty}`: {reason}")
         })?;
         tokens.push((Duration::from_nanos(message.time.saturating_sub(start)), token));
     }

@@ -1,6 +1,6 @@
 //! Comparison of the types in a recording with those of the program.
 
-use super::{Schema, shape, source::FileChannel};
+use super::{Schema, definition, shape, source::FileChannel};
 use core::fmt::{self, Display, Formatter};
 
 /// A channel whose tokens are of another type than the recorded ones.
@@ -27,7 +27,7 @@ pub enum TypeMatch {
 }
 
 /// Compares the type of a recorded channel with the present one. A type that has only moved to another module is the
-/// same.
+/// same, and so is a message that is defined in other words.
 pub fn compare(recorded: &FileChannel, present: Schema, shape: fn() -> String) -> TypeMatch {
     let change = |difference| {
         TypeMatch::Changed(TypeChange {
@@ -38,14 +38,18 @@ pub fn compare(recorded: &FileChannel, present: Schema, shape: fn() -> String) -
         })
     };
     let is_message = present.encoding == "cdr";
-    if recorded.encoding != present.encoding || is_message && recorded.schema != present.name {
+    if is_message && recorded.schema != present.name {
         return change(None);
     }
+    if recorded.encoding != present.encoding {
+        let encodings = [&recorded.encoding, present.encoding].map(|encoding| format!("encoding {encoding}"));
+        return change((recorded.schema == present.name).then(|| encodings.into()));
+    }
     match &recorded.shape {
-        Some(recorded) => match shape::difference(recorded, &shape()) {
-            Some(difference) => change(Some(difference)),
-            None => TypeMatch::Same,
-        },
+        Some(recorded) => {
+            let compare = if is_message { definition::difference } else { shape::difference };
+            compare(recorded, &shape()).map_or(TypeMatch::Same, |difference| change(Some(difference)))
+        }
         None if recorded.schema == present.name => TypeMatch::Undescribed,
         None => change(None),
     }

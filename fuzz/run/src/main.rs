@@ -22,13 +22,18 @@ use worker::Target;
 pub type Make = fn() -> Box<dyn Target>;
 
 /// All targets, by name.
-pub const TARGETS: [(&str, Make); 9] = [
+pub const TARGETS: [(&str, Make); 14] = [
     ("texts", texts::texts),
     ("catalog", catalog::catalog),
     ("recordings", recordings::recordings),
+    ("messages", readers::messages),
     ("g2o", readers::g2o),
     ("csv", readers::csv),
     ("scans", readers::scans),
+    ("bags", readers::bags),
+    ("clouds", readers::clouds),
+    ("maps", readers::maps),
+    ("plans", readers::plans),
     ("models", readers::models),
     ("params", readers::params),
     ("journals", readers::journals),

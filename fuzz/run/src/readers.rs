@@ -6,13 +6,16 @@ use crate::{
 };
 use apex_macros::graph;
 use apex_nodes::{
-    io::{CsvReader, LogGeometry, ScanLogReader},
+    cloud::PointCloud,
+    io::{Bag, BagMessage, CsvReader, LogGeometry, PlanOptions, ScanLogReader, read_cloud, read_map, read_plan},
     learn::{Mlp, Model},
+    map::{Grid, Occupancy, Raster},
     math::Random,
-    scan::Scan,
+    nav,
+    scan::{Point2, Pose2, Scan},
     slam::PoseGraph,
 };
-use apex_rt::params;
+use apex_rt::{__codec, Time, params, record::Codec};
 use apex_tune::{Axis, Follower, Goal, Journal, Method, Objective, Parameter, Scale, Study, Summary};
 use std::{env, fmt::Write as _, fs, path::PathBuf, process};
 
@@ -68,6 +71,46 @@ fn reader(texts: Vec<Vec<u8>>, words: &'static [&'static str], read: fn(&[u8])) 
     Box::new(Reader { texts, words, read })
 }
 
+/// The target with messages of other programs.
+pub fn messages() -> Box<dyn Target> {
+    fn written<T>(codec: Option<Codec<T>>, token: &T) -> Vec<u8> {
+        let mut bytes = vec![];
+        (codec.expect("a message").write)(token, &mut bytes);
+        bytes
+    }
+    /// Checks that a token that was read can be written and read again.
+    fn again<T>(codec: Option<Codec<T>>, bytes: &[u8]) {
+        let codec = codec.expect("a message");
+        if let Ok(token) = (codec.read)(bytes) {
+            let mut bytes = vec![];
+            assert!((codec.write)(&token, &mut bytes) && (codec.read)(&bytes).is_ok());
+        }
+    }
+    let scan = Scan { angle_increment: 0.1, ranges: [1.0, 2.0, f32::NAN].into_iter().collect(), ..Scan::default() };
+    let path = nav::Path { points: vec![Point2::new(1.0, 2.0); 3], heading: 0.5 };
+    let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 3, height: 2 };
+    let mut cloud = PointCloud::default();
+    cloud.reset(Time::ZERO, (2, 2));
+    let texts = vec![
+        written(__codec!(Scan), &scan),
+        written(__codec!(nav::Path), &path),
+        written(__codec!(Pose2), &Pose2::new(1.0, 2.0, 3.0)),
+        written(__codec!(Grid<Occupancy>), &Grid::new(raster, Occupancy::Free).expect("small")),
+        written(__codec!(Grid<f32>), &Grid::new(raster, 0.5).expect("small")),
+        written(__codec!(PointCloud), &cloud),
+        written(__codec!(String), &"a text".to_owned()),
+    ];
+    reader(texts, &[], |input| {
+        again(__codec!(Scan), input);
+        again(__codec!(nav::Path), input);
+        again(__codec!(Pose2), input);
+        again(__codec!(Grid<Occupancy>), input);
+        again(__codec!(Grid<f32>), input);
+        again(__codec!(PointCloud), input);
+        again(__codec!(String), input);
+    })
+}
+
 /// The target with pose graphs.
 pub fn g2o() -> Box<dyn Target> {
     let mut text = "# a square\nFIX 0\n".to_owned();
@@ -108,7 +151,12 @@ pub fn scans() -> Box<dyn Target> {
     let log = "PARAM x 1\nFLASER 5 1.0 2.0 3.0 81.91 0.5 1 2 0.5 1 2 0.5 976052857.9 host 0.25\nODOM 1 2\n"
         .as_bytes()
         .to_vec();
-    reader(vec![table, log], &["FLASER", "0", "99999999", "-1", ",", "\n", "1e39"], |input| {
+    let current = "RAWLASER1 0 -1.57 3.14 0.5 81.9 0.01 0 3 1 2 99 0 1.5 host 0.25\n\
+                   ROBOTLASER1 0 -1.57 3.14 0.5 81.9 0.01 0 2 1 2 2 7 8 1 2 3 1 2 3 0 0 0.3 0.3 1e6 1.5 host 0.25\n"
+        .as_bytes()
+        .to_vec();
+    let words = &["FLASER", "ROBOTLASER1", "RAWLASER1", "0", "99999999", "-1", ",", "\n", "\r", "1e39"];
+    reader(vec![table, log, current], words, |input| {
         let geometry = LogGeometry { angle_min: -1.57, angle_increment: 0.01, range_min: 0.1, range_max: 30.0 };
         for ending in ["csv", "log"] {
             let file = file(ending, input);
@@ -120,6 +168,80 @@ pub fn scans() -> Box<dyn Target> {
                     }
                 }
             }
+            let _ = fs::remove_file(file);
+        }
+    })
+}
+
+/// The target with recordings of ROS 1.
+pub fn bags() -> Box<dyn Target> {
+    let sized = |bytes: &[u8]| [&(bytes.len() as u32).to_le_bytes(), bytes].concat();
+    let record = |fields: &[&[u8]], data: &[u8]| {
+        let header: Vec<u8> = fields.iter().flat_map(|field| sized(field)).collect();
+        [sized(&header), sized(data)].concat()
+    };
+    let connection = record(&[b"op=\x07", b"conn=\0\0\0\0", b"topic=/scan"], &sized(b"type=sensor_msgs/LaserScan"));
+    let scan = [&[0; 12][..], &sized(b"laser"), &[0; 28], &2_u32.to_le_bytes(), &[0; 12]].concat();
+    let message = record(&[b"op=\x02", b"conn=\0\0\0\0", b"time=\x01\0\0\0\0\0\0\0"], &scan);
+    let chunk = record(&[b"op=\x05", b"compression=none"], &[connection, message].concat());
+    let bag = [b"#ROSBAG V2.0\n", &record(&[b"op=\x03"], b"  ")[..], &chunk].concat();
+    reader(vec![bag], &[], |input| {
+        let file = file("bag", input);
+        if let Ok(bag) = Bag::read(&file) {
+            for (topic, _) in bag.topics() {
+                bag.messages(topic).for_each(|message: &BagMessage| drop((message.scan(), message.odometry())));
+            }
+        }
+        let _ = fs::remove_file(file);
+    })
+}
+
+/// The target with point clouds.
+pub fn clouds() -> Box<dyn Target> {
+    let header = "VERSION 0.7\nFIELDS x y z label\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 3\nHEIGHT 1\n";
+    let text = format!("{header}POINTS 3\nDATA ascii\n1 2 3 0\nnan nan nan 1\n4 5 6 2\n").into_bytes();
+    let binary = [format!("{header}DATA binary\n").as_bytes(), &[64; 48]].concat();
+
+    // A literal and a copy of it, which is as long as the rest.
+    let compressed =
+        [format!("{header}DATA binary_compressed\n").as_bytes(), &[5, 0, 0, 0, 48, 0, 0, 0, 0, 64, 0xe0, 38, 0]]
+            .concat();
+    let words = &["ascii", "binary", "binary_compressed", "FIELDS", "WIDTH", "0", "16777216", "F", "U", "I", "8"];
+    reader(vec![text, binary, compressed], words, |input| {
+        let file = file("pcd", input);
+        if let Ok(read) = read_cloud(&file) {
+            let (width, height) = read.cloud.size();
+            assert_eq!(read.cloud.points().len(), width * height);
+        }
+        let _ = fs::remove_file(file);
+    })
+}
+
+/// The target with maps of pixels.
+pub fn maps() -> Box<dyn Target> {
+    let (text, binary) = ("P2\n# text\n3 2\n255\n254 205 0\n0 100 255\n", b"P5 3 2 65535 abcdefghijkl".to_vec());
+    reader(vec![text.as_bytes().to_vec(), binary], &["P2", "P5", "#", "0", "65535", "99999999", "-1"], |input| {
+        let file = file("pgm", input);
+        let _ = read_map(&file, 0.05);
+        let _ = fs::remove_file(file);
+    })
+}
+
+/// The target with plans.
+pub fn plans() -> Box<dyn Target> {
+    let spline = "0\nSPLINE\n71\n2\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n\
+                  10\n0\n20\n0\n30\n0\n10\n1\n20\n1\n30\n0\n10\n2\n20\n0\n30\n0\n";
+    let text = format!(
+        "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nb\n10\n1\n20\n0\n{spline}0\nENDBLK\n0\nENDSEC\n\
+         0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nw\n10\n0\n20\n0\n11\n1\n21\n1\n0\nINSERT\n2\nb\n70\n3\n71\n3\n\
+         0\nELLIPSE\n10\n2\n20\n0\n11\n2\n21\n0\n40\n0.5\n0\nARC\n40\n2\n51\n90\n210\n1\n220\n0\n230\n0\n\
+         0\nENDSEC\n0\nEOF\n"
+    );
+    let words = &["0", "-1", "1e300", "32767", "SPLINE", "INSERT", "ELLIPSE", "40", "67", "70", "71", "210", "230"];
+    reader(vec![text.into_bytes(), b"0,0,1,1\n1,1,2,0\n".to_vec()], words, |input| {
+        for ending in ["dxf", "csv"] {
+            let file = file(ending, input);
+            let _ = read_plan(&file, &PlanOptions::default());
             let _ = fs::remove_file(file);
         }
     })

@@ -44,6 +44,26 @@ impl<T: Clone> Relay<T> {
     }
 }
 
+/// Passes a token on if it is active, and drops all others: a state that waits for something to happen. Activity comes
+/// in at `enable` and leaves with the token. What came before is old, and does not count: to keep it, use
+/// [`Inbox`](super::Inbox).
+#[node]
+#[derive(Debug, Clone, Default)]
+pub struct Await<T> {
+    _value: PhantomData<fn() -> T>,
+}
+
+#[node]
+impl<T: Clone> Await<T> {
+    /// Triggers the event with this token if the node is active.
+    #[slot]
+    fn put(&mut self, value: &T, ctx: &Ctx, signal: Event<T>) {
+        if ctx.active() {
+            signal.emit(value.clone());
+        }
+    }
+}
+
 /// Triggers an event for every token, without the token's value.
 #[node]
 #[derive(Debug, Clone, Default)]
@@ -179,6 +199,14 @@ mod tests {
     fn relay_keeps_the_value_and_signal_does_not() {
         assert_eq!(triggered(|signal| Relay::default().put(&4, signal)), Some(4));
         assert_eq!(triggered(|signal| Signal::default().put(&4, signal)), Some(()));
+    }
+
+    #[test]
+    fn await_drops_what_comes_without_activity() {
+        let ctx = Ctx::new(Time::ZERO);
+        let mut node = Await::default();
+        assert_eq!(triggered(|signal| node.put(&4, &ctx.of_node(false), signal)), None);
+        assert_eq!(triggered(|signal| node.put(&5, &ctx.of_node(true), signal)), Some(5));
     }
 
     #[test]

@@ -6,12 +6,14 @@ mod activity;
 mod batch;
 mod buffer;
 mod event;
+mod inbox;
 mod pace;
 mod route;
 
 pub use activity::{Action, ActivityGate, Attempts, Deactivate, Wait};
 pub use batch::{Collect, Delay, MAX_BATCH};
 pub use buffer::{Hold, Latch, Latest, constant};
-pub use event::{Counter, Debounce, Relay, Signal, Toggle, either, emit, equals, tick};
+pub use event::{Await, Counter, Debounce, Relay, Signal, Toggle, either, emit, equals, tick};
+pub use inbox::{Inbox, MAX_JOBS};
 pub use pace::{Changed, Count, Edge, Throttle};
 pub use route::{Branches, gate, merge, select, switch};

@@ -39,19 +39,21 @@ impl Bag {
         let records =
             bytes.strip_prefix(MAGIC).ok_or_else(|| ReadError::open(path, "the file is not a bag of version 2.0"))?;
         let mut bag = Self::default();
-        bag.add(records).map_err(|message| ReadError::open(path, message))?;
+        bag.add(records, false).map_err(|message| ReadError::open(path, message))?;
         Ok(bag)
     }
 
     /// Adds the records of a file or of a chunk.
-    fn add(&mut self, mut records: &[u8]) -> Result<(), &'static str> {
+    fn add(&mut self, mut records: &[u8], is_chunk: bool) -> Result<(), &'static str> {
         const CUT: &str = "the bag is cut off or damaged: repair it with `rosbag reindex`";
         while !records.is_empty() {
             let header = block(&mut records).ok_or(CUT)?;
             let data = block(&mut records).ok_or(CUT)?;
             let number = || Some(u32::from_le_bytes(*field(header, b"conn")?.first_chunk()?));
             match field(header, b"op").and_then(<[u8]>::first) {
-                Some(&CHUNK) if field(header, b"compression") == Some(b"none") => self.add(data)?,
+                // Chunks of chunks without end would overflow the stack.
+                Some(&CHUNK) if is_chunk => return Err("the bag is damaged: a chunk contains another one"),
+                Some(&CHUNK) if field(header, b"compression") == Some(b"none") => self.add(data, true)?,
                 Some(&CHUNK) => return Err("the bag is compressed: unpack it with `rosbag decompress`"),
                 Some(&CONNECTION) => {
                     let text = |name: &[u8], of| Some(String::from_utf8_lossy(field(of, name)?).into_owned());
@@ -217,6 +219,17 @@ mod tests {
         let (_, pose) = bag.messages("/odom").next().and_then(BagMessage::odometry).expect("a pose");
         assert!((pose.theta - core::f32::consts::FRAC_PI_2).abs() < 1e-6 && pose.x == 1.0 && pose.y == 2.0);
         assert!(bag.messages("/odom").next().and_then(BagMessage::scan).is_none(), "it is no scan");
+    }
+
+    #[test]
+    fn chunks_of_chunks_are_refused() {
+        let (head, levels) = (sized(&[sized(b"op=\x05"), sized(b"compression=none")].concat()), 100_000);
+        let mut bytes = MAGIC.to_vec();
+        for level in (0..levels).rev() {
+            bytes.extend_from_slice(&head);
+            bytes.extend_from_slice(&((level * (head.len() + 4)) as u32).to_le_bytes());
+        }
+        assert!(read("nested.bag", &bytes).expect_err("nested").contains("a chunk contains another one"));
     }
 
     #[test]

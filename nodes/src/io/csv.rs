@@ -1,4 +1,7 @@
-use super::{ReadError, lines::Lines};
+use super::{
+    ReadError,
+    lines::{Lines, shown},
+};
 use apex_rt::{Event, Out, node};
 use std::path::Path;
 
@@ -36,7 +39,10 @@ impl CsvReader {
             match cell.parse() {
                 Ok(number) => row.push(number),
                 Err(_) if cell.is_empty() => row.push(f64::NAN),
-                Err(_) => return Err(self.lines.error(format_args!("column {}: `{cell}` is no number", column + 1))),
+                Err(_) => {
+                    let cell = shown(cell);
+                    return Err(self.lines.error(format_args!("column {}: `{cell}` is no number", column + 1)));
+                }
             }
         }
         Ok(true)
@@ -131,6 +137,22 @@ mod tests {
         assert_eq!((error.line, error.message.as_str()), (Some(2), "column 2: `x` is no number"));
         assert_eq!((reader.read(&mut row), row.as_slice()), (Ok(true), &[5.0, 6.0][..]));
         assert_eq!(reader.read(&mut row), Ok(false));
+    }
+
+    #[test]
+    fn the_tables_of_office_programs_are_read() {
+        for (name, text) in [
+            ("mark.csv", "\u{feff}1,2\r\n3,4\r\n"),
+            ("header.csv", "\u{feff}\u{e4},b\n1,2\n3,4\n"),
+            ("mac.csv", "1,2\r3,4\r"),
+        ] {
+            let mut reader = CsvReader::open(file(name, text), name == "header.csv").expect("the file");
+            let (mut row, mut rows) = (Vec::new(), Vec::new());
+            while reader.read(&mut row).expect("numbers") {
+                rows.push(row.clone());
+            }
+            assert_eq!(rows, [[1.0, 2.0], [3.0, 4.0]], "{name}");
+        }
     }
 
     #[test]

@@ -4,17 +4,22 @@
 //! reading continues with the next line.
 
 mod bag;
+mod carmen;
 mod csv;
 #[cfg(feature = "dxf")]
 mod dxf;
 mod error;
 mod figure;
 mod lines;
+mod lzf;
 mod pcd;
 mod picture;
+mod pixels;
 mod plan;
 mod plan_map;
 mod scan_log;
+#[cfg(feature = "dxf")]
+mod spline;
 
 pub use bag::{Bag, BagMessage};
 pub use csv::{CsvLog, CsvReader};
@@ -24,6 +29,7 @@ pub use figure::ScanFigure;
 pub(crate) use lines::Lines;
 pub use pcd::{RecordedCloud, read_cloud};
 pub use picture::ScanPicture;
-pub use plan::{PlanOptions, read_plan};
+pub use pixels::read_map;
+pub use plan::{Plan, PlanOptions, read_plan};
 pub use plan_map::{PlanMap, PlanMapError, draw_plan};
 pub use scan_log::{LogEntry, LogGeometry, ScanLog, ScanLogReader};

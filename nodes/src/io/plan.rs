@@ -1,6 +1,6 @@
-use super::{CsvReader, ReadError};
+use super::{CsvReader, ReadError, lines::Ending};
 use crate::{map::VectorMap, scan::Point2};
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 /// Options of [`read_plan`].
 #[derive(Debug, Clone, PartialEq)]
@@ -26,31 +26,60 @@ impl PlanOptions {
     }
 }
 
-/// Reads a plan: a table of segments (`x1,y1,x2,y2`; `.csv` or `.txt`, optionally `.gz`), or with the feature `dxf` a
-/// DXF file.
+/// Plan of a file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Plan {
+    /// Line segments, in m.
+    pub map: VectorMap,
+    /// Types of the entities of a DXF file that may be walls but are not read, with their numbers.
+    pub left_out: BTreeMap<String, usize>,
+}
+
+impl Plan {
+    /// Message about what was left out; `None` if nothing was.
+    pub fn note(&self) -> Option<String> {
+        (!self.left_out.is_empty()).then(|| format!("left out: {}", Self::counts(&self.left_out)))
+    }
+
+    /// Prints a warning if something was left out, for nodes that read a plan.
+    pub(crate) fn warn(&self, file: &str) {
+        if let Some(note) = self.note() {
+            eprintln!("warning: {file}: {note}");
+        }
+    }
+
+    /// Numbers of things as words.
+    pub(super) fn counts(counts: &BTreeMap<String, usize>) -> String {
+        counts.iter().map(|(name, count)| format!("{count} `{name}`")).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Reads a plan: a table of segments (`x1,y1,x2,y2`; `.csv` or `.txt`), or with the feature `dxf` a DXF file. Both may
+/// be compressed (`.gz`).
 ///
-/// From a DXF file, it takes `LINE`, `LWPOLYLINE`, `POLYLINE`, `ARC` and `CIRCLE`, and blocks placed with `INSERT`.
-/// Arcs become chords that deviate by at most 1 cm.
+/// From a DXF file, it takes `LINE`, `LWPOLYLINE`, `POLYLINE`, `ARC`, `CIRCLE`, `ELLIPSE` and `SPLINE`, and blocks
+/// placed with `INSERT`, as seen from above and without the paper space. Curves become chords that deviate by at most
+/// 1 cm.
+/// Meshes, solids and other things that may be walls are left out and counted in [`Plan::left_out`].
 ///
 /// # Errors
 /// If the file cannot be read, is incomplete or too large, or if it has no segment in the selected layers.
-pub fn read_plan(path: impl AsRef<Path>, options: &PlanOptions) -> Result<VectorMap, ReadError> {
+pub fn read_plan(path: impl AsRef<Path>, options: &PlanOptions) -> Result<Plan, ReadError> {
     let path = path.as_ref();
     if !(options.scale.is_finite() && options.scale > 0.0) {
         return Err(ReadError::open(path, format_args!("a scale of {} m per unit is not positive", options.scale)));
     }
-    let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default().to_ascii_lowercase();
-    match name.strip_suffix(".gz").unwrap_or(&name).rsplit_once('.').map(|(_, ending)| ending) {
-        Some("csv" | "txt") => read_table(path, options.scale),
+    match Ending::of(path).name.as_str() {
+        "csv" | "txt" => read_table(path, options.scale),
         #[cfg(feature = "dxf")]
-        Some("dxf") => super::dxf::read(path, options),
+        "dxf" => super::dxf::read(path, options),
         #[cfg(not(feature = "dxf"))]
-        Some("dxf") => Err(ReadError::open(path, "DXF files need the feature `dxf` of `apex-nodes`")),
+        "dxf" => Err(ReadError::open(path, "DXF files need the feature `dxf` of `apex-nodes`")),
         _ => Err(ReadError::open(path, "a plan ends in .dxf, .csv or .txt")),
     }
 }
 
-fn read_table(path: &Path, scale: f64) -> Result<VectorMap, ReadError> {
+fn read_table(path: &Path, scale: f64) -> Result<Plan, ReadError> {
     let mut reader = CsvReader::open(path, false)?;
     let (mut map, mut row) = (VectorMap::default(), Vec::new());
     while reader.read(&mut row)? {
@@ -63,7 +92,7 @@ fn read_table(path: &Path, scale: f64) -> Result<VectorMap, ReadError> {
     if map.segments().is_empty() {
         return Err(ReadError::open(path, "the table has no segment"));
     }
-    Ok(map)
+    Ok(Plan { map, ..Plan::default() })
 }
 
 #[cfg(test)]
@@ -74,6 +103,7 @@ mod tests {
         let path = std::env::temp_dir().join(format!("apex-plan-{}-{name}", std::process::id()));
         std::fs::write(&path, text).expect("a temporary file");
         read_plan(&path, &PlanOptions { scale, ..PlanOptions::default() })
+            .map(|plan| plan.map)
             .map_err(|e| e.to_string().replace(&path.display().to_string(), name))
     }
 

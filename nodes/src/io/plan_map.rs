@@ -89,7 +89,8 @@ impl PlanMap {
         let plan =
             read_plan(self.plan, &PlanOptions::of_layers(self.layers, self.scale)).map_err(PlanMapError::Plan)?;
         let mut map = Grid::default();
-        draw_plan(&plan, self.resolution, &mut map).map_err(PlanMapError::Size)?;
+        plan.warn(self.plan);
+        draw_plan(&plan.map, self.resolution, &mut map).map_err(PlanMapError::Size)?;
         Ok(map)
     }
 }

@@ -1,4 +1,8 @@
-use super::{ReadError, lines::Lines};
+use super::{
+    ReadError,
+    carmen::{ScanLine, fill, parse},
+    lines::{Ending, Lines},
+};
 use crate::scan::{Pose2, Scan};
 use apex_rt::{Ctx, Event, Out, Time, node};
 use core::f32::consts::PI;
@@ -24,6 +28,8 @@ pub struct LogEntry {
     pub id: u64,
     /// Pose of the scanner, if the log contains it.
     pub pose: Option<Pose2>,
+    /// Pose of the robot by its odometry, if the log contains it.
+    pub odometry: Option<Pose2>,
     /// Time of the scan since the zero of the recording's clock, if the log contains it.
     pub time: Option<Time>,
 }
@@ -32,24 +38,34 @@ pub struct LogEntry {
 enum Format {
     /// Rows of number, source number, ranges.
     Table,
-    /// Lines `FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ time host logger_time`; other lines are skipped.
-    Carmen,
+    /// Lines of several kinds, those with scans among them.
+    Carmen(ScanLine),
 }
 
 impl Format {
-    /// Determines the format from the file extension, without `.gz`.
+    /// Determines the format from the ending of the file name, and from the lines of a CARMEN log.
+    ///
+    /// # Errors
+    /// If the ending is unknown, or the file has no scan or cannot be opened.
     fn of(path: &Path) -> Result<Self, ReadError> {
-        let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
-        match name.strip_suffix(".gz").unwrap_or(name).rsplit_once('.').map(|(_, ending)| ending) {
-            Some("csv") => Ok(Self::Table),
-            Some("log" | "clf") => Ok(Self::Carmen),
+        match Ending::of(path).name.as_str() {
+            "csv" => match Lines::open(path)?.next() {
+                Ok(None) => Err(ReadError::open(path, "the table is empty")),
+                // The reader of the table reports the errors of the file.
+                _ => Ok(Self::Table),
+            },
+            "log" | "clf" => ScanLine::of(path).map(Self::Carmen),
             _ => Err(ReadError::open(path, "a scan log ends in .csv, .log or .clf (and .gz)")),
         }
     }
 }
 
-/// Reads laser scans from a table of ranges (`.csv`: number, source number, ranges in m) or from the FLASER lines of a
-/// CARMEN log (`.log`, `.clf`), optionally compressed (`.gz`).
+/// Reads laser scans from a table of ranges (`.csv`: number, source number, ranges in m) or from a CARMEN log (`.log`,
+/// `.clf`), optionally compressed (`.gz`).
+///
+/// From a CARMEN log, it takes the lines `FLASER` or `ROBOTLASER1`, whichever comes first, and without them
+/// `RAWLASER1`. Other lines are skipped. `ROBOTLASER1` and `RAWLASER1` have the directions of the beams; a range that
+/// reaches the maximum range of the line is infinite: nothing is within range.
 #[derive(Debug)]
 pub struct ScanLogReader {
     lines: Lines,
@@ -62,7 +78,7 @@ impl ScanLogReader {
     /// Opens a log.
     ///
     /// # Errors
-    /// If the extension of its name is unknown, or the file cannot be opened.
+    /// If the ending of its name is unknown, or the file has no scan or cannot be opened.
     pub fn open(path: impl AsRef<Path>, geometry: LogGeometry) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let format = Format::of(path)?;
@@ -75,16 +91,17 @@ impl ScanLogReader {
     /// If a line is not a scan, or the file cannot be read further. The next call continues after the error.
     pub fn read(&mut self, scan: &mut Scan) -> Result<Option<LogEntry>, ReadError> {
         while let Some(line) = self.lines.next()? {
-            if self.format == Format::Carmen && line.split_whitespace().next() != Some("FLASER") {
+            if matches!(self.format, Format::Carmen(kind) if !kind.is(line)) {
                 continue;
             }
             scan.range_min = self.geometry.range_min;
             scan.range_max = self.geometry.range_max;
             let entry = match self.format {
                 Format::Table => self.table_row(scan),
-                Format::Carmen => self.flaser(scan),
+                Format::Carmen(kind) => kind.read(line, scan).map(|entry| LogEntry { id: self.next_id, ..entry }),
             };
             let entry = entry.map_err(|message| self.lines.error(message))?;
+            self.next_id += 1;
             scan.stamp = entry.time.unwrap_or(scan.stamp);
             return Ok(Some(entry));
         }
@@ -100,47 +117,6 @@ impl ScanLogReader {
         fill(scan, cells)?;
         Ok(LogEntry { id, ..LogEntry::default() })
     }
-
-    /// Reads a FLASER line. Its beams cover 180° about the x axis; an odd number of beams includes both ends.
-    fn flaser(&mut self, scan: &mut Scan) -> Result<LogEntry, String> {
-        let mut words = self.lines.current().split_whitespace().skip(1);
-        let beams: usize = parse(words.next(), "number of beams")?;
-        let intervals = if beams % 2 == 1 { beams - 1 } else { beams };
-        scan.angle_min = -0.5 * PI;
-        scan.angle_increment = PI / intervals.max(1) as f32;
-        fill(scan, words.by_ref().take(beams))?;
-        if scan.ranges.len() < beams {
-            return Err(format!("{beams} beams announced, {} found", scan.ranges.len()));
-        }
-        let mut pose = [0.0; 3];
-        for (value, name) in pose.iter_mut().zip(["x", "y", "theta"]) {
-            *value = parse(words.next(), name)?;
-        }
-        let seconds: f64 = parse(words.nth(3), "time")?;
-        let entry = LogEntry {
-            id: self.next_id,
-            pose: Some(Pose2::new(pose[0], pose[1], pose[2])),
-            time: Some(Time::from_nanos((seconds * 1e9) as i64)),
-        };
-        self.next_id += 1;
-        Ok(entry)
-    }
-}
-
-/// Parses the number in a cell.
-fn parse<T: std::str::FromStr>(cell: Option<&str>, name: &str) -> Result<T, String> {
-    let cell = cell.ok_or_else(|| format!("{name} is missing"))?.trim();
-    cell.parse().map_err(|_| format!("{name}: `{cell}` is no valid number"))
-}
-
-/// Replaces the ranges of a scan by those in `cells`.
-fn fill<'a>(scan: &mut Scan, cells: impl Iterator<Item = &'a str>) -> Result<(), String> {
-    scan.ranges.clear();
-    for (beam, cell) in cells.enumerate() {
-        let range = cell.trim().parse().map_err(|_| format!("beam {beam}: `{cell}` is no range"))?;
-        scan.ranges.push(range).map_err(|e| e.to_string())?;
-    }
-    Ok(())
 }
 
 /// Sends the scans of a log, one per firing (for the formats see [`ScanLogReader`]). After the last scan it triggers
@@ -154,7 +130,7 @@ pub struct ScanLog {
     /// Path of the file. Its extension determines the format.
     #[param]
     path: String,
-    /// Direction of beam 0. CARMEN logs have a fixed one.
+    /// Direction of beam 0. CARMEN logs have their own.
     #[param(unit = "rad", default = -0.5 * PI, range = -6.4..=6.4)]
     angle_min: f32,
     /// Angle between consecutive beams. CARMEN logs have their own.
@@ -277,11 +253,82 @@ mod tests {
         let mut scan = Scan::default();
         let entry = reader.read(&mut scan).expect("a scan").expect("a scan");
         assert_eq!(entry.pose, Some(Pose2::new(0.5, -0.5, 0.25)));
+        assert_eq!(entry.odometry, Some(Pose2::new(9.0, 9.0, 9.0)));
         assert_eq!((entry.id, scan.stamp), (0, Time::from_millis(12_500)));
         assert!((scan.angle(0) + 0.5 * PI).abs() < 1e-6 && (scan.angle(2) - 0.5 * PI).abs() < 1e-6);
         assert_eq!((scan.range(1), scan.range(2)), (Some(2.0), None));
         assert_eq!(reader.read(&mut scan).expect("a scan").map(|e| e.id), Some(1));
         assert_eq!(reader.read(&mut scan), Ok(None));
+    }
+
+    /// A log with a scan of five beams in each of its lines.
+    fn current(kinds: &[&str]) -> String {
+        let mut text = "# CARMEN Logfile\nPARAM laser_type LMS200 0 0 0\nODOM 0 0 0 0 0 0 1.0 host 1.0\n".to_owned();
+        for (i, kind) in kinds.iter().enumerate() {
+            let poses = if *kind == "ROBOTLASER1" { " 1 2 0.5 3 4 0.25 0.1 0 0.3 0.3 1e6" } else { "" };
+            text += &format!("{kind} 0 -1 2 0.5 81.91 0.01 0 5 1.5 2 81.91 99 nan 2 7 8{poses} {i}.5 host 1.1\n");
+        }
+        text
+    }
+
+    fn scans(name: &str, text: &str) -> Vec<(LogEntry, Scan)> {
+        let mut reader = ScanLogReader::open(file(name, text.as_bytes()), GEOMETRY).expect("the file");
+        let mut scan = Scan::default();
+        let mut scans = Vec::new();
+        while let Some(entry) = reader.read(&mut scan).expect("a scan") {
+            scans.push((entry, scan.clone()));
+        }
+        scans
+    }
+
+    #[test]
+    fn lines_of_the_current_format_have_their_geometry() {
+        let both = scans("robot.log", &current(&["ROBOTLASER1", "ROBOTLASER1"]));
+        let (entry, scan) = &both[1];
+        assert_eq!((both.len(), entry.id, entry.time), (2, 1, Some(Time::from_millis(1500))));
+        assert_eq!(entry.pose, Some(Pose2::new(1.0, 2.0, 0.5)));
+        assert_eq!(entry.odometry, Some(Pose2::new(3.0, 4.0, 0.25)));
+        assert_eq!((scan.angle_min, scan.angle(4), scan.range_max), (-1.0, 1.0, 10.0));
+        assert_eq!((scan.range(0), scan.range(1), scan.ranges.len()), (Some(1.5), Some(2.0), 5));
+        assert_eq!((scan.sight(2), scan.sight(3)), (f32::INFINITY, f32::INFINITY));
+        assert!(scan.sight(4).is_nan());
+        let raw = scans("raw.log", &current(&["RAWLASER1", "RAWLASER1", "RAWLASER1"]));
+        assert_eq!((raw.len(), raw[2].0.time, raw[2].0.pose), (3, Some(Time::from_millis(2500)), None));
+        assert_eq!(raw[2].1.angle(4), 1.0);
+    }
+
+    #[test]
+    fn a_scan_that_is_twice_in_a_log_is_read_once() {
+        let twice = scans("twice.log", &current(&["RAWLASER1", "ROBOTLASER1", "RAWLASER1", "ROBOTLASER1"]));
+        assert_eq!(twice.len(), 2);
+        assert!(twice.iter().all(|(entry, _)| entry.pose.is_some()));
+    }
+
+    #[test]
+    fn a_log_without_a_scan_is_an_error_that_names_its_lines() {
+        let many: String = (0..1000).map(|i| format!("WORD{i} 1\n")).collect();
+        let garbage = "x".repeat(1000);
+        for (name, text, message) in [
+            ("empty.log", "", "the log is empty"),
+            ("comment.log", "# CARMEN Logfile\n", "the log is empty"),
+            ("empty.csv", "\n\n", "the table is empty"),
+            ("odometry.log", "PARAM a\nODOM 1\nODOM 2\n", "it has 2 `ODOM`, 1 `PARAM`"),
+            ("many.log", &many, "1 `WORD9`"),
+            ("garbage.log", &garbage, "xxx…`"),
+        ] {
+            let error = ScanLog::open(file(name, text.as_bytes()), GEOMETRY).expect_err(name).message;
+            assert!(error.ends_with(message) && error.len() < 400, "{name}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_letter_of_another_encoding_does_not_end_a_log() {
+        let text = "FLASER 1 1 1 1 1 1 1 1 1 h 1\nPARAM Ger\u{e4}t\nFLASER 1 1 1 1 1 1 1 1 2 h 1\n";
+        let latin: Vec<u8> = text.chars().map(|letter| letter as u8).collect();
+        let mut reader = ScanLogReader::open(file("latin.log", &latin), GEOMETRY).expect("the file");
+        let mut scan = Scan::default();
+        let ids = [(); 3].map(|()| reader.read(&mut scan).expect("no error").map(|entry| entry.id));
+        assert_eq!(ids, [Some(0), Some(1), None]);
     }
 
     #[test]
@@ -298,6 +345,11 @@ mod tests {
             ("h.log", "FLASER 18446744073709551615 1 2", "18446744073709551615 beams announced, 2 found"),
             ("i.log", "FLASER 1 1.0 2 3", "theta is missing"),
             ("j.log", "FLASER 1 1.0 2 3 4 5 6 7", "time is missing"),
+            ("k.log", "FLASER 1 1.0 2 3 4 5 6", "theta is missing"),
+            ("l.log", "ROBOTLASER1 0 0 3.14 0.1 81.9 0.01 0 9 1.0", "9 beams announced, 1 found"),
+            ("m.log", "RAWLASER1 0 0 3.14 0.1 81.9 0.01 0 1 1.0 4294967295 1", "a remission is missing"),
+            ("n.log", "ROBOTLASER1 0 0 3 0.1 81.9 0.01 0 1 1.0 0 1 2 3 4 5 6 7 8 9 1 1", "time is missing"),
+            ("o.log", "RAWLASER1 0 x", "start angle: `x` is no valid number"),
         ];
         for (name, line, message) in cases {
             let path = file(name, format!("\n{line}\n").as_bytes());
@@ -326,6 +378,8 @@ mod tests {
     fn the_ending_tells_the_format() {
         let error = ScanLogReader::open("scans.txt", GEOMETRY).expect_err("unknown");
         assert_eq!(error.to_string(), "scans.txt: a scan log ends in .csv, .log or .clf (and .gz)");
+        assert!(ScanLogReader::open(file("EXCEL.CSV", b"1,1,1.0\n"), GEOMETRY).is_ok());
+        assert!(ScanLogReader::open(file("OLD.LOG", b"FLASER\n"), GEOMETRY).is_ok());
         assert!(ScanLog::open("/nowhere/at-all.csv", GEOMETRY).is_err());
     }
 

@@ -178,7 +178,9 @@ impl VectorMapLocalizer {
     /// Reads the plan and builds or loads its look-up table.
     fn open(&self) -> Result<Filter, LocalizerError> {
         let options = PlanOptions::of_layers(self.layers, self.scale);
-        let map = read_plan(self.plan, &options).map_err(LocalizerError::Plan)?;
+        let plan = read_plan(self.plan, &options).map_err(LocalizerError::Plan)?;
+        plan.warn(self.plan);
+        let map = plan.map;
         let settings = TableSettings { cell: self.cell, reach: self.reach, ..TableSettings::default() };
         let table = if self.cache.is_empty() {
             VisibilityTable::build(&map, settings, |_| ())

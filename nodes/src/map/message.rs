@@ -8,15 +8,20 @@ use crate::scan::{
 use apex_rt::{
     Time,
     record::{
-        Message,
+        Message, Reason,
         cdr::{Reader, Writer},
     },
 };
 
-/// Values of the cells of an occupancy grid: −1 if unknown, otherwise the probability of an obstacle in %.
+/// Values of the cells of an occupancy grid: −1 if unknown, otherwise the probability of an obstacle in %. Of other
+/// programs, cells from 65 on are occupied and those up to 19 free, as map servers of ROS have it.
 const UNKNOWN: i8 = -1;
 const FREE: i8 = 0;
+const MOSTLY_FREE: i8 = 19;
+const MOSTLY_OCCUPIED: i8 = 65;
 const OCCUPIED: i8 = 100;
+/// Angle up to which an origin is along the axes, in rad.
+const LEVEL: f32 = 1e-6;
 
 impl Message for Grid<Occupancy> {
     const NAME: &'static str = "nav_msgs/msg/OccupancyGrid";
@@ -55,19 +60,25 @@ geometry_msgs/Pose origin",
         }
     }
 
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.header()?;
         let (_, _) = (message.i32()?, message.u32()?);
         let (resolution, width, height) = (message.f32()?, message.u32()?, message.u32()?);
-        let raster = raster(&read_pose(message)?, resolution, width, height);
+        let origin = read_pose(message)?;
+        if origin.theta.abs() > LEVEL {
+            let turn = origin.theta.to_degrees();
+            return Err(format!("its origin is turned by {turn:.1}°: only maps along the axes can be read").into());
+        }
+        let raster = raster(&origin, resolution, width, height);
         let count = message.u32()?;
-        let cell = |_| match message.i8()? {
-            UNKNOWN => Some(Occupancy::Unknown),
-            FREE => Some(Occupancy::Free),
-            OCCUPIED => Some(Occupancy::Occupied),
-            _ => None,
-        };
-        grid(raster, (0..count).map(cell).collect::<Option<_>>()?)
+        let cells = message.bytes(count as usize)?.iter().map(|byte| match *byte as i8 {
+            UNKNOWN => Ok(Occupancy::Unknown),
+            FREE..=MOSTLY_FREE => Ok(Occupancy::Free),
+            MOSTLY_OCCUPIED..=OCCUPIED => Ok(Occupancy::Occupied),
+            between if (FREE..OCCUPIED).contains(&between) => Ok(Occupancy::Unknown),
+            other => Err(format!("a cell is {other}, not in -1..=100")),
+        });
+        grid(raster, cells.collect::<Result<_, _>>()?)
     }
 }
 
@@ -133,19 +144,18 @@ uint8 type",
         self.cells().iter().flat_map(|cell| cell.to_le_bytes()).for_each(|byte| message.u8(byte));
     }
 
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.header()?;
         let corner = read_pose(message)?;
         let (width, resolution, _) = (message.u32()?, message.f64()? as f32, message.f64()?);
         let (row, cell, fields) = (message.u32()?, message.u32()?, message.u32()?);
         let (_, offset, kind, bytes) = (message.text()?, message.u32()?, message.u8()?, message.u32()?);
         if (cell, fields, offset, kind) != (STRIDE, 1, 0, FLOAT32) {
-            return None;
+            return Err("its cells are not a single `float32`".into());
         }
-        let height = if width == 0 { row } else { bytes.checked_div(row)? };
-        let mut byte = || message.u8();
-        let cell = |_| Some(f32::from_le_bytes([byte()?, byte()?, byte()?, byte()?]));
-        grid(raster(&corner, resolution, width, height), (0..bytes / STRIDE).map(cell).collect::<Option<_>>()?)
+        let height = if width == 0 { row } else { bytes.checked_div(row).ok_or("its rows have no bytes")? };
+        let (cells, _) = message.bytes(bytes as usize)?.as_chunks();
+        grid(raster(&corner, resolution, width, height), cells.iter().map(|cell| f32::from_le_bytes(*cell)).collect())
     }
 }
 
@@ -158,14 +168,14 @@ fn raster(origin: &Pose2, resolution: f32, width: u32, height: u32) -> Raster {
     Raster { corner: origin.position(), resolution, width: width as usize, height: height as usize }
 }
 
-/// Grid with these cells, or `None` if their number is not that of the raster.
-fn grid<T: Copy + Default>(raster: Raster, cells: Vec<T>) -> Option<Grid<T>> {
-    if raster.width.checked_mul(raster.height)? != cells.len() {
-        return None;
+/// Grid with these cells.
+fn grid<T: Copy + Default>(raster: Raster, cells: Vec<T>) -> Result<Grid<T>, Reason> {
+    if raster.width.checked_mul(raster.height) != Some(cells.len()) {
+        return Err(format!("it has {} cells for {} x {}", cells.len(), raster.width, raster.height).into());
     }
-    let mut grid = Grid::new(raster, T::default()).ok()?;
+    let mut grid = Grid::new(raster, T::default()).map_err(|error| error.to_string())?;
     grid.cells_mut().copy_from_slice(&cells);
-    Some(grid)
+    Ok(grid)
 }
 
 #[cfg(test)]
@@ -175,7 +185,7 @@ mod tests {
         map::{Octagon, Sign, Signs, Station},
         scan::{
             Point2,
-            message::tests::{again, bytes},
+            message::tests::{again, bytes, reason},
         },
     };
     use apex_rt::record::Codec;
@@ -217,7 +227,7 @@ mod tests {
     fn what_is_found_in_a_map_comes_back() {
         fn again<T: Clone>(codec: Option<Codec<T>>, token: &T) -> Option<T> {
             let (codec, mut bytes) = (codec?, vec![]);
-            (codec.write)(token, &mut bytes).then(|| (codec.read)(&bytes))?
+            (codec.write)(token, &mut bytes).then(|| (codec.read)(&bytes).ok())?
         }
         let pose = Pose2::new(1.0, 2.0, 0.5);
         let mut sign = Sign::new(3, &pose);
@@ -233,8 +243,33 @@ mod tests {
     #[test]
     fn what_no_map_says_is_none() {
         let mut map = bytes(&filled(3, 3, &[Occupancy::Free]));
-        *map.last_mut().expect("a cell") = 50;
-        assert_eq!(again::<Grid<Occupancy>>(&map), None);
+        *map.last_mut().expect("a cell") = 101;
+        assert_eq!(reason::<Grid<Occupancy>>(&map), Err("a cell is 101, not in -1..=100".into()));
         assert_eq!(again::<Grid<f32>>(&map), None);
+    }
+
+    #[test]
+    fn probabilities_of_other_programs_become_cells() {
+        use Occupancy::{Free, Occupied, Unknown};
+        let mut map = bytes(&filled(7, 1, &[Free]));
+        let start = map.len() - 7;
+        map[start..].copy_from_slice(&[255, 1, 19, 20, 64, 65, 99]);
+        let read: Grid<Occupancy> = again(&map).expect("a map");
+        assert_eq!(read.cells(), [Unknown, Free, Free, Unknown, Unknown, Occupied, Occupied]);
+    }
+
+    #[test]
+    fn a_turned_map_is_refused() {
+        let mut turned = vec![];
+        let mut message = Writer::new(&mut turned);
+        message.header(Time::ZERO, "map");
+        (0..2).for_each(|_| message.u32(0));
+        message.f32(0.05);
+        (0..2).for_each(|_| message.u32(1));
+        write_pose(&Pose2::new(-1.0, -2.0, 0.5), &mut message);
+        message.u32(1);
+        message.i8(0);
+        let refused = reason::<Grid<Occupancy>>(&turned).expect_err("it is turned");
+        assert_eq!(refused, "its origin is turned by 28.6°: only maps along the axes can be read");
     }
 }

@@ -40,17 +40,18 @@ impl<T: Float> MovingAverage<T> {
 /// finite, because a value is NaN or infinite, is not remembered: the next one is computed from the last finite one.
 #[node]
 #[derive(Debug, Clone)]
-pub struct LowPass {
+pub struct LowPass<T> {
     /// Weight of the new value: 1 does not smooth; values near 0 smooth strongly.
     #[param(range = 0.0..=1.0)]
     weight: f64,
-    state: Option<f64>,
+    state: Option<T>,
 }
 
 #[node]
-impl LowPass {
-    fn process(&mut self, x: &f64) -> f64 {
-        let y = self.state.map_or(*x, |y| y + self.weight * (*x - y));
+impl<T: Float> LowPass<T> {
+    fn process(&mut self, x: &T) -> T {
+        let weight: T = number(self.weight);
+        let y = self.state.map_or(*x, |y| y + weight * (*x - y));
         if y.is_finite() {
             self.state = Some(y);
         }
@@ -70,7 +71,7 @@ impl LowPass {
 /// NaN passes as NaN and changes nothing else.
 #[node]
 #[derive(Debug, Clone)]
-pub struct RateLimit {
+pub struct RateLimit<T> {
     /// Maximum change per second, in units of the value.
     #[param(range = 0.0..)]
     rate: f64,
@@ -81,18 +82,18 @@ pub struct RateLimit {
     /// that comes after this time.
     #[param(unit = "s", default = 0.1, range = 0.0..=3600.0)]
     max_pause: f64,
-    last: Option<(Time, f64)>,
+    last: Option<(Time, T)>,
 }
 
 #[node]
-impl RateLimit {
-    fn process(&mut self, ctx: &Ctx, x: &f64) -> f64 {
+impl<T: Float> RateLimit<T> {
+    fn process(&mut self, ctx: &Ctx, x: &T) -> T {
         if x.is_nan() {
             return *x;
         }
-        let (then, y) = self.last.unwrap_or((ctx.now(), self.initial));
-        let step = self.rate * ctx.now().since(then).as_secs_f64().min(self.max_pause);
-        // Not `f64::clamp`, which panics if the step is NaN.
+        let (then, y) = self.last.unwrap_or((ctx.now(), number(self.initial)));
+        let step: T = number(self.rate * ctx.now().since(then).as_secs_f64().min(self.max_pause));
+        // Not `clamp`, which panics if the step is NaN.
         let y = (*x - y).min(step).max(-step) + y;
         self.last = Some((ctx.now(), y));
         y
@@ -103,6 +104,11 @@ impl RateLimit {
     fn reset(&mut self) {
         self.last = None;
     }
+}
+
+/// A parameter as a number of the type of the values.
+pub(super) fn number<T: Float>(value: f64) -> T {
+    T::from(value).unwrap_or_else(T::nan)
 }
 
 #[cfg(test)]
@@ -153,6 +159,15 @@ mod tests {
         assert_eq!(node.process(&at(500), &10.0), 1.0);
         assert_eq!(node.process(&at(1000), &-10.0), 0.0);
         assert_eq!(node.process(&at(2000), &1.5), 1.5);
+    }
+
+    #[test]
+    fn filters_take_single_precision_too() {
+        let mut low = LowPass::<f32>::construct((0.5,));
+        assert_eq!([0.0, 4.0].map(|x| low.process(&x)), [0.0, 2.0_f32]);
+        let mut rate = RateLimit::<f32>::construct((2.0, 0.0, 1.0));
+        let at = |ms| Ctx::new(Time::from_millis(ms));
+        assert_eq!([(0, 1.0), (250, 1.0)].map(|(ms, x)| rate.process(&at(ms), &x)), [0.0, 0.5_f32]);
     }
 
     #[test]

@@ -1,10 +1,13 @@
 use super::{
-    FollowingLaw, Path, Pid, Projection, Twist,
+    FollowingLaw, Path, Projection, Twist,
     latest::{any_far, fresh},
     path::nearest_on,
     twist::Halt,
 };
-use crate::scan::{FarFromOrigin, Point2, Pose2, Scan};
+use crate::{
+    math::PidLaw,
+    scan::{FarFromOrigin, Point2, Pose2, Scan},
+};
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
 use libm::remainderf;
@@ -124,7 +127,7 @@ struct Motion {
     velocity: Point2,
     /// Angular velocity, in rad/s.
     rotation: f32,
-    heading: Pid,
+    heading: PidLaw<f32>,
 }
 
 /// Outcome of a drive.

@@ -8,12 +8,13 @@ use crate::scan::{
 use apex_rt::{
     Time,
     record::{
-        Message,
+        Message, Reason,
         cdr::{Reader, Writer},
     },
 };
 
-/// The poses face along the path. One more pose is at the goal and has the goal heading.
+/// The poses face along the path. One more pose is at the goal and has the goal heading. In the paths of other programs
+/// the last pose is the goal itself.
 impl Message for Path {
     const NAME: &'static str = "nav_msgs/msg/Path";
     const DEFINITION: &'static str = concat!(
@@ -38,11 +39,24 @@ geometry_msgs/Pose pose",
         Pose2::new(goal.x, goal.y, self.heading).write(message);
     }
 
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.header()?;
-        let points = message.u32()?.checked_sub(1)?;
-        let points: Option<_> = (0..points).map(|_| Pose2::read(message).map(|pose| pose.position())).collect();
-        Some(Self { points: points?, heading: Pose2::read(message)?.theta })
+        let mut path = Self::default();
+        for _ in 0..message.u32()? {
+            let pose = Pose2::read(message)?;
+            path.points.push(pose.position());
+            path.heading = pose.theta;
+        }
+        let bits = |point: &Point2| (point.x.to_bits(), point.y.to_bits());
+        let is_no_point = match path.points.as_slice() {
+            [.., before, goal] => bits(before) == bits(goal),
+            [goal] => goal.x.is_nan(),
+            [] => false,
+        };
+        if is_no_point {
+            path.points.pop();
+        }
+        Ok(path)
     }
 }
 
@@ -72,10 +86,10 @@ float64 z";
         [self.x, self.y, 0.0, 0.0, 0.0, self.omega].into_iter().for_each(|number| message.f64(f64::from(number)));
     }
 
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         let (x, y) = (message.f64()?, message.f64()?);
         let (_, _, _) = (message.f64()?, message.f64()?, message.f64()?);
-        Some(Self::new(x as f32, y as f32, message.f64()? as f32))
+        Ok(Self::new(x as f32, y as f32, message.f64()? as f32))
     }
 }
 
@@ -96,6 +110,23 @@ mod tests {
         }
         let twist = Twist::new(0.3, -0.1, 1e-40);
         assert_eq!(again(&bytes(&twist)), Some(twist));
+    }
+
+    #[test]
+    fn paths_of_other_programs_end_at_their_last_pose() {
+        let write = |poses: &[(f32, f32)]| {
+            let mut bytes = vec![];
+            let mut message = Writer::new(&mut bytes);
+            message.header(Time::ZERO, "map");
+            message.u32(poses.len() as u32);
+            poses.iter().for_each(|(x, y)| Pose2::new(*x, *y, 1.5).write(&mut message));
+            bytes
+        };
+        for poses in [&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)][..], &[(2.0, 3.0)], &[]] {
+            let path: Path = again(&write(poses)).expect("a path");
+            let points = path.points.iter().map(|point| (point.x, point.y)).collect::<Vec<_>>();
+            assert_eq!((points.as_slice(), path.heading), (poses, if poses.is_empty() { 0.0 } else { 1.5 }));
+        }
     }
 
     #[test]

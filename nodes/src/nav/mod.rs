@@ -29,7 +29,6 @@ mod outline;
 #[cfg(feature = "std")]
 mod path;
 mod payload;
-mod pid;
 #[cfg(feature = "std")]
 mod plan;
 mod pose;
@@ -66,7 +65,6 @@ pub use path::{Path, Projection};
 pub use payload::{Articulated, BackUp, PlannedApproach, ReactiveApproach};
 #[cfg(feature = "std")]
 pub use payload::{BackFollower, BackPath, BackPiece};
-pub use pid::Pid;
 #[cfg(feature = "std")]
 pub use plan::{PathPlanner, Planner, Smoothing};
 pub use pose::{compose, relative, shift, turned};

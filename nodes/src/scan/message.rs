@@ -4,10 +4,11 @@ use super::{Point2, Pose2, Ranges, Scan};
 use apex_rt::{
     Time,
     record::{
-        Message,
+        Message, Reason,
         cdr::{Reader, Writer},
     },
 };
+use core::f32::consts::PI;
 
 /// Frame of all messages. Types do not name their frame, so all are shown in the same one.
 pub(crate) const FRAME: &str = "robot";
@@ -64,7 +65,7 @@ float32[] intensities";
         message.u32(0);
     }
 
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         let stamp = message.header()?;
         let (angle_min, _, angle_increment) = (message.f32()?, message.f32()?, message.f32()?);
         let (_, _) = (message.f32()?, message.f32()?);
@@ -77,9 +78,13 @@ float32[] intensities";
             ranges: Ranges::new(),
         };
         for _ in 0..message.u32()? {
-            scan.ranges.push(message.f32()?).ok()?;
+            scan.ranges.push(message.f32()?).map_err(|error| error.to_string())?;
         }
-        Some(scan)
+        // Intensities are not used.
+        for _ in 0..message.u32()? {
+            message.f32()?;
+        }
+        Ok(scan)
     }
 }
 
@@ -92,7 +97,7 @@ impl Message for Pose2 {
         write_pose(self, message);
     }
 
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.header()?;
         read_pose(message)
     }
@@ -102,18 +107,30 @@ impl Message for Pose2 {
 pub(crate) fn write_pose(pose: &Pose2, message: &mut Writer<'_>) {
     pose.position().write(message);
     let (z, w) = libm::sincos(0.5 * f64::from(pose.theta));
-    // A quaternion cannot hold more than a turn or NaN. Such an angle is stored in x, with z = w = 0.
-    let (x, z, w) =
-        if angle(z, w).to_bits() == pose.theta.to_bits() { (0.0, z, w) } else { (f64::from(pose.theta), 0.0, 0.0) };
+    // A quaternion cannot hold more than half a turn or NaN. Such an angle is stored in x, with z = w = 0.
+    let is_same = angle(z, w).to_bits() == pose.theta.to_bits() && pose.theta.abs() <= PI;
+    let (x, z, w) = if is_same { (0.0, z, w) } else { (f64::from(pose.theta), 0.0, 0.0) };
     [x, 0.0, z, w].into_iter().for_each(|number| message.f64(number));
 }
 
-/// Reads a `geometry_msgs/Pose`.
-pub(crate) fn read_pose(message: &mut Reader<'_>) -> Option<Pose2> {
+/// Reads a `geometry_msgs/Pose`, as seen from above.
+pub(crate) fn read_pose(message: &mut Reader<'_>) -> Result<Pose2, Reason> {
     let position = Point2::read(message)?;
-    let (x, _, z, w) = (message.f64()?, message.f64()?, message.f64()?, message.f64()?);
-    let theta = if z == 0.0 && w == 0.0 { x as f32 } else { angle(z, w) };
-    Some(Pose2::new(position.x, position.y, theta))
+    let quaternion = [message.f64()?, message.f64()?, message.f64()?, message.f64()?];
+    Ok(Pose2::new(position.x, position.y, heading(quaternion)))
+}
+
+/// Heading of a quaternion, in rad: the direction in which the x axis points, seen from above.
+fn heading([x, y, z, w]: [f64; 4]) -> f32 {
+    // An angle that no quaternion can hold: x is NaN, or longer than that of a quaternion.
+    if y == 0.0 && z == 0.0 && w == 0.0 && (x.is_nan() || x.abs() > 1.0) {
+        return x as f32;
+    }
+    let exact = angle(z, w);
+    if x == 0.0 && y == 0.0 && exact.abs() <= PI {
+        return exact;
+    }
+    libm::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z) as f32
 }
 
 /// Angle of a rotation about the vertical axis, in rad. Double precision makes the rounded `f32` exact.
@@ -129,16 +146,16 @@ impl Message for Point2 {
         [self.x, self.y, 0.0].into_iter().for_each(|number| message.f64(f64::from(number)));
     }
 
-    fn read(message: &mut Reader<'_>) -> Option<Self> {
+    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         let (x, y, _) = (message.f64()?, message.f64()?, message.f64()?);
-        Some(Self::new(x as f32, y as f32))
+        Ok(Self::new(x as f32, y as f32))
     }
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use core::f32::consts::{PI, TAU};
+    use core::f32::consts::TAU;
     use std::vec::Vec;
 
     /// Message that contains a token.
@@ -150,7 +167,51 @@ pub(crate) mod tests {
 
     /// Token of a message.
     pub(crate) fn again<T: Message>(bytes: &[u8]) -> Option<T> {
+        reason(bytes).ok()
+    }
+
+    /// Token of a message, or the reason why there is none.
+    pub(crate) fn reason<T: Message>(bytes: &[u8]) -> Result<T, Reason> {
         T::read(&mut Reader::new(bytes)?)
+    }
+
+    #[test]
+    fn scans_of_other_programs_are_read() {
+        let scan = Scan { angle_increment: 0.1, ranges: (0..2000).map(|i| i as f32).collect(), ..Scan::default() };
+        let mut bytes = bytes(&scan);
+        // Two intensities.
+        let end = bytes.len();
+        bytes[end - 4] = 2;
+        bytes.extend([0; 8]);
+        let codec = apex_rt::__codec!(Scan).expect("a message");
+        assert_eq!((codec.read)(&bytes).map(|scan| scan.ranges.len()), Ok(2000));
+        assert!((codec.read)(&bytes[..end + 4]).is_err(), "an intensity is missing");
+        let mut many = Vec::new();
+        let mut message = Writer::new(&mut many);
+        message.header(Time::ZERO, "laser");
+        (0..7).for_each(|_| message.f32(0.0));
+        message.u32(70_000);
+        (0..70_000).for_each(|_| message.f32(1.0));
+        message.u32(0);
+        assert!(reason::<Scan>(&many).expect_err("too many").starts_with("more than 65535 beams"));
+    }
+
+    #[test]
+    fn headings_of_other_programs_are_those_from_above() {
+        let half = 0.5_f64.sqrt();
+        for (quaternion, expected) in [
+            ([0.0, 0.0, half, half], 0.5 * PI),
+            ([0.0, 0.0, 0.1, -0.995], -0.2003),
+            ([0.0, 0.0, -half, -half], 0.5 * PI),
+            ([0.0, 0.0, 2.0, 2.0], 0.5 * PI),
+            // On its back, looking forward; pitched, and turned by 90° before.
+            ([1.0, 0.0, 0.0, 0.0], 0.0),
+            ([-0.353, 0.353, 0.612, 0.612], 0.5 * PI),
+            ([0.0; 4], 0.0),
+        ] {
+            let found = heading(quaternion);
+            assert!((found - expected).abs() < 1e-3, "{quaternion:?}: {found}");
+        }
     }
 
     #[test]

@@ -37,7 +37,7 @@ impl Building {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let walls = PlanOptions { layers: WALLS.map(str::to_owned).to_vec(), ..PlanOptions::default() };
-        let plan = read_plan(path, &walls).or_else(|_| read_plan(path, &PlanOptions::default()))?;
+        let plan = read_plan(path, &walls).or_else(|_| read_plan(path, &PlanOptions::default()))?.map;
         let mut world = World::default();
         plan.segments().iter().for_each(|segment| world.wall(segment.a, segment.b));
         Ok(Self { plan, world })

@@ -136,6 +136,10 @@ fn best_of_others(areas: &[Vec<f64>], left_out: usize) -> Option<usize> {
 impl Recording {
     fn open(path: &Path) -> Result<Self, String> {
         let recorded = read_cloud(path).map_err(|e| e.to_string())?;
+        if !recorded.is_organised() {
+            let why = "the cloud is not organised: its height is 1, but the rows of a depth image are needed";
+            return Err(format!("{}: {why}", path.display()));
+        }
         let levelled = level(&recorded.cloud).map_err(|e| format!("{}: {e}", path.display()))?;
         Ok(Self { path: path.to_owned(), recorded, levelled })
     }

@@ -2,15 +2,12 @@
 
 use crate::{for_each_seed, log, options::Options, table};
 use apex_nodes::{
-    io::{PlanOptions, read_plan},
+    io::{self, PlanOptions, read_plan},
     localize::{Change, Filter, Settings, VisibilityTable},
-    map::{Cell, Grid, Occupancy, Raster, VectorMap},
+    map::VectorMap,
     scan::Point2,
 };
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 /// Error at which a pose is wrong, in m.
 const WRONG: f32 = 1.0;
@@ -135,46 +132,22 @@ fn show(name: &str, seed: u64, mut score: Score) {
 
 /// Reads a map of lines, or the outlines of a map of pixels.
 fn read_map(options: &Options, path: &Path) -> Result<VectorMap, String> {
-    if path.extension().is_some_and(|e| e == "pgm") {
-        return read_pixels(options, path).map_err(|e| format!("{}: {e}", path.display()));
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pgm")) {
+        return outline(options, path);
     }
     let plan = PlanOptions { scale: options.scale, layers: options.layers.clone() };
-    read_plan(path, &plan).map_err(|e| e.to_string())
+    read_plan(path, &plan).map(|plan| plan.map).map_err(|e| e.to_string())
 }
 
-/// Reads a binary grey map (`P5`). Dark pixels are occupied; the first row is the upper one.
-fn read_pixels(options: &Options, path: &Path) -> Result<VectorMap, String> {
-    let bytes = fs::read(path).map_err(|e| e.to_string())?;
-    let mut rest = &bytes[..];
-    let mut words = vec![];
-    while words.len() < 4 {
-        let end = rest.iter().position(u8::is_ascii_whitespace).ok_or("no header")?;
-        let (word, next) = (&rest[..end], &rest[end + 1..]);
-        rest = next;
-        if word.starts_with(b"#") {
-            let line = rest.iter().position(|b| *b == b'\n').ok_or("no header")?;
-            rest = &rest[line + 1..];
-        } else if !word.is_empty() {
-            words.push(String::from_utf8_lossy(word).into_owned());
-        }
-    }
-    let size = |i: usize| words[i].parse::<usize>().map_err(|_| "no size");
-    let (width, height) = (size(1)?, size(2)?);
-    if words[0] != "P5" || words[3] != "255" || rest.len() != width * height {
-        return Err("no binary grey map with 255 levels".to_owned());
-    }
-    let raster = Raster { corner: Point2::default(), resolution: 1.0, width, height };
-    let mut grid = Grid::new(raster, Occupancy::Free).map_err(|e| e.to_string())?;
-    for (i, _) in rest.iter().enumerate().filter(|(_, grey)| **grey < 90) {
-        if let Some(place) = grid.get_mut(Cell::new(i % width, height - 1 - i / width)) {
-            *place = Occupancy::Occupied;
-        }
-    }
+/// Outlines of the occupied pixels, which may be longer in one direction than in the other.
+fn outline(options: &Options, path: &Path) -> Result<VectorMap, String> {
+    let pixels = io::read_map(path, 1.0).map_err(|e| e.to_string())?;
     let ((x, y), (pixel_x, pixel_y)) = (options.origin, options.pixel);
     let place = |p: Point2| Point2::new(x + pixel_x * p.x, y + pixel_y * p.y);
     let mut map = VectorMap::default();
-    for side in VectorMap::outline(&grid).map_err(|e| e.to_string())?.segments() {
-        map.add(place(side.a), place(side.b)).map_err(|e| e.to_string())?;
+    let sides = VectorMap::outline(&pixels).map_err(|e| format!("{}: {e}", path.display()))?;
+    for side in sides.segments() {
+        map.add(place(side.a), place(side.b)).map_err(|e| format!("{}: {e}", path.display()))?;
     }
     Ok(map)
 }

@@ -1,0 +1,92 @@
+//! MCAP files of other programs, whose messages tests feed.
+
+use crate::Folder;
+use apex_rt::record::tokens;
+use mcap::{WriteOptions, records::MessageHeader};
+use std::{collections::BTreeMap, fs, panic, path::Path, time::Duration};
+
+/// Time of the first message: since 1970, as ROS 2 has it, in ns.
+const BEGIN: u64 = 1_700_000_000_000_000_000;
+
+/// Writes a file with two numbers, 0.5 s apart.
+fn file(path: &Path, options: WriteOptions, definition: &str, encoding: &str, prefix: [u8; 4]) {
+    let mut writer = options.create(fs::File::create(path).expect("a new file")).expect("a file");
+    let schema = writer.add_schema("std_msgs/msg/Float64", "ros2msg", definition.as_bytes()).expect("room");
+    let channel_id = writer.add_channel(schema, "/warmth", encoding, &BTreeMap::new()).expect("room");
+    for (i, number) in [1.5_f64, 2.5].into_iter().enumerate() {
+        let time = BEGIN + i as u64 * 500_000_000;
+        let header = MessageHeader { channel_id, sequence: i as u32, log_time: time, publish_time: time };
+        writer.write_to_known_channel(&header, &[&prefix[..], &number.to_le_bytes()].concat()).expect("room");
+    }
+    writer.finish().expect("room");
+}
+
+fn plain() -> WriteOptions {
+    WriteOptions::new().compression(None)
+}
+
+const CDR: [u8; 4] = [0, 1, 0, 0];
+
+/// The tokens of a file, or the message of the error.
+fn read(path: &Path, channel: &str) -> Result<Vec<(Duration, f64)>, String> {
+    let read = panic::catch_unwind(|| tokens("", path.to_str().expect("text"), channel, apex_rt::__codec!(f64)));
+    read.map_err(|error| error.downcast::<String>().map_or_else(|_| "?".to_owned(), |text| *text))
+}
+
+fn expected() -> Vec<(Duration, f64)> {
+    vec![(Duration::ZERO, 1.5), (Duration::from_millis(500), 2.5)]
+}
+
+#[test]
+fn their_messages_come_from_the_first_one_on() {
+    let folder = Folder::new();
+    let path = folder.file("a.mcap");
+    file(&path, plain(), "# degrees\nfloat64   data\nfloat64 ZERO=0.0", "cdr", CDR);
+    assert_eq!(read(&path, "/warmth"), Ok(expected()));
+    let error = read(&path, "/cold").expect_err("there is no such channel");
+    assert!(error.ends_with("it has `/warmth`"), "{error}");
+}
+
+#[test]
+fn a_file_without_summary_or_definitions_is_not_damaged() {
+    let folder = Folder::new();
+    let (bare, silent) = (folder.file("bare.mcap"), folder.file("silent.mcap"));
+    file(&bare, plain().emit_summary_records(false).emit_statistics(false), "float64 data", "cdr", CDR);
+    assert_eq!(read(&bare, "/warmth"), Ok(expected()));
+    file(&silent, plain(), "", "cdr", CDR);
+    assert_eq!(read(&silent, "/warmth"), Ok(expected()));
+}
+
+#[test]
+fn what_cannot_be_read_is_said() {
+    let folder = Folder::new();
+    for (definition, encoding, prefix, message) in [
+        ("float32 data", "cdr", CDR, "recorded: float32 data\n    now:      float64 data"),
+        ("float64 data", "json", CDR, "recorded: encoding json\n    now:      encoding cdr"),
+        ("float64 data", "cdr", [0; 4], "is not one of `std_msgs/msg/Float64`: its numbers are big-endian"),
+        ("float64 data", "cdr", [0x28, 0xb5, 0x2f, 0xfd], "it is compressed with zstd"),
+    ] {
+        let path = folder.file("other.mcap");
+        file(&path, plain(), definition, encoding, prefix);
+        let error = read(&path, "/warmth").expect_err(message);
+        assert!(error.contains(message), "{error}");
+    }
+}
+
+#[test]
+fn a_compression_that_is_not_known_is_named() {
+    let folder = Folder::new();
+    let path = folder.file("packed.mcap");
+    file(&path, plain(), "float64 data", "cdr", CDR);
+    let mut bytes = fs::read(&path).expect("it was written");
+    // The name of the compression follows the checksum of the chunk; there is none, so that there is room for one.
+    let chunk = bytes.windows(9).position(|part| part[0] == 6 && part[3..9] == [0; 6]).expect("a chunk");
+    let name = chunk + 9 + 28;
+    assert_eq!(bytes[name..name + 4], [0; 4]);
+    bytes.splice(name..name + 4, *b"\x04\0\0\0zstd");
+    let length = u64::from_le_bytes(bytes[chunk + 1..chunk + 9].try_into().expect("eight bytes")) + 4;
+    bytes[chunk + 1..chunk + 9].copy_from_slice(&length.to_le_bytes());
+    fs::write(&path, bytes).expect("room");
+    let error = read(&path, "/warmth").expect_err("it is compressed");
+    assert!(error.contains("is incomplete: it is compressed with `zstd`"), "{error}");
+}
