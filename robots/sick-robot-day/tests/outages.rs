@@ -1,5 +1,5 @@
-//! Sensors that fail in the competition, while the motors keep the last twist: no motion is longer than promised. `bench
-//! --outages` has many of these runs.
+//! Sensors that fail in the competition, while the motors keep the last twist: no motion is longer than promised.
+//! `bench --outages` has many of these runs.
 
 use apex_sim::OutageTable;
 use sick_robot_day::{bench::Outages, run::Setup};
