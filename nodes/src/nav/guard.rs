@@ -3,8 +3,9 @@ use crate::scan::Pose2;
 use apex_rt::{Ctx, Time, node};
 
 /// Stops a robot whose odometry does not change while the robot is commanded to move: the odometry is frozen, or the
-/// wheels do not turn. Such a robot would no longer know its position. It stops at once if there is no odometry, or if
-/// that is not finite or very far from the origin, and if the last twist is older than `max_age`.
+/// wheels do not turn. Such a robot would no longer know its position. That is seen after `start_timeout`, or later if
+/// the robot creeps. It stops at once if there is no odometry, or if that is not finite or very far from the origin. It
+/// stops, too, if the last twist is older than `max_age`.
 ///
 /// After a pause the robot may move again for a short time. It goes on if the odometry changes.
 #[node]
@@ -16,42 +17,65 @@ pub struct OdometryGuard {
     /// Length of a stop, after which the robot tries again.
     #[param(unit = "s", default = 1.0, range = 0.0..=600.0)]
     pause: f32,
-    /// Commanded speed up to which the robot counts as standing.
+    /// Commanded speed from which on the time counts in full: at half of it, the odometry may stay unchanged for twice
+    /// as long.
     #[param(unit = "m/s", default = 0.05, range = 0.0..=10.0)]
     min_speed: f32,
-    /// Commanded angular velocity up to which the robot counts as not turning.
+    /// Commanded angular velocity from which on the time counts in full.
     #[param(unit = "rad/s", default = 0.1, range = 0.0..=20.0)]
     min_rotation: f32,
     /// Maximum age of a twist and of the odometry.
     #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
     max_age: f32,
     command: Command,
-    /// Last odometry, and the time since which it has not changed while the robot was commanded to move.
-    frozen: Option<(Pose2, Time)>,
+    last: Option<Unchanged>,
+}
+
+/// Odometry that has not changed since it came.
+#[derive(Debug, Clone, Copy)]
+struct Unchanged {
+    odometry: Pose2,
+    /// Time in s for which the robot was commanded to move since then. A stop in between does not end it.
+    driven: f32,
+    /// Time of the last firing, and the share of the time after it that counts, from 0 (commanded to stand) to 1.
+    now: Time,
+    share: f32,
+    /// Start of the present pause.
+    paused: Option<Time>,
 }
 
 #[node]
 impl OdometryGuard {
     fn process(&mut self, ctx: &Ctx, twist: Option<&Twist>, odometry: Option<&Pose2>) -> Option<Twist> {
         let twist = self.command.update(ctx, twist, self.max_age);
-        let limited = match fresh(ctx, odometry, self.max_age) {
-            Some(odometry) if !self.is_frozen(ctx.now(), &twist, odometry) => twist,
-            _ => Twist::ZERO,
+        let Some(odometry) = fresh(ctx, odometry, self.max_age) else {
+            self.last.iter_mut().for_each(|last| last.share = 0.0);
+            return self.command.send(Twist::ZERO);
         };
-        self.command.send(limited)
+        let is_frozen = self.is_frozen(ctx.now(), &twist, odometry);
+        self.command.send(if is_frozen { Twist::ZERO } else { twist })
     }
 
     /// Returns `true` if the odometry has not changed for too long. After the pause, the time begins again.
     fn is_frozen(&mut self, now: Time, twist: &Twist, odometry: &Pose2) -> bool {
-        let is_moving = twist.velocity().norm() > self.min_speed || twist.omega.abs() > self.min_rotation;
-        let since = match self.frozen {
-            Some((last, since)) if last == *odometry => since,
-            _ => now,
-        };
-        let waited = now.since(since).as_secs_f32();
-        let is_over = !is_moving && waited <= self.start_timeout || waited > self.start_timeout + self.pause;
-        self.frozen = (!is_over).then_some((*odometry, since));
-        !is_over && waited > self.start_timeout
+        let seconds = |since| now.since(since).as_secs_f32();
+        let unchanged = self.last.filter(|last| last.odometry == *odometry);
+        let driven = unchanged.map_or(0.0, |last| last.driven + last.share * seconds(last.now));
+        let paused = unchanged.and_then(|last| last.paused);
+        let is_over = paused.is_some_and(|since| seconds(since) >= self.pause);
+        let driven = if is_over { 0.0 } else { driven };
+        // Sums of times are not exact.
+        let is_frozen = driven > self.start_timeout + 1e-4;
+        let paused = is_frozen.then_some(paused.unwrap_or(now));
+        let share = self.share(twist);
+        self.last = Some(Unchanged { odometry: *odometry, driven, now, share, paused });
+        is_frozen
+    }
+
+    /// Share of the time that counts at a commanded twist: a robot that creeps needs longer until its odometry changes.
+    fn share(&self, twist: &Twist) -> f32 {
+        let of = |value: f32, full: f32| if value < full { value / full } else { f32::from(value > 0.0) };
+        of(twist.velocity().norm(), self.min_speed).max(of(twist.omega.abs(), self.min_rotation))
     }
 }
 
@@ -76,7 +100,6 @@ mod tests {
     fn a_robot_that_moves_or_stands_is_left_alone() {
         assert!(moves((0..50).map(|i| 0.1 * i as f32), AHEAD).iter().all(|m| *m));
         assert!(moves([1.0; 50], Twist::ZERO).iter().all(|m| *m));
-        assert!(moves([1.0; 50], Twist::new(0.04, 0.0, 0.05)).iter().all(|m| *m), "it hardly moves");
     }
 
     #[test]
@@ -86,6 +109,24 @@ mod tests {
             assert_eq!(seen.iter().position(|m| !m), Some(5));
             assert!(seen[5..15].iter().all(|m| !m) && seen[15..20].iter().all(|m| *m), "{seen:?}");
         }
+    }
+
+    #[test]
+    fn a_robot_that_creeps_has_more_time() {
+        for (twist, time) in [(Twist::new(0.02, 0.0, 0.0), 11), (Twist::new(0.0, 0.0, 0.01), 41)] {
+            assert_eq!(moves([1.0; 50], twist).iter().position(|m| !m), Some(time), "{twist:?}");
+        }
+    }
+
+    #[test]
+    fn a_stop_in_between_does_not_hide_that_the_odometry_is_frozen() {
+        let mut node = OdometryGuard::construct((0.4, 1.0, 0.05, 0.1, 0.5));
+        let moves = (0..30).filter(|i| {
+            let twist = if i % 3 == 2 { Twist::ZERO } else { AHEAD };
+            let ctx = Ctx::new(Time::from_millis(100 * i));
+            node.process(&ctx, Some(&twist), Some(&Pose2::default())) == Some(AHEAD)
+        });
+        assert_eq!(moves.collect::<Vec<_>>(), [0, 1, 3, 4, 6, 18, 19, 21, 22, 24]);
     }
 
     #[test]

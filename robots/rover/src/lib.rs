@@ -9,14 +9,27 @@ use apex_rt::prelude::*;
 /// Drawing of the simulated world.
 pub const WORLD: &str = include_str!("../world.txt");
 
-/// Distance that a robot of the width `2 * half_width` can drive straight ahead, according to its scanner, in m.
+/// Distance that a robot of the width `2 * half_width` can drive straight ahead, in m; ⊥ if the scanner has failed.
 #[node]
-pub fn free_ahead(scan: &Scan, #[param(unit = "m", default = 0.25, range = 0.0..=2.0)] half_width: f32) -> f32 {
+pub fn free_ahead(
+    ctx: &Ctx,
+    scan: &Scan,
+    #[param(unit = "m", default = 0.25, range = 0.0..=2.0)] half_width: f32,
+    #[param(unit = "s", default = 0.5, range = 0.01..=10.0)] max_age: f32,
+) -> Option<f32> {
+    if !scan.measures_anything() || !is_young(ctx, scan.stamp, max_age) {
+        return None;
+    }
     let ahead = scan.points().map(|(_, point)| point).filter(|point| point.x > 0.0 && point.y.abs() < half_width);
-    ahead.map(|point| point.x).fold(scan.range_max, f32::min)
+    Some(ahead.map(|point| point.x).fold(scan.range_max, f32::min))
 }
 
-/// Drives straight ahead while it is active, until an obstacle is near.
+/// Returns `true` if what was measured at `stamp` is younger than `max_age` s.
+fn is_young(ctx: &Ctx, stamp: Time, max_age: f32) -> bool {
+    stamp <= ctx.now() && ctx.now().since(stamp).as_secs_f32() < max_age
+}
+
+/// Drives straight ahead while it is active, until an obstacle is near. Stands while the free distance is not known.
 #[node]
 #[derive(Default)]
 pub struct Drive {
@@ -26,14 +39,19 @@ pub struct Drive {
     /// Distance below which an obstacle is near.
     #[param(unit = "m", range = 0.0..=10.0)]
     near: f32,
+    /// Maximum age of the free distance. If nothing comes for this time, the node is called without it.
+    #[param(unit = "s", default = 0.5, range = 0.01..=10.0, silence)]
+    max_age: f32,
 }
 
 #[node]
 impl Drive {
-    fn process(&mut self, ctx: &Ctx, free: &f32, blocked: Event<()>) -> Option<Twist> {
+    fn process(&mut self, ctx: &Ctx, free: Option<&f32>, blocked: Event<()>) -> Option<Twist> {
         if !ctx.active() {
             return None;
         }
+        let is_known = |free: &&f32| free.is_finite() && is_young(ctx, ctx.stamp(), self.max_age);
+        let Some(free) = free.filter(is_known) else { return Some(Twist::ZERO) };
         if *free < self.near {
             blocked.emit(());
             return Some(Twist::ZERO);
@@ -43,7 +61,7 @@ impl Drive {
 }
 
 /// Turns while it is active, to the side with more space, until the robot can drive ahead. The required free distance
-/// shrinks in time from `free` to slightly more than half of it.
+/// shrinks in time from `free` to slightly more than half of it. Stands without scans.
 #[node]
 #[derive(Default)]
 pub struct Turn {
@@ -53,16 +71,21 @@ pub struct Turn {
     /// Free distance ahead at which the turn ends.
     #[param(unit = "m", range = 0.0..=10.0)]
     free: f32,
+    /// Maximum age of a scan and of the free distance.
+    #[param(unit = "s", default = 0.5, range = 0.01..=10.0, silence)]
+    max_age: f32,
     wish: f32,
     to_left: Option<bool>,
 }
 
 #[node]
 impl Turn {
-    fn process(&mut self, ctx: &Ctx, free: &f32, scan: &Scan, done: Event<()>) -> Option<Twist> {
+    fn process(&mut self, ctx: &Ctx, free: Option<&f32>, scan: Option<&Scan>, done: Event<()>) -> Option<Twist> {
         if !ctx.active() {
             return None;
         }
+        let is_known = |(free, _): &(&f32, &Scan)| free.is_finite() && is_young(ctx, ctx.stamp(), self.max_age);
+        let Some((free, scan)) = free.zip(scan).filter(is_known) else { return Some(Twist::ZERO) };
         self.wish = (0.99 * self.wish).max(0.55 * self.free);
         if *free >= self.wish {
             done.emit(());
@@ -96,14 +119,14 @@ impl AskBattery {
         self.charge = *battery;
     }
 
-    /// Triggers `full` or `low`, according to the last charge.
+    /// Triggers `full` or `low`, according to the last charge. One that is not a number is low.
     #[slot]
     fn put(&mut self, full: Event<()>, low: Event<()>) {
-        if self.charge < self.low { low.emit(()) } else { full.emit(()) }
+        if self.charge >= self.low { full.emit(()) } else { low.emit(()) }
     }
 }
 
-/// Remembers the path of the robot, and drives it back to its start while it is active.
+/// Remembers the path of the robot, and drives it back to its start while it is active. Stands without a pose.
 #[node]
 #[derive(Default)]
 pub struct Retrace {
@@ -116,12 +139,17 @@ pub struct Retrace {
     /// Tolerance of the position at a place.
     #[param(unit = "m", default = 0.1, range = 0.01..=1.0)]
     tolerance: f32,
+    /// Maximum age of a pose.
+    #[param(unit = "s", default = 0.5, range = 0.01..=10.0, silence)]
+    max_age: f32,
     way: Vec<Point2>,
 }
 
 #[node]
 impl Retrace {
-    fn process(&mut self, ctx: &Ctx, pose: &Pose2, there: Event<()>) -> Option<Twist> {
+    fn process(&mut self, ctx: &Ctx, pose: Option<&Pose2>, there: Event<()>) -> Option<Twist> {
+        let is_known = |pose: &&Pose2| pose.is_usable() && is_young(ctx, ctx.stamp(), self.max_age);
+        let Some(pose) = pose.filter(is_known) else { return ctx.active().then_some(Twist::ZERO) };
         let here = pose.position();
         if !ctx.active() {
             self.keep(here);

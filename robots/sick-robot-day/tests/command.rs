@@ -50,7 +50,7 @@ fn what_cannot_be_meant_is_refused() {
         (&["--mission", "bt"], "`--mission` is `afg` or `sdf`, not `bt`"),
         (&["--fault", "laser@1s..2s"], "`laser` is no kind of fault; there are laser-frozen, "),
         (&["--record-images"], "`--record-images` needs `--record`, which says where"),
-        (&["bench", "--faults", "--times"], "`--faults` and `--times` are measured one at a time"),
+        (&["bench", "--faults", "--times"], "`--faults`, `--outages` and `--times` are measured one at a time"),
         (&["compete", "--seed"], "missing argument for option '--seed'"),
     ];
     for (args, expected) in cases {

@@ -21,6 +21,7 @@ mod note;
 mod odometry;
 #[cfg(feature = "building")]
 mod office;
+mod outage;
 mod payload;
 #[cfg(feature = "people")]
 mod people;
@@ -50,6 +51,7 @@ pub use note::Note;
 pub use odometry::{Odometry, OdometryNoise};
 #[cfg(feature = "building")]
 pub use office::OfficePlan;
+pub use outage::{MotionWatch, Outage, OutageTable, Promise, Stops, outages};
 pub use payload::{Footprint, Lift};
 #[cfg(feature = "people")]
 pub use people::{Crowd, Pedestrian};

@@ -32,6 +32,11 @@ impl Clinic {
         self.state().snapshot()
     }
 
+    /// True velocity of the tractor, in its frame.
+    pub fn twist(&self) -> Twist {
+        self.state().twist()
+    }
+
     /// Building with its furniture.
     pub fn building(&self) -> Building {
         self.state().building().clone()

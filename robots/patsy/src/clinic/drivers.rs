@@ -70,6 +70,11 @@ impl Scanner {
         let token = scan.get_mut();
         token.stamp = ctx.now();
         Laser::S300.measure(clinic.scanned(), &pose, &mut self.random, token);
+        for (kind, range) in [(FaultKind::ScannerNan, f32::NAN), (FaultKind::ScannerInfinite, f32::INFINITY)] {
+            if clinic.has(kind) {
+                token.ranges.fill(range);
+            }
+        }
     }
 }
 
@@ -91,10 +96,16 @@ impl RearScanner {
     /// Sends scans whose x axis points backward.
     fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
         let mut clinic = self.clinic.at(ctx.now());
+        if clinic.has(FaultKind::RearFrozen) {
+            return;
+        }
         let pose = clinic.trailer().compose(&Pose2::new(0.0, 0.0, PI));
         let token = scan.get_mut();
         token.stamp = ctx.now();
         Laser::S300.measure(clinic.scanned(), &pose, &mut self.random, token);
+        if clinic.has(FaultKind::RearNan) {
+            token.ranges.fill(f32::NAN);
+        }
     }
 }
 
@@ -120,11 +131,16 @@ impl Wheels {
         if !clinic.has(FaultKind::OdometryStopped) {
             self.last = clinic.wheels();
         }
-        odometry.set(self.last);
-        trailer.set(self.last.compose(&clinic.trailer().relative_to(&clinic.pose())));
         if ctx.now() == Time::ZERO {
             dock.set(DOCK);
         }
+        if clinic.has(FaultKind::OdometrySilent) {
+            return;
+        }
+        let is_nan = clinic.has(FaultKind::OdometryNan);
+        let pose = if is_nan { Pose2 { x: f32::NAN, ..self.last } } else { self.last };
+        odometry.set(pose);
+        trailer.set(pose.compose(&clinic.trailer().relative_to(&clinic.pose())));
     }
 }
 

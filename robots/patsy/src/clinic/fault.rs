@@ -1,4 +1,5 @@
 use apex_rt::Time;
+use apex_sim::{Promise, Stops};
 use std::{fmt, time::Duration};
 
 /// Temporary fault of a device.
@@ -27,11 +28,23 @@ pub enum FaultKind {
     OdometryStopped,
     /// The lift does not move.
     LiftJammed,
+    /// The scanner measures NaN in all directions.
+    ScannerNan,
+    /// The scanner measures infinity in all directions.
+    ScannerInfinite,
+    /// The scanner on the trailer sends nothing.
+    RearFrozen,
+    /// The scanner on the trailer measures NaN in all directions.
+    RearNan,
+    /// The wheels and the hitch send nothing.
+    OdometrySilent,
+    /// The wheels send NaN.
+    OdometryNan,
 }
 
 impl FaultKind {
-    /// All kinds of faults.
-    pub const ALL: [Self; 6] = [
+    /// Kinds whose cost is measured.
+    pub const MEASURED: [Self; 6] = [
         Self::CameraBlack,
         Self::CameraFrozen,
         Self::CameraNan,
@@ -40,7 +53,54 @@ impl FaultKind {
         Self::LiftJammed,
     ];
 
-    /// Name of the fault on the command line.
+    /// Kinds of faults of sensors.
+    pub const OF_SENSORS: [Self; 11] = [
+        Self::CameraBlack,
+        Self::CameraFrozen,
+        Self::CameraNan,
+        Self::ScannerFrozen,
+        Self::ScannerNan,
+        Self::ScannerInfinite,
+        Self::RearFrozen,
+        Self::RearNan,
+        Self::OdometryStopped,
+        Self::OdometrySilent,
+        Self::OdometryNan,
+    ];
+
+    /// Promises of the vehicle about each of [`OF_SENSORS`](Self::OF_SENSORS).
+    pub const PROMISES: [Promise; Self::OF_SENSORS.len()] = {
+        let mut promises = [Self::OF_SENSORS[0].promise(); Self::OF_SENSORS.len()];
+        let mut i = 1;
+        while i < promises.len() {
+            promises[i] = Self::OF_SENSORS[i].promise();
+            i += 1;
+        }
+        promises
+    };
+
+    /// Promise of the vehicle without the sensor (`careful.afg`, `clinic.afg`). The stated times are those of the
+    /// guards, that of their next firing, and 1 s in which the motors brake with 1 m/s² from 1 m/s.
+    const fn promise(self) -> Promise {
+        const fn after(ms: u64) -> Duration {
+            Duration::from_millis(ms + 1000)
+        }
+        let (period, stops) = match self {
+            // `SweepStop` does without a map for 0.6 s. Clouds come every 240 ms.
+            Self::CameraBlack | Self::CameraFrozen | Self::CameraNan => (240, Stops::Within(after(600 + 80))),
+            // `TrailerField` does without a scan for 0.5 s.
+            Self::ScannerFrozen | Self::ScannerNan | Self::ScannerInfinite | Self::RearFrozen | Self::RearNan => {
+                (80, Stops::Within(after(500 + 80)))
+            }
+            Self::OdometrySilent | Self::OdometryNan => (80, Stops::Within(after(80))),
+            // `OdometryGuard` waits for more than 0.4 s.
+            Self::OdometryStopped => (80, Stops::Tries(after(400 + 2 * 80))),
+            Self::LiftJammed => (80, Stops::No),
+        };
+        Promise { fault: self.name(), period: Duration::from_millis(period), stops }
+    }
+
+    /// Name of the fault in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::CameraBlack => "camera-black",
@@ -49,12 +109,13 @@ impl FaultKind {
             Self::ScannerFrozen => "scanner-frozen",
             Self::OdometryStopped => "odometry-stopped",
             Self::LiftJammed => "lift-jammed",
+            Self::ScannerNan => "scanner-nan",
+            Self::ScannerInfinite => "scanner-infinite",
+            Self::RearFrozen => "rear-frozen",
+            Self::RearNan => "rear-nan",
+            Self::OdometrySilent => "odometry-silent",
+            Self::OdometryNan => "odometry-nan",
         }
-    }
-
-    /// Kind of a name.
-    pub fn of(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
     /// Duration of the fault: long enough to meet a lift that moves.

@@ -83,6 +83,8 @@ pub struct Snapshot {
     pub now: Time,
     /// Poses of the tractor and of the trailer.
     pub vehicle: [Pose2; 2],
+    /// Velocity of the tractor, in its frame.
+    pub twist: Twist,
     /// Poses of the containers.
     pub carts: Vec<Pose2>,
     /// Number of the container on the lift.
@@ -180,11 +182,17 @@ impl State {
         Snapshot {
             now: self.now,
             vehicle: [self.pose(), self.trailer()],
+            twist: self.twist(),
             carts: self.site.carts.iter().map(Cart::pose).collect(),
             load: self.body.load.map(|(number, _)| number),
             people: self.crowd.people().iter().map(|person| person.pose).collect(),
             order: self.order,
         }
+    }
+
+    /// Velocity of the tractor, in its frame.
+    pub const fn twist(&self) -> Twist {
+        self.body.tractor.base.twist
     }
 
     /// Next order: a random container to a random place that is free. `None` if there is none.

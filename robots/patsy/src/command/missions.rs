@@ -1,9 +1,9 @@
 use super::args::{Seeds, next, number, path, seeds_option};
-use apex_sim::{in_order, say};
+use apex_sim::{OutageTable, in_order, say};
 use lexopt::{Parser, prelude::Long};
 use patsy::{
     clinic::{FaultKind, Options, PEOPLE},
-    missions::{Row, Run, activity_table, fault_at, faults_table, picture, run, summary},
+    missions::{Row, Run, activity_table, fault_at, fault_of, faults_table, picture, run, run_with_outages, summary},
     write_file,
 };
 use std::{path::PathBuf, process::ExitCode, time::Duration};
@@ -14,6 +14,8 @@ struct Missions {
     duration: Duration,
     people: usize,
     faults: bool,
+    keeps_twist: bool,
+    outages: bool,
     out: PathBuf,
     record: Option<PathBuf>,
 }
@@ -21,10 +23,13 @@ struct Missions {
 /// Runs the vehicle in many clinics, also with faults, and counts what came of it.
 pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
     let missions = read(parser)?;
+    if missions.outages {
+        return missions.outages();
+    }
     let seeds = missions.seeds.all();
     let mut jobs: Vec<Options> = seeds.iter().map(|seed| missions.options(*seed, None)).collect();
     if missions.faults {
-        let kinds = FaultKind::ALL.into_iter();
+        let kinds = FaultKind::MEASURED.into_iter();
         jobs.extend(
             kinds
                 .flat_map(|kind| seeds.iter().map(move |seed| (*seed, kind)))
@@ -55,9 +60,27 @@ pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
 }
 
 impl Missions {
+    /// Prints what the vehicle does in outages, and those in which it moved longer than it promises.
+    fn outages(&self) -> Result<ExitCode, String> {
+        let seeds = self.seeds.all();
+        let work = |seed: &u64| run_with_outages(&self.options(*seed, None), self.duration);
+        let runs = in_order(&seeds, self.seeds.jobs, work, |_| ()).map_err(|e| e.to_string())?;
+        let watches = runs.into_iter().collect::<Result<Vec<_>, String>>()?;
+        say(&format!("{}", OutageTable(&watches)))?;
+        let mut is_fine = true;
+        for (seed, (outage, time)) in
+            seeds.iter().zip(&watches).flat_map(|(s, w)| w.broken().into_iter().map(move |b| (s, b)))
+        {
+            is_fine = false;
+            say(&format!("seed {seed}: {}: moves for {:.2} s\n", fault_of(&outage), time.as_secs_f64()))?;
+        }
+        Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
     fn options(&self, seed: u64, kind: Option<FaultKind>) -> Options {
-        let faults = kind.map(|kind| fault_at(kind, seed, self.duration));
-        Options { seed, people: self.people, faults: faults.into_iter().collect(), ..Options::default() }
+        let faults = kind.map(|kind| fault_at(kind, seed, self.duration)).into_iter().collect();
+        let command_timeout = Options::default().command_timeout.filter(|_| !self.keeps_twist);
+        Options { seed, people: self.people, faults, command_timeout }
     }
 }
 
@@ -67,6 +90,8 @@ fn read(parser: &mut Parser) -> Result<Missions, String> {
         duration: Duration::from_secs(600),
         people: PEOPLE,
         faults: false,
+        keeps_twist: false,
+        outages: false,
         out: PathBuf::from("out/patsy/clinic.svg"),
         record: None,
     };
@@ -75,6 +100,8 @@ fn read(parser: &mut Parser) -> Result<Missions, String> {
             Long("minutes") => missions.duration = Duration::from_secs(60 * number(parser, "--minutes", 1..=600)?),
             Long("people") => missions.people = number(parser, "--people", 0..=100)? as usize,
             Long("faults") => missions.faults = true,
+            Long("keeps-twist") => missions.keeps_twist = true,
+            Long("outages") => missions.outages = true,
             Long("out") => missions.out = path(parser)?,
             Long("record") => missions.record = Some(path(parser)?),
             arg => {

@@ -19,8 +19,8 @@ Usage: patsy [--log FILE [--container pallet|cart] [--labels FILE] [--table FILE
        patsy obstacles [OPTIONS]
        patsy accuracy [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
        patsy approach [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
-       patsy missions [--first-seed N] [--seeds N] [--jobs N] [--minutes N] [--people N] [--faults] [--out FILE]
-                      [--record FILE]
+       patsy missions [--first-seed N] [--seeds N] [--jobs N] [--minutes N] [--people N] [--faults] [--outages]
+                      [--keeps-twist] [--out FILE] [--record FILE]
        patsy times [--first-seed N] [--seeds N]
        patsy validate --with FILE --labels FILE --without FILE [--folds N] [--jobs N]
 
@@ -53,6 +53,9 @@ delivered and touched. It draws the first run.
   --minutes N       simulated time of each run (default 10)
   --people N        number of people (default 8)
   --faults          also runs with a fault of each kind: of the camera, the scanner, the odometry, the lift
+  --outages         instead, sensors fail one after the other, at times that the seed draws, and the motors keep the last
+                    twist: how long the vehicle moves without them, and whether that is longer than it promises
+  --keeps-twist     motors without a command time-out: they keep the last twist until the next one
   --out FILE        the picture (default out/patsy/clinic.svg)
   --record FILE     recording of the first run, for `apex replay` and viewers
 

@@ -1,9 +1,11 @@
 //! Runs of the vehicle in the simulated clinic, what came of them, and the cost of faults (thesis 8.2).
 
+mod outages;
 mod picture;
 mod run;
 mod table;
 
+pub use outages::{fault_of, run_with_outages};
 pub use picture::picture;
 pub use run::{Run, run};
 pub use table::{Row, activity_table, fault_at, faults_table, summary, table};

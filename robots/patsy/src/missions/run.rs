@@ -40,6 +40,16 @@ pub struct Run {
 /// # Errors
 /// If the plan of the building cannot be read, or the file cannot be written.
 pub fn run(options: &Options, duration: Duration, record: Option<&Path>) -> Result<Run, String> {
+    run_seen(options, duration, record, |_, _| ())
+}
+
+/// As [`run`]; `see` sees the clinic after each reaction.
+pub(super) fn run_seen(
+    options: &Options,
+    duration: Duration,
+    record: Option<&Path>,
+    mut see: impl FnMut(Time, &Clinic),
+) -> Result<Run, String> {
     let began = Instant::now();
     let clinic = Clinic::new(options).map_err(|e| e.to_string())?;
     let first = clinic.snapshot();
@@ -56,6 +66,7 @@ pub fn run(options: &Options, duration: Duration, record: Option<&Path>) -> Resu
         let now = clock.now();
         watch.activity.now = now;
         let next = robot.react_with(now, &mut watch);
+        see(now, &clinic);
         let time = if let Next::At(time) = next { time } else { now };
         if !clock.wait_until(time) {
             break;

@@ -13,7 +13,7 @@ pub struct Row<'a>(pub &'a Run);
 
 /// Fault of a kind at a random time of the seed, in the first two thirds of a run of this duration.
 pub fn fault_at(kind: FaultKind, seed: u64, duration: Duration) -> Fault {
-    let number = FaultKind::ALL.iter().position(|other| *other == kind).unwrap_or_default() as u64;
+    let number = FaultKind::MEASURED.iter().position(|other| *other == kind).unwrap_or_default() as u64;
     let mut random = Random::new(seed.wrapping_mul(31).wrapping_add(number));
     let from = Time::ZERO + duration.mul_f32(random.uniform(0.1, 0.65));
     Fault { kind, from, until: from + kind.duration() }
@@ -101,7 +101,7 @@ pub fn faults_table(without: &[Run], with: &[Run]) -> String {
         );
     };
     line("none", &without.iter().collect::<Vec<_>>());
-    for kind in FaultKind::ALL {
+    for kind in FaultKind::MEASURED {
         let of: Vec<&Run> = with.iter().filter(|run| run.options.faults.iter().any(|f| f.kind == kind)).collect();
         line(kind.name(), &of);
     }
@@ -135,11 +135,11 @@ mod tests {
     #[test]
     fn faults_are_at_times_of_the_seed_within_the_run() {
         let duration = Duration::from_secs(600);
-        for kind in FaultKind::ALL {
+        for kind in FaultKind::MEASURED {
             let faults: Vec<Fault> = (1..20).map(|seed| fault_at(kind, seed, duration)).collect();
             assert!(faults.iter().all(|fault| fault.from >= Time::from_secs(60) && fault.until < Time::from_secs(460)));
             assert!(faults.windows(2).any(|pair| pair[0].from != pair[1].from));
-            assert_eq!((faults[0], FaultKind::of(kind.name())), (fault_at(kind, 1, duration), Some(kind)));
+            assert_eq!(faults[0], fault_at(kind, 1, duration));
         }
     }
 }

@@ -1,4 +1,4 @@
-use super::{Command, Seeds};
+use super::{Bench, Command, Seeds};
 use lexopt::{
     Arg, Parser,
     prelude::{Long, Short},
@@ -10,9 +10,9 @@ pub const HELP: &str = "\
 The robot of the SICK Robot Day 2014, in simulation: it fetches cubes and takes them to the stations that they name.
 
 Usage: sick-robot-day [compete] [--seed N] [--mission afg|sdf] [--minutes M] [--fault KIND@FROM..UNTIL]...
-                      [--out FOLDER] [--film FILE] [--record FILE [--record-images]]
-       sick-robot-day bench [--first-seed N] [--seeds N] [--jobs N] [--mission afg|sdf] [--minutes M] [--faults]
-                      [--times]
+                      [--keeps-twist] [--out FOLDER] [--film FILE] [--record FILE [--record-images]]
+       sick-robot-day bench [--first-seed N] [--seeds N] [--jobs N] [--mission afg|sdf] [--minutes M]
+                      [--keeps-twist] [--faults] [--outages] [--times]
        sick-robot-day perception [--seeds N] [--out FOLDER]
 
 `compete`, which is meant if nothing is named, plays a competition against three rivals. It shows it on a terminal, and
@@ -23,7 +23,8 @@ leaves a table of what the robot did and pictures: its map, its phases, and what
   --minutes M     how long it lasts (default 10)
   --fault FAULT   breaks something for a while, as in laser-frozen@100s..103s; may be said several times. There are
                   laser-frozen, camera-black, camera-torn, beams-nan, beams-infinite, beams-zero, beams-missing,
-                  odometry-stopped
+                  odometry-stopped, laser-repeated, rear-frozen, odometry-silent, odometry-nan
+  --keeps-twist   motors without a command time-out: they keep the last twist until the next one
   --out FOLDER    a new or empty folder for the pictures (default out/sick-robot-day; if it is not empty,
                   out/sick-robot-day-2, and so on)
   --film FILE     a moving picture of the run, as SVG, which browsers play; a file that is there is replaced
@@ -38,6 +39,8 @@ leaves a table of what the robot did and pictures: its map, its phases, and what
   --jobs N        how many competitions at once (default: as many as there are cores); the table does not depend on it,
                   but for the computing times
   --faults        each of them also with each kind of fault, at a time that the seed draws
+  --outages       sensors fail one after the other, at times that the seed draws, and the motors keep the last twist: how
+                  long the robot moves without them, and whether that is longer than it promises
   --times         where the time goes, by part of the robot; one competition after the other
 
 `perception` measures how well the robot finds targets, reads number signs and sees cubes, on rendered images; --out is
@@ -91,6 +94,7 @@ fn compete(parser: &mut Parser) -> Result<Command, String> {
             Long("seed") => setup.seed = number(parser, "--seed", 0)?,
             Long("mission") => setup.mission = mission(parser)?,
             Long("minutes") => setup.duration = minutes(parser)?,
+            Long("keeps-twist") => setup.keeps_twist = true,
             Long("fault") => setup.faults.push(text(parser)?.parse()?),
             Long("out") => out = Some(path(parser)?),
             Long("film") => film = Some(path(parser)?),
@@ -109,7 +113,7 @@ fn compete(parser: &mut Parser) -> Result<Command, String> {
 fn bench(parser: &mut Parser) -> Result<Command, String> {
     let mut setup = Setup { duration: Duration::from_secs(600), ..Setup::default() };
     let mut seeds = Seeds { first: 1, count: 20, jobs: None };
-    let (mut faults, mut times) = (false, false);
+    let (mut faults, mut outages, mut times) = (false, false, false);
     while let Some(arg) = next(parser)? {
         match arg {
             Long("help") | Short('h') => return Ok(Command::Help),
@@ -118,21 +122,27 @@ fn bench(parser: &mut Parser) -> Result<Command, String> {
             Long("jobs") => seeds.jobs = jobs(parser)?,
             Long("mission") => setup.mission = mission(parser)?,
             Long("minutes") => setup.duration = minutes(parser)?,
+            Long("keeps-twist") => setup.keeps_twist = true,
             Long("faults") => faults = true,
+            Long("outages") => outages = true,
             Long("times") => times = true,
             other => return Err(unknown(other)),
         }
     }
-    if faults && times {
-        return Err("`--faults` and `--times` are measured one at a time".to_owned());
-    }
+    let kind = match (faults, outages, times) {
+        (false, false, false) => Bench::Score,
+        (true, false, false) => Bench::Faults,
+        (false, true, false) => Bench::Outages,
+        (false, false, true) => Bench::Times,
+        _ => return Err("`--faults`, `--outages` and `--times` are measured one at a time".to_owned()),
+    };
     if times && seeds.jobs.is_some() {
         return Err("`--times` measures one competition at a time: without `--jobs`".to_owned());
     }
     if seeds.first.checked_add(seeds.count - 1).is_none() {
         return Err("the last seed is too large".to_owned());
     }
-    Ok(Command::Bench { seeds, setup, faults, times })
+    Ok(Command::Bench { seeds, setup, kind })
 }
 
 fn perception(parser: &mut Parser) -> Result<Command, String> {

@@ -1,7 +1,7 @@
-use super::{Seeds, say};
-use apex_sim::in_order;
+use super::{Bench, Seeds, say};
+use apex_sim::{OutageTable, in_order};
 use sick_robot_day::{
-    bench::{Score, Summary, Times, Toll, fault_at},
+    bench::{Outages, Score, Summary, Times, Toll, fault_at},
     contest::FaultKind,
     measure::Progress,
     run::{Setup, Watch},
@@ -9,10 +9,15 @@ use sick_robot_day::{
 use std::{num::NonZero, process::ExitCode, time::Instant};
 
 /// Plays competitions with these seeds.
-pub fn bench(seeds: Seeds, setup: &Setup, faults: bool, times: bool) -> Result<ExitCode, String> {
-    if times {
-        return measure_times(seeds, setup);
+pub fn bench(seeds: Seeds, setup: &Setup, kind: Bench) -> Result<ExitCode, String> {
+    match kind {
+        Bench::Times => measure_times(seeds, setup),
+        Bench::Outages => measure_outages(seeds, setup),
+        Bench::Score | Bench::Faults => measure_scores(seeds, setup, kind == Bench::Faults),
     }
+}
+
+fn measure_scores(seeds: Seeds, setup: &Setup, faults: bool) -> Result<ExitCode, String> {
     say(&format!("{}\n", Score::HEAD))?;
     let mut kinds = vec![None];
     if faults {
@@ -74,4 +79,26 @@ fn measure_times(seeds: Seeds, setup: &Setup) -> Result<ExitCode, String> {
     progress.clear();
     say(&format!("{all}\n\n{seeds}\n"))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Prints what the robot does in outages, and those in which it moved longer than it promises.
+fn measure_outages(seeds: Seeds, setup: &Setup) -> Result<ExitCode, String> {
+    let (progress, mut done) = (Progress::default(), 0);
+    let show = |_: &_| {
+        done += 1;
+        progress.step("competitions", done, seeds.count);
+    };
+    let all: Vec<u64> = seeds.numbers().collect();
+    let runs = in_order(&all, seeds.jobs, |seed| Outages::run(setup, *seed), show).map_err(|e| e.to_string())?;
+    progress.clear();
+    let watches = runs.into_iter().collect::<Result<Vec<_>, String>>()?;
+    say(&format!("{}\n{seeds}\n", OutageTable(&watches)))?;
+    let broken = all.iter().zip(&watches).flat_map(|(seed, watch)| watch.broken().into_iter().map(move |b| (seed, b)));
+    let mut is_fine = true;
+    for (seed, (outage, time)) in broken {
+        is_fine = false;
+        let fault = Outages::fault(&outage);
+        say(&format!("seed {seed}: {fault}: moves for {:.2} s\n", time.as_secs_f64()))?;
+    }
+    Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }

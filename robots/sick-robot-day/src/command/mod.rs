@@ -36,11 +36,23 @@ impl fmt::Display for Seeds {
     }
 }
 
+/// Measurement in many competitions.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Bench {
+    Score,
+    /// The score, and what each kind of fault costs.
+    Faults,
+    /// Motion without sensors.
+    Outages,
+    /// Computing time.
+    Times,
+}
+
 /// Command to carry out.
 pub enum Command {
     Help,
     Compete { setup: Setup, out: Option<PathBuf>, film: Option<PathBuf> },
-    Bench { seeds: Seeds, setup: Setup, faults: bool, times: bool },
+    Bench { seeds: Seeds, setup: Setup, kind: Bench },
     Perception { seeds: u64, out: Option<PathBuf> },
 }
 
@@ -50,7 +62,7 @@ impl Command {
         match self {
             Self::Help => say(args::HELP).map(|()| ExitCode::SUCCESS),
             Self::Compete { setup, out, film } => compete::compete(&setup, out, film.as_deref()),
-            Self::Bench { seeds, setup, faults, times } => bench::bench(seeds, &setup, faults, times),
+            Self::Bench { seeds, setup, kind } => bench::bench(seeds, &setup, kind),
             Self::Perception { seeds, out } => perception(seeds, out).map(|()| ExitCode::SUCCESS),
         }
     }

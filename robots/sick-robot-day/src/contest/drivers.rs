@@ -52,6 +52,7 @@ impl Drivers {
 pub struct FrontLaser {
     /// Hall, and random numbers of the measurements and of the faults.
     place: Option<(Hall, Random, Random)>,
+    last: Scan,
 }
 
 #[node]
@@ -59,7 +60,7 @@ impl FrontLaser {
     /// Creates the scanner of our robot in `hall`.
     pub fn new(hall: &Hall) -> Self {
         let contest = hall.contest();
-        Self { place: Some((hall.clone(), contest.stream(30), contest.stream(31))) }
+        Self { place: Some((hall.clone(), contest.stream(30), contest.stream(31))), last: Scan::default() }
     }
 
     /// Enters a hall.
@@ -75,8 +76,13 @@ impl FrontLaser {
             return;
         }
         let token = scan.get_mut();
+        if contest.has(FaultKind::LaserRepeated) {
+            token.clone_from(&self.last);
+            return;
+        }
         token.stamp = ctx.now();
         LASER.measure(&contest.arena().world, &contest.robots()[0].pose, random, token);
+        self.last.clone_from(token);
         let spoilers = FaultKind::OF_BEAMS.into_iter().filter(|kind| contest.has(*kind));
         spoilers.for_each(|kind| kind.spoil(token, faults));
     }
@@ -106,6 +112,9 @@ impl RearLaser {
     fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
         let Some((hall, random)) = &mut self.place else { return };
         let contest = hall.at(ctx.now());
+        if contest.has(FaultKind::RearFrozen) {
+            return;
+        }
         let pose = contest.robots()[0].pose.compose(&Pose2::new(0.0, 0.0, PI));
         let token = scan.get_mut();
         token.stamp = ctx.now();
@@ -138,10 +147,13 @@ impl WheelOdometry {
     fn process(&mut self, ctx: &Ctx, pose: &mut Out<Pose2>) {
         let Some(hall) = &self.place else { return };
         let contest = hall.at(ctx.now());
+        if contest.has(FaultKind::OdometrySilent) {
+            return;
+        }
         if !contest.has(FaultKind::OdometryStopped) {
             self.last = contest.wheels();
         }
-        pose.set(self.last);
+        pose.set(if contest.has(FaultKind::OdometryNan) { Pose2 { x: f32::NAN, ..self.last } } else { self.last });
     }
 }
 

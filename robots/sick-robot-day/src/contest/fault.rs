@@ -1,6 +1,6 @@
 use apex_nodes::scan::Scan;
 use apex_rt::Time;
-use apex_sim::Random;
+use apex_sim::{Promise, Random, Stops};
 use std::{fmt, str::FromStr, time::Duration};
 
 /// Temporary fault of a device.
@@ -33,6 +33,14 @@ pub enum FaultKind {
     BeamsMissing,
     /// The wheel odometry sends the same pose repeatedly, and afterwards continues at its real pose.
     OdometryStopped,
+    /// The front scanner sends the same scan repeatedly, with its stamp.
+    LaserRepeated,
+    /// The rear scanner sends nothing.
+    RearFrozen,
+    /// The wheel odometry sends nothing.
+    OdometrySilent,
+    /// The wheel odometry sends NaN.
+    OdometryNan,
 }
 
 impl FromStr for Fault {
@@ -72,7 +80,7 @@ impl Fault {
 
 impl FaultKind {
     /// All kinds of faults.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 12] = [
         Self::LaserFrozen,
         Self::CameraBlack,
         Self::CameraTorn,
@@ -81,6 +89,10 @@ impl FaultKind {
         Self::BeamsZero,
         Self::BeamsMissing,
         Self::OdometryStopped,
+        Self::LaserRepeated,
+        Self::RearFrozen,
+        Self::OdometrySilent,
+        Self::OdometryNan,
     ];
 
     /// Name of the fault on the command line.
@@ -94,7 +106,46 @@ impl FaultKind {
             Self::BeamsZero => "beams-zero",
             Self::BeamsMissing => "beams-missing",
             Self::OdometryStopped => "odometry-stopped",
+            Self::LaserRepeated => "laser-repeated",
+            Self::RearFrozen => "rear-frozen",
+            Self::OdometrySilent => "odometry-silent",
+            Self::OdometryNan => "odometry-nan",
         }
+    }
+
+    /// Promises of the robot about each of [`ALL`](Self::ALL).
+    pub const PROMISES: [Promise; Self::ALL.len()] = {
+        let mut promises = [Self::ALL[0].promise(); Self::ALL.len()];
+        let mut i = 1;
+        while i < promises.len() {
+            promises[i] = Self::ALL[i].promise();
+            i += 1;
+        }
+        promises
+    };
+
+    /// Promise of the robot without the sensor (`safety.afg`). The stated times are those of the guards, that of their
+    /// next firing, and 0.75 s in which the base brakes with 2 m/s² from 1.5 m/s.
+    const fn promise(self) -> Promise {
+        const fn after(ms: u64) -> Duration {
+            Duration::from_millis(ms + 750)
+        }
+        let (period, stops) = match self {
+            // The fields do without a scan for 0.2 s.
+            Self::LaserFrozen
+            | Self::LaserRepeated
+            | Self::RearFrozen
+            | Self::BeamsNan
+            | Self::BeamsInfinite
+            | Self::BeamsZero => (40, Stops::Within(after(200 + 40))),
+            Self::OdometrySilent | Self::OdometryNan => (40, Stops::Within(after(40))),
+            // The guard waits for more than 0.4 s.
+            Self::OdometryStopped => (40, Stops::Tries(after(400 + 2 * 40))),
+            // Half of the beams show where the robot can drive, and so do all without a camera.
+            Self::BeamsMissing => (40, Stops::No),
+            Self::CameraBlack | Self::CameraTorn => (200, Stops::No),
+        };
+        Promise { fault: self.name(), period: Duration::from_millis(period), stops }
     }
 
     /// Faults that change the beams of a scan.
