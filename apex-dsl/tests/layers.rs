@@ -8,9 +8,10 @@ use std::{
 };
 
 /// All modules, lowest layer first.
-const LAYERS: [&str; 23] = [
-    "index", "source", "units", "report", "syntax", "catalog", "graph", "machine", "script", "resolve", "analyse",
-    "check", "claims", "threads", "program", "codegen", "passes", "petri", "explain", "fix", "format", "ide", "lib",
+const LAYERS: [&str; 24] = [
+    "index", "source", "fraction", "units", "report", "syntax", "catalog", "graph", "machine", "script", "resolve",
+    "analyse", "check", "claims", "threads", "program", "codegen", "passes", "petri", "explain", "fix", "format",
+    "ide", "lib",
 ];
 
 /// Finds all Rust files in a folder and in the folders below it.

@@ -75,7 +75,7 @@ fn the_page_on_debugging_can_be_followed() {
     lock(&rover);
     let file = rover.join("robot.afg");
     let right = fs::read_to_string(&file).unwrap();
-    let (mistake, mended) = (block("    scan     -> wide -> drive.free"), block("    scan     -> free -> drive.free"));
+    let (mistake, mended) = (block("    seen     -> wide -> drive.free"), block("    seen     -> free -> drive.free"));
     let wrong = right.replace(&mended, &mistake);
     assert!(right != wrong);
     fs::write(&file, &wrong).unwrap();
@@ -98,7 +98,7 @@ fn the_page_on_debugging_can_be_followed() {
     page.ask(&json!("pause"));
     halted_after(&mut page, 12.5, 44.0);
     let count = times_active(&mut page, &about, "sim.mission.turn", 10.0, 12.0);
-    assert_eq!(count, 33);
+    assert_eq!(count, 32);
     let asked = block("`sim.mission.turn` is not active since");
     let answer = why(&mut page, &about, "sim.mission.turn", 10.52);
     assert!(answer.starts_with(&format!("{asked}\n")), "{answer}");
@@ -110,7 +110,7 @@ fn the_page_on_debugging_can_be_followed() {
     page.until_value("sim.mission.drive.near", "0.4");
     page.ask(&json!({ "run": { "speed": 8 } }));
     page.until_time(12.1);
-    assert_eq!(times_active(&mut page, &about, "sim.mission.turn", 10.0, 12.0), 24);
+    assert_eq!(times_active(&mut page, &about, "sim.mission.turn", 10.0, 12.0), 23);
     let differs = page.differs().unwrap();
     assert_eq!(format!("{differs:.2}"), "10.30");
     page.ask(&json!("pause"));

@@ -34,7 +34,7 @@ impl Total {
 
 const ROBOT: &str = "\
 //! A <script>alert(2)</script> robot.
-use crate::{Total, ramp};
+use crate::ramp;
 use parts::{Inner, Lamp};
 
 /// The whole.

@@ -68,7 +68,7 @@ fn recordings_without_labels_or_scans_are_refused() {
     assert!(code == Some(2) && text.contains("scan 3 of"), "{text}");
     let labels = file("three_labels.csv", "id,x,y,x,y\n1,0,0,1,1\n2,0,0,1,1\n3,0,0,1,1\n");
     let (code, text) = run(&scans, &labels, &nothing);
-    assert!(code == Some(2) && text.contains("need scans, and one"), "{text}");
+    assert!(code == Some(2) && text.contains("the table is empty"), "{text}");
     let (code, text) = run(&scans, "nowhere.csv", &scans);
     assert!(code == Some(2) && text.contains("nowhere.csv"), "{text}");
 }
