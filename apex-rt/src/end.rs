@@ -115,8 +115,10 @@ pub(crate) fn on_signals() {
 /// # Errors
 /// The signals cannot be handled, or already have another handler.
 #[cfg(feature = "ctrl-c")]
-pub(crate) fn handle_signals() -> Result<(), ctrlc::Error> {
-    ctrlc::set_handler(signalled)
+pub(crate) fn handle_signals() -> Result<(), std::string::String> {
+    use std::{string::ToString as _, sync::OnceLock};
+    static HANDLED: OnceLock<Result<(), std::string::String>> = OnceLock::new();
+    HANDLED.get_or_init(|| ctrlc::set_handler(signalled).map_err(|error| error.to_string())).clone()
 }
 
 /// Time that a node may take to return after a signal.

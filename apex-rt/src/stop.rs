@@ -17,7 +17,7 @@ impl<C: Clock> UntilStopped<C> {
     }
 
     /// Returns `clock` with an end at Ctrl-C or another signal that would otherwise end the process. A second signal
-    /// ends the process within a second, in case a node hangs. A process can have only one such clock.
+    /// ends the process within a second, in case a node hangs.
     /// [`run`](crate::run) and [`drive`](crate::drive) by the machine's clock need none.
     ///
     /// # Errors
@@ -26,6 +26,11 @@ impl<C: Clock> UntilStopped<C> {
     pub fn ctrl_c(clock: C) -> Result<Self, String> {
         end::handle_signals().map_err(|error| format!("cannot wait for Ctrl-C: {error}"))?;
         Ok(Self::new(clock, &end::ASKED))
+    }
+
+    /// Returns `true` if the switch was turned.
+    pub fn is_stopped(&self) -> bool {
+        self.switch.is_set()
     }
 }
 

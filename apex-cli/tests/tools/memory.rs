@@ -108,7 +108,10 @@ fn what_cannot_be_built_has_no_sizes() {
     assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0));
     assert!(stderr(&output).starts_with("error["), "{}", stderr(&output));
 
-    let open = folder.file("open.afg", "use crate::Numbers;\ngraph Open(n: u32) { // allow(not-used): it has no value\n    node a = Numbers();\n}\n");
+    let open = folder.file(
+        "open.afg",
+        "use crate::Numbers;\ngraph Open(n: u32) { // allow(not-used): it has no value\n    node a = Numbers();\n}\n",
+    );
     let output = explain(&open, &[]);
     let said = String::from_utf8(output.stdout.clone()).unwrap();
     assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));

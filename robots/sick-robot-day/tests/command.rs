@@ -103,3 +103,31 @@ fn a_bench_has_a_line_for_each_seed() {
         assert!(text.contains(part), "no `{part}` in\n{text}");
     }
 }
+
+/// As a person does who has seen enough.
+#[test]
+#[cfg(unix)]
+fn an_interrupted_run_completes_its_recording() {
+    use std::{process::Stdio, thread, time::Duration};
+    let folder = folder("interrupted");
+    let recording = folder.join("run.mcap");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_sick-robot-day"))
+        .args(["--minutes", "60", "--out", "pictures", "--record", "run.mcap"])
+        .current_dir(&folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command");
+    while !recording.metadata().is_ok_and(|file| file.len() > 100_000) {
+        assert!(child.try_wait().expect("it can be asked").is_none(), "it ended by itself");
+        thread::sleep(Duration::from_millis(20));
+    }
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("`kill`");
+    assert!(sent.success());
+    let output = child.wait_with_output().expect("an end");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && said.contains("stopped by a signal after"), "{said}");
+    // The magic at the end of a complete file.
+    assert!(fs::read(&recording).expect("the recording").ends_with(b"\x89MCAP0\r\n"));
+    fs::remove_dir_all(folder).expect("it is still there");
+}

@@ -4,7 +4,7 @@ use crate::{
 };
 use apex_nodes::map::VectorMap;
 use apex_rt::{
-    Clock as _, Next, Observer, Program, SimClock, Time,
+    Clock as _, Next, Observer, Program, SimClock, Time, UntilStopped,
     record::{Recorder, Tap, WhenFull},
 };
 use std::{
@@ -61,7 +61,7 @@ pub(super) fn run_seen(
     };
     let end = Time::ZERO + duration;
     let mut watch = Watch::new(tap.map(Tap::Record));
-    let mut clock = SimClock::until(end).with_step(STEP);
+    let mut clock = UntilStopped::ctrl_c(SimClock::until(end).with_step(STEP))?;
     loop {
         let now = clock.now();
         watch.activity.now = now;
@@ -72,10 +72,14 @@ pub(super) fn run_seen(
             break;
         }
     }
-    clinic.advance(end);
+    robot.stop();
     if let (Some(Tap::Record(recorder)), Some(path)) = (watch.tap, record) {
         recorder.finish().map_err(|e| cannot(path, &e))?;
     }
+    if clock.is_stopped() {
+        return Err(format!("stopped by a signal after {} of the run", clock.now()));
+    }
+    clinic.advance(end);
     Ok(Run {
         options: options.clone(),
         report: clinic.report(),

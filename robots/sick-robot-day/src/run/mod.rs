@@ -15,7 +15,7 @@ use crate::{
 };
 use activity_log::ActivityLog;
 use apex_rt::{
-    Clock as _, Info, Next, Observer, Program, SimClock, Time,
+    Clock as _, Info, Next, Observer, Program, SimClock, Time, UntilStopped,
     record::{Channel, Finished, Recorder, Role, Tap, WhenFull},
     studio::{Stream, Studio},
 };
@@ -174,7 +174,7 @@ impl Setup {
         let mut robot = Box::new(R::in_hall(&hall));
         let mut tap = Tapped(self.record.as_ref().map(Recording::begin::<R>).transpose()?);
         let mut activity_log = ActivityLog::new(const { &R::INFO });
-        let mut clock = SimClock::until(self.end()).with_step(STEP);
+        let mut clock = UntilStopped::ctrl_c(SimClock::until(self.end()).with_step(STEP))?;
         loop {
             let now = clock.now();
             activity_log.now = now;
@@ -187,8 +187,12 @@ impl Setup {
                 break;
             }
         }
-        hall.advance(self.end());
+        robot.stop();
         let recorded = tap.finish()?;
+        if clock.is_stopped() {
+            return Err(format!("stopped by a signal after {} of the run", clock.now()));
+        }
+        hall.advance(self.end());
         let (phases, failures) = activity_log.finish(self.end());
         let run_report = RunReport::of(self.seed, &hall, start, robot.knowledge_log(), phases);
         Ok(Outcome { run_report, failures, recorded })
