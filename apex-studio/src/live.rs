@@ -254,8 +254,12 @@ impl Live {
             Report::Refused { node, parameter, value } => {
                 self.problem(Some(node), format!("keeps its `{parameter}`: {value} is out of range"));
             }
-            Report::Waits(connection) => self.deadlock(connection),
-            Report::Stuck(connection) => self.stuck(connection),
+            Report::Waits(connection) => self.deadlock(connection, |event| {
+                format!("waits for the event `{event}`, which can no longer be triggered")
+            }),
+            Report::Stuck(connection) => self.deadlock(connection, |event| {
+                format!("never takes the token of `{event}`, which waits for one that waits for it")
+            }),
             Report::Endless(nodes) => {
                 let node = nodes.iter().max_by_key(|(_, count)| *count).map(|(node, _)| *node);
                 self.problem(node, "tokens cycle without time passing".to_owned());
@@ -340,22 +344,12 @@ impl Live {
         }
     }
 
-    fn stuck(&mut self, connection: u32) {
+    /// Notes that the node at the end of a connection stands still. `text` gets the name of the event.
+    fn deadlock(&mut self, connection: u32, text: fn(&str) -> String) {
         let Some(about) = self.about.clone() else { return };
         let Some(connection) = about.connections.get(connection as usize) else { return };
         let from = about.nodes.get(connection.from as usize).map_or("?", |node| &node.name);
-        let text =
-            format!("never takes the token of `{from}.{}`, which waits for one that waits for it", connection.output);
-        self.problem(Some(connection.to), text);
-    }
-
-    fn deadlock(&mut self, connection: u32) {
-        let Some(about) = self.about.clone() else { return };
-        let Some(connection) = about.connections.get(connection as usize) else { return };
-        let from = about.nodes.get(connection.from as usize).map_or("?", |node| &node.name);
-        let event = &connection.output;
-        let text = format!("waits for the event `{from}.{event}`, which can no longer be triggered");
-        self.problem(Some(connection.to), text);
+        self.problem(Some(connection.to), text(&format!("{from}.{}", connection.output)));
     }
 
     fn problem(&mut self, node: Option<u32>, mut text: String) {

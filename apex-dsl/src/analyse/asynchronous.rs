@@ -83,7 +83,7 @@ impl Asynchronous {
             sent_with_activity(graph, node).into_iter().for_each(|c| has_occupancy_bit[c] = true);
         }
         let delivery = if single { Delivery::Single } else { Delivery::Queued };
-        Self { live, slots, may_block, has_occupancy_bit, endless: is_endless(&causes), delivery, is_tabled, causes }
+        Self { live, slots, may_block, has_occupancy_bit, endless: has_circle(&causes), delivery, is_tabled, causes }
     }
 
     /// Switches to [`Delivery::Ordered`]. Connections to slots then need no bits.
@@ -254,23 +254,24 @@ pub fn by_process(signature: &Signature, graph: &Graph, from: PortId) -> bool {
     graph.port(from).kind == PortKind::Output || args.contains(&ArgSig::Port(from.port))
 }
 
-/// Returns `true` if a token can cause another one on its own connection while time does not advance.
-fn is_endless(causes: &IdVec<ConnectionId, Vec<ConnectionId>>) -> bool {
-    // A topological sort: connections that remain are on a cycle, or behind one.
-    let mut waits = IdVec::from_elem(0usize, causes.len());
-    causes.iter().flatten().for_each(|c| waits[*c] += 1);
-    let mut free: Vec<ConnectionId> = causes.ids().filter(|c| waits[*c] == 0).collect();
+/// Returns `true` if something leads to itself, directly or over others: for tokens and those that they cause, one can
+/// circulate while time does not advance.
+pub fn has_circle<I: From<usize> + Into<usize> + Copy>(next: &IdVec<I, Vec<I>>) -> bool {
+    // A topological sort: what remains is on a circle, or behind one.
+    let mut waits = IdVec::<I, usize>::from_elem(0, next.len());
+    next.iter().flatten().for_each(|to| waits[*to] += 1);
+    let mut free: Vec<I> = next.ids().filter(|from| waits[*from] == 0).collect();
     let mut seen = 0;
-    while let Some(index) = free.pop() {
+    while let Some(from) = free.pop() {
         seen += 1;
-        for &next in &causes[index] {
-            waits[next] -= 1;
-            if waits[next] == 0 {
-                free.push(next);
+        for &to in &next[from] {
+            waits[to] -= 1;
+            if waits[to] == 0 {
+                free.push(to);
             }
         }
     }
-    seen < causes.len()
+    seen < next.len()
 }
 
 /// Connections on which a token may be sent because of a token on `connection`.

@@ -4,11 +4,14 @@
 //! One step of the program (a firing, a token from outside, a timeout) is followed until its slot tokens are gone, for
 //! each event that a slot may trigger. Whether it does trigger it is not known: what is found is possible, not certain.
 
-use super::{Analysis, Delivery, Links, asynchronous::events, delivery::steps};
+use super::{
+    Analysis, Delivery, Links,
+    asynchronous::{events, has_circle},
+    delivery::steps,
+};
 use crate::{
     catalog::{ArgSig, Catalog},
     graph::{ConnectionId, Graph, NodeId, NodeKind},
-    index::IdVec,
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -142,19 +145,6 @@ fn by_port(graph: &Graph, connections: &[ConnectionId]) -> Vec<Vec<ConnectionId>
 
 /// Returns `true` if events lead from a node to slots of others and back.
 fn is_cyclic(graph: &Graph, links: &Links) -> bool {
-    let next = |node: NodeId| events(graph, links, node).map(|c| graph.connections[c].to.node);
-    let mut waits = IdVec::from_elem(0usize, graph.nodes.len());
-    graph.nodes.ids().flat_map(next).for_each(|node: NodeId| waits[node] += 1);
-    let mut free: Vec<NodeId> = graph.nodes.ids().filter(|node| waits[*node] == 0).collect();
-    let mut seen = 0;
-    while let Some(node) = free.pop() {
-        seen += 1;
-        for next in next(node) {
-            waits[next] -= 1;
-            if waits[next] == 0 {
-                free.push(next);
-            }
-        }
-    }
-    seen < graph.nodes.len()
+    let next = |node: NodeId| events(graph, links, node).map(|c| graph.connections[c].to.node).collect();
+    has_circle(&graph.nodes.ids().map(next).collect())
 }

@@ -50,9 +50,9 @@ pub struct Signature {
     pub on_deactivate: Option<String>,
     /// Method that is called when the program ends.
     pub on_stop: Option<String>,
-    /// For a state machine: the events that its `exit`s and `entry`s trigger, as arguments of the methods by which
-    /// `reset`, `cancel` and `resume` move it to another state.
-    pub moved: Option<Vec<ArgSig>>,
+    /// For a state machine: the numbers of the events that its `exit`s and `entry`s trigger, which are the arguments of
+    /// the methods by which `reset`, `cancel` and `resume` move it to another state.
+    pub moved: Option<Vec<usize>>,
     /// `true` if its tokens take activity away instead of passing it on.
     pub deactivates: bool,
     /// `true` if nothing in its tokens comes from outside of the program, also if it has no inputs.

@@ -35,8 +35,8 @@ pub fn search(model: &Model, checks: &Checks, bound: usize) -> Outcome {
     let mut visited = vec![Visited { state: initial, before: 0, by: Move::Start }];
     let mut runs: Vec<Option<Vec<Move>>> = vec![None; checks.count()];
     let (mut at, mut work, mut complete) = (0, 0, true);
-    // Each state with those that follow it, as far as a claim asks for ways.
-    let mut ways = checks.about_ways().next().map(|_| vec![]);
+    // Each state with one before it, if a claim asks for ways.
+    let (mut ways, keeps_ways) = (vec![], checks.about_ways().next().is_some());
     while at < visited.len() {
         let state = visited[at].state.clone();
         for claim in checks.broken(model, &state) {
@@ -66,12 +66,13 @@ pub fn search(model: &Model, checks: &Checks, bound: usize) -> Outcome {
                     visited.len() - 1
                 }
             };
-            ways.iter_mut().for_each(|ways| ways.push((number, at)));
+            if keeps_ways {
+                ways.push((number, at));
+            }
         });
         at += 1;
     }
     if complete {
-        let mut ways = ways.unwrap_or_default();
         ways.sort_unstable();
         for claim in checks.about_ways().filter(|claim| runs[*claim].is_none()).collect::<Vec<_>>() {
             let lost = first_lost(checks, claim, &visited, &ways);

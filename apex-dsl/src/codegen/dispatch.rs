@@ -9,7 +9,7 @@ use super::{
     types::ident,
 };
 use crate::{
-    analyse::{Delivery, Guard, MANY, at_start, blockers, may_get_stuck},
+    analyse::{Delivery, Guard, MANY, at_start, blockers},
     graph::{Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
 };
@@ -40,7 +40,7 @@ impl Generator<'_> {
             let kinds = slots + bits.dispatched().len();
             field("steps", quote!(::apex_rt::Steps<#kinds>), quote!(::apex_rt::Steps::new()));
         }
-        if may_get_stuck(view.graph, view.analysis) {
+        if view.wiring.may_get_stuck {
             field("stuck", quote!(usize), quote!(0));
         }
         if self.has_exit(view.graph) {
@@ -368,7 +368,7 @@ impl Generator<'_> {
 
     /// Tokens that wait for one another after a reaction are reported, once.
     fn stuck(&self, view: ProgramView<'_>) -> TokenStream {
-        if !may_get_stuck(view.graph, view.analysis) {
+        if !view.wiring.may_get_stuck {
             return quote!();
         }
         let asynchronous = &view.analysis.asynchronous;

@@ -7,7 +7,6 @@ use super::{
     wiring::Flag,
 };
 use crate::{
-    catalog::ArgSig,
     graph::{ConnectionId, Interrupt, NodeId, NodeKind, PortId, Standard},
     machine::Move,
 };
@@ -117,8 +116,7 @@ impl Generator<'_> {
     pub fn move_machine(&self, view: ProgramView<'_>, node: NodeId, how: Move) -> TokenStream {
         let NodeKind::Library(library) = &view.graph.nodes[node].kind else { return quote!() };
         let Some(moved) = &self.catalog.signatures[library.signature].moved else { return quote!() };
-        let ports = moved.iter().filter_map(|arg| if let ArgSig::Port(port) = arg { Some(*port) } else { None });
-        let events: Vec<TokenStream> = ports.map(|port| self.event(view, PortId { node, port })).collect();
+        let events = moved.iter().map(|port| self.event(view, PortId { node, port: *port }));
         let (place, method) = (self.node_place(view.graph, node), ident(how.method()));
         // Its other events may still be on their way.
         let comes = |end: PortId| view.graph.port(end).comes_with_moves;

@@ -6,7 +6,7 @@
 
 use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing, names::unused};
 use crate::{
-    analyse::{Analysis, ClusterId, Delivery, Guard, takes_activity},
+    analyse::{Analysis, ClusterId, Delivery, Guard, may_get_stuck, takes_activity},
     graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
     index::IdVec,
     syntax::tree::PortKind,
@@ -136,6 +136,8 @@ pub struct Wiring {
     pub silences: Vec<Silence>,
     /// Slots and timeouts are so many that tables serve them.
     pub is_tabled: bool,
+    /// Slot tokens may wait for one another forever, which the program then reports.
+    pub may_get_stuck: bool,
 }
 
 impl Wiring {
@@ -197,7 +199,8 @@ impl Wiring {
         });
         let silences = silences.collect();
         let is_tabled = analysis.asynchronous.is_tabled;
-        Self { bits, ports, slots, timers, clusters, timeouts, silences, is_tabled }
+        let may_get_stuck = may_get_stuck(graph, analysis);
+        Self { bits, ports, slots, timers, clusters, timeouts, silences, is_tabled, may_get_stuck }
     }
 
     /// The number of the silence of a guard.

@@ -166,7 +166,7 @@ impl Machine {
             computed: true,
             ports,
             slots,
-            moved: Some(self.moved().into_iter().map(ArgSig::Port).collect()),
+            moved: Some(self.moved()),
             ..Signature::default()
         }
     }

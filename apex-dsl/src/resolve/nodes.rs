@@ -8,7 +8,7 @@ use super::{
     types,
 };
 use crate::{
-    catalog::{ArgSig, Catalog, ParamSig, Signature, SignatureId, Type},
+    catalog::{Catalog, ParamSig, Signature, SignatureId, Type},
     graph::{Graph, Library, NodeId, NodeKind, Port, PortId, TypeArg, Value, Wire, WireEnd},
     machine::Machine,
     report::Diagnostic,
@@ -169,7 +169,7 @@ fn library_ports(signature: &Signature) -> Vec<Port> {
         element_of: p.any_number.then_some(i),
         parameter: None,
         standard: None,
-        comes_with_moves: signature.moved.as_ref().is_some_and(|moved| moved.contains(&ArgSig::Port(i))),
+        comes_with_moves: signature.moved.as_ref().is_some_and(|moved| moved.contains(&i)),
         docs: p.docs.clone(),
     });
     let params = signature.params.iter().enumerate().flat_map(|(i, p)| {

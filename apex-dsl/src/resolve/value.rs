@@ -186,7 +186,7 @@ fn arithmetic(operator: &str, (x, at_x): (Number, Span), (y, at_y): (Number, Spa
         return error("wrong-unit", span, "the exponents in the unit of this value are too large");
     };
     let exact = x.exact.zip(y.exact);
-    // What is no fraction, or too long for one, is rounded; whole numbers never are.
+    // A number that is not a fraction, or too long for one, is rounded; whole numbers never are.
     let result = |value: f64, exactly: fn(Fraction, Fraction) -> Option<Fraction>| {
         let is_whole = x.integer().is_some() && y.integer().is_some();
         match exact.and_then(|(a, b)| exactly(a, b)) {
