@@ -66,7 +66,7 @@ pub fn outages(seed: u64, kinds: usize, [start, end]: [Time; 2]) -> Vec<Outage> 
 /// Measures how long a robot moves in outages.
 #[derive(Debug, Clone)]
 pub struct MotionWatch {
-    promises: &'static [Promise],
+    promises: Vec<Promise>,
     outages: Vec<Outage>,
     /// Time since which the robot moves.
     since: Option<Time>,
@@ -76,9 +76,9 @@ pub struct MotionWatch {
 
 impl MotionWatch {
     /// Creates a watch for a run with these outages.
-    pub fn new(promises: &'static [Promise], outages: Vec<Outage>) -> Self {
+    pub fn new(promises: &[Promise], outages: Vec<Outage>) -> Self {
         let longest = vec![None; outages.len()];
-        Self { promises, outages, since: None, longest }
+        Self { promises: promises.to_vec(), outages, since: None, longest }
     }
 
     /// Notes the true velocity of the robot at a time.

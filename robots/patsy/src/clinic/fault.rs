@@ -69,15 +69,9 @@ impl FaultKind {
     ];
 
     /// Promises of the vehicle about each of [`OF_SENSORS`](Self::OF_SENSORS).
-    pub const PROMISES: [Promise; Self::OF_SENSORS.len()] = {
-        let mut promises = [Self::OF_SENSORS[0].promise(); Self::OF_SENSORS.len()];
-        let mut i = 1;
-        while i < promises.len() {
-            promises[i] = Self::OF_SENSORS[i].promise();
-            i += 1;
-        }
-        promises
-    };
+    pub fn promises() -> [Promise; Self::OF_SENSORS.len()] {
+        Self::OF_SENSORS.map(Self::promise)
+    }
 
     /// Promise of the vehicle without the sensor (`careful.afg`, `clinic.afg`). The stated times are those of the
     /// guards, that of their next firing, and 1 s in which the motors brake with 1 m/s² from 1 m/s.

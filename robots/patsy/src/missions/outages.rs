@@ -14,7 +14,7 @@ pub fn run_with_outages(options: &Options, duration: Duration) -> Result<MotionW
     let end = Time::ZERO + duration;
     let outages = outages(options.seed, FaultKind::OF_SENSORS.len(), [Time::ZERO, end]);
     let faults = outages.iter().map(fault_of).collect();
-    let mut watch = MotionWatch::new(&FaultKind::PROMISES, outages);
+    let mut watch = MotionWatch::new(&FaultKind::promises(), outages);
     let options = Options { faults, command_timeout: None, ..options.clone() };
     run_seen(&options, duration, None, |now, clinic| watch.see(now, &clinic.twist()))?;
     Ok(watch)

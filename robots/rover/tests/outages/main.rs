@@ -28,20 +28,10 @@ const fn promise(fault: Fault) -> Promise {
     Promise { fault: fault.name(), period: PERIOD, stops }
 }
 
-static PROMISES: [Promise; Fault::ALL.len()] = {
-    let mut promises = [promise(Fault::None); Fault::ALL.len()];
-    let mut i = 0;
-    while i < promises.len() {
-        promises[i] = promise(Fault::ALL[i]);
-        i += 1;
-    }
-    promises
-};
-
 /// Runs the robot with outages that the seed draws.
 fn run(seed: u64) -> MotionWatch {
-    let outages = outages(seed, PROMISES.len(), [Time::ZERO, END]);
-    let mut watch = MotionWatch::new(&PROMISES, outages.clone());
+    let outages = outages(seed, Fault::ALL.len(), [Time::ZERO, END]);
+    let mut watch = MotionWatch::new(&Fault::ALL.map(promise), outages.clone());
     let mut robot = Box::new(Failing::new());
     let (mut last, mut told, mut clock) = (None, Fault::None, SimClock::until(END));
     loop {

@@ -16,7 +16,7 @@ impl Outages {
     pub fn run(setup: &Setup, seed: u64) -> Result<MotionWatch, String> {
         let outages = outages(seed, FaultKind::ALL.len(), [START, setup.end()]);
         let faults = outages.iter().map(Self::fault).collect();
-        let mut watch = Self(MotionWatch::new(&FaultKind::PROMISES, outages));
+        let mut watch = Self(MotionWatch::new(&FaultKind::promises(), outages));
         Setup { seed, faults, keeps_twist: true, ..setup.clone() }.run(&mut watch, None)?;
         Ok(watch.0)
     }

@@ -114,15 +114,9 @@ impl FaultKind {
     }
 
     /// Promises of the robot about each of [`ALL`](Self::ALL).
-    pub const PROMISES: [Promise; Self::ALL.len()] = {
-        let mut promises = [Self::ALL[0].promise(); Self::ALL.len()];
-        let mut i = 1;
-        while i < promises.len() {
-            promises[i] = Self::ALL[i].promise();
-            i += 1;
-        }
-        promises
-    };
+    pub fn promises() -> [Promise; Self::ALL.len()] {
+        Self::ALL.map(Self::promise)
+    }
 
     /// Promise of the robot without the sensor (`safety.afg`). The stated times are those of the guards, that of their
     /// next firing, and 0.75 s in which the base brakes with 2 m/s² from 1.5 m/s.
