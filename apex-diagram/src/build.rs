@@ -186,6 +186,7 @@ impl<'a> Builder<'a> {
             }
             NodeKind::Start => Item::new(Shape::Start, "start"),
             NodeKind::Watchdog => Item::new(Shape::Event, "hung"),
+            NodeKind::SetBack => Item::new(Shape::Event, "set_back"),
             NodeKind::Exit(_) => Item::new(Shape::PortId, &node.name),
             NodeKind::Reset => Item::new(Shape::Reset, &node.name),
             _ => unreachable!("these are no members"),

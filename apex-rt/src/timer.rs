@@ -11,13 +11,15 @@ pub struct ProgramTime {
     last: Time,
     /// Program's time less the time of the reactions, in ns.
     ahead: i64,
+    /// Number of times that the time has gone back.
+    set_backs: u32,
 }
 
 impl ProgramTime {
     /// Returns the time before the first reaction.
     #[allow(clippy::new_without_default, reason = "made by generated code alone, in constants")]
     pub const fn new() -> Self {
-        Self { last: Time::from_nanos(i64::MIN), ahead: 0 }
+        Self { last: Time::from_nanos(i64::MIN), ahead: 0, set_backs: 0 }
     }
 
     /// Returns the program's time of a reaction at `now`. Reports a time that has gone back.
@@ -31,6 +33,7 @@ impl ProgramTime {
     fn set_back<O: Observer>(&mut self, own: Time, observer: &mut O) -> Time {
         let by = self.last.since(own);
         self.ahead = self.ahead.saturating_add(crate::time::nanos(by));
+        self.set_backs = self.set_backs.wrapping_add(1);
         observer.set_back(by);
         self.last
     }
@@ -39,6 +42,12 @@ impl ProgramTime {
     #[inline(always)]
     pub const fn last(&self) -> Time {
         self.last
+    }
+
+    /// Returns how often the time has gone back.
+    #[inline(always)]
+    pub const fn set_backs(&self) -> u32 {
+        self.set_backs
     }
 
     /// Begins the instant `at`.

@@ -7,7 +7,7 @@ mod recordings;
 use apex_nodes::{
     map::{Grid, Occupancy, OccupancyBuilder},
     scan::Point2,
-    slam::{Mapper, Pose, PoseGraph, Settings, selected_scans},
+    slam::{Mapper, Pose, PoseGraph, PosedScans, Settings, selected_scans},
 };
 use plotters::prelude::*;
 use recordings::{Recording, errors, fr079, intel, play};
@@ -80,11 +80,12 @@ fn run(name: &str, recording: &Recording) -> (Mapper, Vec<Pose>, Duration) {
 /// Prints the time to build the bounded map after few scans and after all, and the time of the slowest scan.
 fn time_of_map(mapper: &Mapper, slowest: Duration) {
     let (mut builder, mut map) = (OccupancyBuilder::default(), Grid::<Occupancy>::default());
+    let mut scans = PosedScans::default();
     let mut time = |count: usize| {
         let start = Instant::now();
-        let scans = selected_scans(count);
-        mapper.write_map(scans.clone(), Point2::default(), 0.05, &mut builder, &mut map).expect("a map of a building");
-        format!("{:.1?} from {} of {count} scans", start.elapsed(), scans.count())
+        mapper.write_scans(selected_scans(count), Point2::default(), &mut scans);
+        scans.draw(0.05, &mut builder, &mut map).expect("a map of a building");
+        format!("{:.1?} from {} of {count} scans", start.elapsed(), scans.len())
     };
     println!("    slowest scan {slowest:.1?}; maps: {}, {}", time(200), time(mapper.scans().len()));
 }
@@ -92,7 +93,9 @@ fn time_of_map(mapper: &Mapper, slowest: Duration) {
 /// Draws the map of all scans, and the path of the robot.
 fn draw(file: &Path, mapper: &Mapper, way: &[Pose]) -> Result<(), Box<dyn std::error::Error>> {
     let (mut builder, mut map) = (OccupancyBuilder::default(), Grid::<Occupancy>::default());
-    mapper.write_map(0..mapper.scans().len(), Point2::default(), 0.1, &mut builder, &mut map)?;
+    let mut scans = PosedScans::default();
+    mapper.write_scans(0..mapper.scans().len(), Point2::default(), &mut scans);
+    scans.draw(0.1, &mut builder, &mut map)?;
     let raster = *map.raster();
     if let Some(folder) = file.parent() {
         std::fs::create_dir_all(folder)?;

@@ -73,9 +73,21 @@ impl Brittle {
     }
 }
 
+/// Waits for two tokens.
+#[node]
+#[derive(Default)]
+pub struct Meet;
+
+#[node]
+impl Meet {
+    fn process(&mut self, ctx: &Ctx, _one: &(), _other: &f64) {
+        note('m', ctx);
+    }
+}
+
 graph! {
-    use apex_nodes::flow::{Relay, Wait, tick};
-    use crate::late::{Brittle, Diary, Motor};
+    use apex_nodes::flow::{Relay, Wait, constant, tick};
+    use crate::late::{Brittle, Diary, Meet, Motor};
 
     /// Timers and timeouts of several periods, and tokens from outside.
     graph Busy {
@@ -99,6 +111,31 @@ graph! {
         work.timeout  -> Diary(name = "w");
         late.timeout  -> Diary(name = "a");
         rest.timeout  -> Diary(name = "r");
+    }
+
+    /// What is done when the time goes back.
+    graph Told {
+        set_back -> Diary(name = "b");
+    }
+
+    graph Looped {
+        node told = Told();
+    }
+
+    /// The same, on another thread, and in a nested graph.
+    graph LoopedFar {
+        node told = Told() on motors;
+        set_back -> Diary(name = "a");
+        tick() every 50ms -> Diary(name = "t");
+    }
+
+    /// The event leads to a slot that has to wait for a source.
+    graph LoopedSlowly {
+        node relay = Relay();
+        node pair  = Meet();
+        set_back                     -> relay.put;
+        relay.signal                 -> pair.one;
+        constant(value = 1.0) after 1s -> pair.other;
     }
 
     /// A late source that skips, beside one that does not.
@@ -283,6 +320,30 @@ fn a_time_that_goes_back_is_reported_and_the_programs_own_time_goes_on() {
     }
     assert_eq!(seen.0.len(), 1, "it is said once");
     assert_eq!(entries(), [('v', 0), ('v', 100), ('v', 200), ('v', 300), ('v', 400)]);
+}
+
+#[test]
+fn an_event_says_that_the_time_has_gone_back() {
+    let mut program = Looped::new();
+    for ms in [10, 20, 20, 0, 10, 5, 30] {
+        program.react(Time::from_millis(ms));
+    }
+    assert_eq!(entries(), [('b', 20), ('b', 30)], "in the program's own time");
+
+    let mut program = LoopedFar::new();
+    for ms in [0, 50, 0, 50] {
+        program.react(Time::from_millis(ms));
+    }
+    assert_eq!(entries(), [('t', 0), ('t', 50), ('a', 50), ('b', 50), ('t', 100)]);
+
+    // It is not forgotten while its slot waits; several times count as one.
+    let mut program = LoopedSlowly::new();
+    for ms in [500, 400, 300, 200, 100, 90] {
+        program.react(Time::from_millis(ms));
+    }
+    assert_eq!(entries(), []);
+    program.react(Time::from_millis(600));
+    assert_eq!(entries(), [('m', 1000)]);
 }
 
 #[test]

@@ -231,7 +231,7 @@ fn is_single(
         let c = &graph.connections[index];
         match &graph.nodes[c.from.node].kind {
             NodeKind::Start => at_start += 1,
-            NodeKind::Boundary(PortKind::Slot) | NodeKind::Receiver(_) => {}
+            NodeKind::Boundary(PortKind::Slot) | NodeKind::Receiver(_) | NodeKind::SetBack => {}
             NodeKind::Library(library) if !by_process(&catalog.signatures[library.signature], graph, c.from) => {}
             _ => *by_region.entry(regions[c.from.node]).or_default() += 1,
         }

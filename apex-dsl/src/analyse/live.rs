@@ -83,7 +83,7 @@ fn begins(graph: &Graph, from: PortId) -> bool {
     let node = &graph.nodes[from.node];
     let by_itself = match node.kind {
         NodeKind::Boundary(kind) => matches!(kind, PortKind::Input | PortKind::Slot),
-        NodeKind::Start | NodeKind::Watchdog | NodeKind::Delay(_) | NodeKind::Receiver(_) => true,
+        NodeKind::Start | NodeKind::Watchdog | NodeKind::SetBack | NodeKind::Delay(_) | NodeKind::Receiver(_) => true,
         _ => false,
     };
     by_itself || graph.port(from).tells_of_activity() || graph.port(from).standard == Some(Standard::Timeout)

@@ -249,6 +249,7 @@ pub fn may_be_missing(graph: &Graph, catalog: &Catalog, from: PortId) -> bool {
         NodeKind::Receiver(_) => graph.port(from).optional,
         NodeKind::Start
         | NodeKind::Watchdog
+        | NodeKind::SetBack
         | NodeKind::Exit(_)
         | NodeKind::Reset
         | NodeKind::Interrupt(_)
@@ -288,6 +289,7 @@ pub fn fires(graph: &Graph, catalog: &Catalog, links: &Links, node: NodeId) -> b
         NodeKind::Probe => !links.inputs[node].is_empty(),
         NodeKind::Start
         | NodeKind::Watchdog
+        | NodeKind::SetBack
         | NodeKind::Exit(_)
         | NodeKind::Reset
         | NodeKind::Interrupt(_)

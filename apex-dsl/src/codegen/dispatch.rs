@@ -59,6 +59,9 @@ impl Generator<'_> {
             let name = Self::holding(cell).to_string();
             field(&name, quote!(bool), quote!(false));
         }
+        for node in view.graph.nodes.ids().filter(|node| matches!(view.graph.nodes[*node].kind, NodeKind::SetBack)) {
+            field(&Self::set_backs(node).to_string(), quote!(u32), quote!(0));
+        }
         fields
     }
 
@@ -417,6 +420,7 @@ impl Generator<'_> {
                 NodeKind::Boundary(_) if slots == [id] => raises.always(self.enter(view, id)),
                 NodeKind::Sender(far) => raises.always(self.send_far(view, id, far)),
                 NodeKind::Receiver(far) => raises.always(self.receive_far(view, id, far)),
+                NodeKind::SetBack => raises.always(self.goes_back(view, id)),
                 _ => {}
             }
         }

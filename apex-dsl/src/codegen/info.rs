@@ -129,6 +129,7 @@ impl Generator<'_> {
             NodeKind::Probe => "probe",
             NodeKind::Start => "start",
             NodeKind::Watchdog => "hung",
+            NodeKind::SetBack => "set_back",
             NodeKind::Exit(_) => "exit",
             NodeKind::Reset => "reset",
             NodeKind::Interrupt(_) => "cancel",

@@ -98,8 +98,11 @@ const OWN: [&str; 71] = [
     "wake", "woken",
 ];
 /// Beginnings of names that the generated code itself uses.
-const OWN_PREFIXES: [&str; 10] =
-    ["param_", "token_", "claim_", "stamp_", "recorded_", "result_", "cell_", "holding_", "sender_", "receiver_"];
+#[rustfmt::skip]
+const OWN_PREFIXES: [&str; 11] = [
+    "param_", "token_", "claim_", "stamp_", "recorded_", "result_", "cell_", "holding_", "sender_", "receiver_",
+    "set_backs_",
+];
 
 /// The name of a local, which no name that the generated code itself uses hides.
 fn local(mut name: String, used: &mut BTreeSet<String>) -> String {

@@ -13,7 +13,7 @@ use super::{
 use crate::{
     analyse::{Analysis, ClusterId, is_source, silence_parameter},
     catalog::ArgSig,
-    graph::{ConnectionId, Graph, Node, NodeId, NodeKind, Standard},
+    graph::{ConnectionId, Graph, Node, NodeId, NodeKind, PortId, Standard},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -106,7 +106,8 @@ impl Generator<'_> {
             NodeKind::Each(_) => true,
             _ => false,
         };
-        Self::has_instants(view) || view.graph.nodes.iter().any(is_told)
+        let goes_back = |node: &Node| matches!(node.kind, NodeKind::SetBack);
+        Self::has_instants(view) || view.graph.nodes.iter().any(|node| is_told(node) || goes_back(node))
     }
 
     /// The next instant of a reaction: the earliest time after the last instant at which something is due, else `now`.
@@ -240,6 +241,30 @@ impl Generator<'_> {
             quote! { if self.state.timers[#index].is_due(at) { self.state.dispatcher.raise(#bit); } }
         });
         looks.collect()
+    }
+
+    /// The time has gone back since the event of `node` was last triggered.
+    pub fn goes_back(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let (name, told) = (self.name(PortId { node, port: 0 }), Self::set_backs(node));
+        let sends = &view.links.sends[node];
+        let free: Vec<usize> = sends.iter().filter_map(|c| view.wiring.bits.free(*c)).collect();
+        let test = self.allows(view, &free);
+        let (emit, serve) = (self.emit(view, node, false), self.deliver(view, sends));
+        quote! {
+            if self.state.#told != self.state.time.set_backs() #test {
+                let Self { state, .. } = self;
+                state.#told = state.time.set_backs();
+                state.#name = Some(());
+                #emit
+                #serve
+                quiet = false;
+            }
+        }
+    }
+
+    /// Field with the number of times that the time had gone back when the event of `node` was triggered.
+    pub fn set_backs(node: NodeId) -> Ident {
+        format_ident!("set_backs_{}", node.index())
     }
 
     /// When a program wants to be called because of its timers.

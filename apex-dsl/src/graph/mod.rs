@@ -311,6 +311,9 @@ impl Graph {
         if matches!(self.nodes[node].kind, NodeKind::Watchdog) {
             return WATCH_GROUP;
         }
+        if matches!(self.nodes[node].kind, NodeKind::SetBack) {
+            return MAIN_GROUP;
+        }
         let own = self.nodes[node].modifiers.group.as_deref();
         let around = || self.scopes_of(node).into_iter().find_map(|scope| self.scopes[scope].group.as_deref());
         own.or_else(around).unwrap_or(MAIN_GROUP)

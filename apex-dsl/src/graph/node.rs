@@ -49,6 +49,8 @@ pub enum NodeKind {
     Probe,
     /// An event of the watchdog, outside all threads: a node has been running for too long.
     Watchdog,
+    /// An event of the main thread group: the time of the reactions has gone back.
+    SetBack,
     /// A slot of the program that ends it with this code.
     Exit(u8),
     /// A slot of the program that takes all activity away and triggers `start` again.

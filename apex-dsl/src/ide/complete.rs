@@ -175,8 +175,8 @@ impl Completer<'_> {
         for (i, node) in item.nodes.iter().enumerate() {
             found.extend(self.node(id, i, &node.name.text, named, types.as_deref()));
         }
-        let slots =
-            words_at(KeywordPosition::Node).filter(|w| matches!(w.text, "start" | "hung") == (named == Named::Sends));
+        let slots = words_at(KeywordPosition::Node)
+            .filter(|w| matches!(w.text, "start" | "hung" | "set_back") == (named == Named::Sends));
         let own =
             slots.filter(|_| named != Named::Node).map(|w| Completion::new(w.text, CompletionKind::Name, "", w.docs));
         found.into_iter().chain(own).collect()

@@ -391,6 +391,7 @@ pub fn has_process(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
         NodeKind::Probe => graph.nodes[node].ports.iter().any(|p| p.kind == PortKind::Input),
         NodeKind::Start
         | NodeKind::Watchdog
+        | NodeKind::SetBack
         | NodeKind::Exit(_)
         | NodeKind::Reset
         | NodeKind::Interrupt(_)

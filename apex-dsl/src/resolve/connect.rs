@@ -442,6 +442,7 @@ impl Builder<'_> {
                 }
                 NodeKind::Start => format!("{name} is where activity begins; every graph has it"),
                 NodeKind::Watchdog => format!("{name} is the event that reports a hanging node; every graph has it"),
+                NodeKind::SetBack => format!("{name} is the event that the time has gone back; every graph has it"),
                 _ => format!("{name} is a port of this graph"),
             },
             WireEnd::Pin(pin) => format!("{name} is a port of the graph `{}`", self.scopes[self.pins[pin].scope].graph),

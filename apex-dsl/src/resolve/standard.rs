@@ -16,6 +16,7 @@ pub fn own_node(name: &str) -> Option<NodeKind> {
     match name {
         "start" => Some(NodeKind::Start),
         "hung" => Some(NodeKind::Watchdog),
+        "set_back" => Some(NodeKind::SetBack),
         "reset" => Some(NodeKind::Reset),
         "exit" => Some(NodeKind::Exit(0)),
         "abort" => Some(NodeKind::Exit(1)),
@@ -24,7 +25,12 @@ pub fn own_node(name: &str) -> Option<NodeKind> {
 }
 
 fn own(kind: &NodeKind) -> bool {
-    matches!(kind, NodeKind::Start | NodeKind::Watchdog | NodeKind::Reset | NodeKind::Exit(_))
+    sends(kind) || matches!(kind, NodeKind::Reset | NodeKind::Exit(_))
+}
+
+/// Returns `true` if the predefined node is an event.
+fn sends(kind: &NodeKind) -> bool {
+    matches!(kind, NodeKind::Start | NodeKind::Watchdog | NodeKind::SetBack)
 }
 
 impl Builder<'_> {
@@ -34,8 +40,7 @@ impl Builder<'_> {
         match made {
             Some(node) => Some(node),
             None => {
-                let side =
-                    if matches!(kind, NodeKind::Start | NodeKind::Watchdog) { PortKind::Event } else { PortKind::Slot };
+                let side = if sends(&kind) { PortKind::Event } else { PortKind::Slot };
                 let ty = if side == PortKind::Event { Type::unit() } else { Type::Unknown("any type".to_owned()) };
                 self.node(name, body.scope, kind, vec![Port::new(&name.text, side, ty)], "")
             }

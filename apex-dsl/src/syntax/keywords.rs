@@ -42,7 +42,7 @@ const fn keyword(text: &'static str, position: KeywordPosition, docs: &'static s
 }
 
 /// All keywords. A keyword with several positions has several entries.
-pub const KEYWORDS: [Keyword; 64] = [
+pub const KEYWORDS: [Keyword; 65] = [
     keyword(
         "use",
         KeywordPosition::Item,
@@ -179,6 +179,11 @@ pub const KEYWORDS: [Keyword; 64] = [
         "hung",
         KeywordPosition::Node,
         "An event: triggered when a node has been running for longer than the `hang` of its thread.",
+    ),
+    keyword(
+        "set_back",
+        KeywordPosition::Node,
+        "An event: triggered when the time has gone back, as when a recording is looped.",
     ),
     keyword("reset", KeywordPosition::Node, "A slot that deactivates all nodes and triggers `start` again."),
     keyword("exit", KeywordPosition::Node, "A slot that ends the program with code 0."),

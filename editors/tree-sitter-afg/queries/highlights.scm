@@ -59,4 +59,4 @@
 (claim kind: (identifier) @function.builtin)
 
 ((reference . (identifier) @variable.builtin .)
-  (#any-of? @variable.builtin "start" "hung" "reset" "exit" "abort"))
+  (#any-of? @variable.builtin "start" "hung" "set_back" "reset" "exit" "abort"))

@@ -3,6 +3,7 @@ use crate::{
     map::{Grid, Occupancy, OccupancyBuilder, Raster, TooManyCells},
     scan::Point2,
 };
+use apex_rt::{Out, node};
 
 /// Margin of a map around its contents, in m.
 const MARGIN: f32 = 0.5;
@@ -25,36 +26,102 @@ pub fn selected_scans(count: usize) -> impl Iterator<Item = usize> + Clone {
     sparse.chain(middle).chain(count.saturating_sub(100)..count)
 }
 
-impl Mapper {
-    /// Builds a map of some of the kept scans, with cells of `resolution` m. `scanner` is the position of the scanner
-    /// in the frame of the robot. The frame of the map is that of [`locate`](Self::locate).
+/// Scans at known poses, of which a map can be drawn: their points and the positions of the scanner, in m, in the frame
+/// of the map.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PosedScans {
+    /// Position of the scanner, and number of points up to the end of the scan.
+    scans: Vec<(Point2, usize)>,
+    points: Vec<Point2>,
+}
+
+impl PosedScans {
+    /// Removes all scans.
+    pub fn clear(&mut self) {
+        self.scans.clear();
+        self.points.clear();
+    }
+
+    /// Adds the scan of a scanner at `scanner` by its points, all in the frame of the robot, which is at `pose`.
+    pub fn push(&mut self, pose: &Pose, scanner: Point2, points: &[Point2]) {
+        self.points.extend(points.iter().map(|p| place(pose, *p)));
+        self.scans.push((place(pose, scanner), self.points.len()));
+    }
+
+    /// Number of scans.
+    pub fn len(&self) -> usize {
+        self.scans.len()
+    }
+
+    /// Returns `true` if there are no scans.
+    pub fn is_empty(&self) -> bool {
+        self.scans.is_empty()
+    }
+
+    /// Positions of the scanner, each with the points of its scan.
+    pub fn iter(&self) -> impl Iterator<Item = (Point2, &[Point2])> {
+        let begins = std::iter::once(0).chain(self.scans.iter().map(|(_, end)| *end));
+        self.scans.iter().zip(begins).map(|((scanner, end), begin)| (*scanner, &self.points[begin..*end]))
+    }
+
+    /// Draws a map with cells of `resolution` m.
     ///
     /// If the rays would traverse too many cells, only every second ray is drawn, or every third, and so on: the time
-    /// to build a map is bounded for any resolution.
+    /// to draw a map is bounded for any resolution.
     ///
     /// # Errors
     /// If the map would have too many cells. Nothing is written then.
-    pub fn write_map(
+    pub fn draw(
         &self,
-        scans: impl Iterator<Item = usize> + Clone,
-        scanner: Point2,
         resolution: f32,
         builder: &mut OccupancyBuilder,
         map: &mut Grid<Occupancy>,
     ) -> Result<(), TooManyCells> {
-        let known = scans.filter_map(|k| Some((self.graph().poses().get(k)?, self.scans().get(k)?)));
-        let points = known
-            .clone()
-            .flat_map(|(pose, points)| points.iter().copied().chain([scanner]).map(move |p| place(pose, p)));
-        builder.reset(Raster::around(points, MARGIN, resolution))?;
-        let way = known.clone().flat_map(|(_, points)| points).map(|to| (*to - scanner).norm()).sum::<f32>();
-        let every = thinned(way / resolution);
-        for (pose, points) in known {
-            let from = place(pose, scanner);
-            points.iter().step_by(every).for_each(|to| builder.add(from, place(pose, *to)));
+        let scanners = self.scans.iter().map(|(scanner, _)| *scanner);
+        builder.reset(Raster::around(self.points.iter().copied().chain(scanners), MARGIN, resolution))?;
+        let length = |(from, points): (Point2, &[Point2])| points.iter().map(|to| (*to - from).norm()).sum::<f32>();
+        let every = thinned(self.iter().map(length).sum::<f32>() / resolution);
+        for (from, points) in self.iter() {
+            points.iter().step_by(every).for_each(|to| builder.add(from, *to));
         }
         builder.write(map);
         Ok(())
+    }
+}
+
+impl Mapper {
+    /// Writes some of the kept scans at their present poses. `scanner` is the position of the scanner in the frame of
+    /// the robot. The frame of the map is that of [`locate`](Self::locate).
+    pub fn write_scans(&self, scans: impl Iterator<Item = usize>, scanner: Point2, posed: &mut PosedScans) {
+        posed.clear();
+        for (pose, points) in scans.filter_map(|k| Some((self.graph().poses().get(k)?, self.scans().get(k)?))) {
+            posed.push(pose, scanner, points);
+        }
+    }
+}
+
+/// Draws an occupancy grid of scans at known poses, in which the rays of all scans are counted, like Karto.
+///
+/// This takes tens of milliseconds: put the node on a thread of its own (`on`), behind a slot such as that of `Latest`.
+///
+/// Fails if the map would have too many cells.
+#[node]
+#[derive(Debug)]
+pub struct DrawScans {
+    /// Side of a cell.
+    #[param(unit = "m", default = 0.05, range = 0.01..=1.0)]
+    resolution: f32,
+    builder: OccupancyBuilder,
+}
+
+#[node]
+impl DrawScans {
+    fn process(&mut self, scans: &PosedScans, map: &mut Out<Grid<Occupancy>>) -> Result<(), TooManyCells> {
+        let written = scans.draw(self.resolution, &mut self.builder, map.get_mut());
+        if written.is_err() {
+            map.clear();
+        }
+        written
     }
 }
 

@@ -12,7 +12,7 @@ mod sparse;
 mod table;
 
 pub use graph::{Edge, NoSuchPose, Optimized, PoseGraph};
-pub use map::selected_scans;
+pub use map::{DrawScans, PosedScans, selected_scans};
 pub use mapper::{Mapper, Settings};
 pub use matcher::Window;
 pub use node::GraphSlam;

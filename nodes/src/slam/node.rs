@@ -1,23 +1,20 @@
-use super::{Mapper, Pose, Settings, Window, heading, pose, selected_scans};
-use crate::{
-    map::{Grid, Occupancy, OccupancyBuilder, TooManyCells},
-    scan::{Pose2, Scan},
-};
+use super::{Mapper, Pose, PosedScans, Settings, Window, heading, pose, selected_scans};
+use crate::scan::{Pose2, Scan};
 use apex_rt::{Out, node};
 use core::f32::consts::PI;
 
-/// Simultaneous localization and mapping with a pose graph, in the manner of Karto, with bounded map building (thesis
-/// 4.3.5; see [`Mapper`] and [`selected_scans`]).
+/// Simultaneous localization and mapping with a pose graph, in the manner of Karto, with a bounded number of scans for
+/// the map (thesis 4.3.5; see [`Mapper`] and [`selected_scans`]).
 ///
 /// `odometry` is the pose of the robot at the time of the scan, in any frame without jumps. `pose` is the corrected
-/// pose in the frame of the map, which is that of odometry at the first scan; it is sent for every scan. `map` is sent
-/// for the first kept scan and then for every `map_every`-th one; otherwise it is ⊥. If odometry is not a number or
-/// more than 1000 km away, both outputs are ⊥ and the scan is not used.
+/// pose in the frame of the map, which is that of odometry at the first scan; it is sent for every scan. `scans` are those
+/// of which [`DrawScans`] draws the map, at their corrected poses; they are sent for the first kept scan and then for
+/// every `map_every`-th one, otherwise ⊥. If odometry is not a number or more than 1000 km away, both outputs are ⊥ and
+/// the scan is not used.
 ///
 /// Scans should show stationary objects only: remove other robots with [`ShortSegmentFilter`].
 ///
-/// Fails if the map would have too many cells, and then continues without this map.
-///
+/// [`DrawScans`]: super::DrawScans
 /// [`ShortSegmentFilter`]: crate::scan::ShortSegmentFilter
 #[node]
 #[derive(Debug)]
@@ -62,26 +59,16 @@ pub struct GraphSlam {
     /// Minimum response that closes a loop: 1 if all points of a scan are where earlier scans have points.
     #[param(default = 0.6, range = 0.0..=1.0)]
     loop_response: f32,
-    /// Side of a cell of the map.
-    #[param(unit = "m", default = 0.05, range = 0.01..=1.0)]
-    resolution: f32,
     /// Number of kept scans per map.
     #[param(default = 5, range = 1..=1000)]
     map_every: u32,
     mapper: Option<Mapper>,
-    builder: OccupancyBuilder,
 }
 
 #[node]
 impl GraphSlam {
-    fn process(
-        &mut self,
-        odometry: &Pose2,
-        scan: &Scan,
-        pose: &mut Out<Pose2>,
-        map: &mut Out<Grid<Occupancy>>,
-    ) -> Result<(), TooManyCells> {
-        let Some(odometry) = usable(odometry) else { return Ok(()) };
+    fn process(&mut self, odometry: &Pose2, scan: &Scan, pose: &mut Out<Pose2>, scans: &mut Out<PosedScans>) {
+        let Some(odometry) = usable(odometry) else { return };
         let settings = self.settings();
         let mapper = self.mapper.get_or_insert_with(|| Mapper::new(settings));
         let due = mapper.is_due(&odometry);
@@ -93,14 +80,8 @@ impl GraphSlam {
         pose.set(Pose2::new(here.translation.x as f32, here.translation.y as f32, heading(&here) as f32));
         let count = mapper.scans().len();
         if due && (count - 1).is_multiple_of(self.map_every.max(1) as usize) {
-            let scans = selected_scans(count);
-            let written = mapper.write_map(scans, mount.position(), self.resolution, &mut self.builder, map.get_mut());
-            if written.is_err() {
-                map.clear();
-            }
-            return written;
+            mapper.write_scans(selected_scans(count), mount.position(), scans.get_mut());
         }
-        Ok(())
     }
 
     /// Discards map and poses, and begins a new map at the next odometry.
@@ -133,14 +114,17 @@ fn usable(odometry: &Pose2) -> Option<Pose> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scan::Point2;
+    use crate::{
+        map::{Grid, Occupancy, OccupancyBuilder},
+        scan::Point2,
+    };
     use apex_rt::Construct;
 
     const MOUNT: Pose2 = Pose2::new(0.2, 0.0, 0.1);
 
     fn node(map_every: u32) -> GraphSlam {
         let Pose2 { x, y, theta } = MOUNT;
-        GraphSlam::construct((x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.06, 20, 0.04, 4.0, 0.6, 0.1, map_every))
+        GraphSlam::construct((x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.06, 20, 0.04, 4.0, 0.6, map_every))
     }
 
     /// A scan of a room of 8 m × 6 m with its centre at the origin, and with a pillar in it.
@@ -161,20 +145,27 @@ mod tests {
         scan
     }
 
+    fn drawn(scans: &PosedScans) -> Grid<Occupancy> {
+        let mut map = Grid::default();
+        scans.draw(0.1, &mut OccupancyBuilder::default(), &mut map).expect("a map of a room");
+        map
+    }
+
     /// Drives rounds in the room with odometry that turns too little. Returns the largest errors in m of the corrected
-    /// pose and of odometry, and the maps that were sent.
+    /// pose and of odometry, and the maps of the
+    /// sent scans.
     fn drive(node: &mut GraphSlam, steps: usize) -> (f32, f32, Vec<Grid<Occupancy>>) {
         let step = Pose2::new(0.1, 0.0, 0.05);
         let start = Pose2::new(0.0, -2.0, 0.0);
         let (mut truth, mut odometry) = (start, start);
         let (mut worst, mut off, mut maps) = (0.0_f32, 0.0_f32, Vec::new());
         for _ in 0..steps {
-            let (mut pose, mut map) = (Out::new(), Out::new());
-            node.process(&odometry, &scan(&truth), &mut pose, &mut map).expect("a map of a room");
+            let (mut pose, mut scans) = (Out::new(), Out::new());
+            node.process(&odometry, &scan(&truth), &mut pose, &mut scans);
             let estimate = pose.get().expect("a pose");
             worst = worst.max((estimate.position() - truth.position()).norm());
             off = off.max((odometry.position() - truth.position()).norm());
-            maps.extend(map.get().cloned());
+            maps.extend(scans.get().map(drawn));
             truth = truth.compose(&step);
             odometry = odometry.compose(&Pose2::new(0.1, 0.0, 0.045));
         }
@@ -204,10 +195,10 @@ mod tests {
     #[test]
     fn what_is_no_number_is_no_pose() {
         let mut node = node(1);
-        let (mut pose, mut map) = (Out::new(), Out::new());
+        let (mut pose, mut scans) = (Out::new(), Out::new());
         for x in [f32::NAN, f32::INFINITY, 1e30] {
-            node.process(&Pose2::new(x, 0.0, 0.0), &Scan::default(), &mut pose, &mut map).expect("nothing");
-            assert!(pose.get().is_none() && map.get().is_none());
+            node.process(&Pose2::new(x, 0.0, 0.0), &Scan::default(), &mut pose, &mut scans);
+            assert!(pose.get().is_none() && scans.get().is_none());
         }
         for x in [0.0, 0.5, 1e6, -1e6] {
             let odd = Scan {
@@ -215,12 +206,12 @@ mod tests {
                 ranges: [1.0, 1e30, f32::NAN].into_iter().collect(),
                 ..Scan::default()
             };
-            let _ = node.process(&Pose2::new(x, 0.0, 0.0), &Scan::default(), &mut pose, &mut map);
-            let _ = node.process(&Pose2::new(x, 1.0, 0.0), &odd, &mut pose, &mut map);
+            node.process(&Pose2::new(x, 0.0, 0.0), &Scan::default(), &mut pose, &mut scans);
+            node.process(&Pose2::new(x, 1.0, 0.0), &odd, &mut pose, &mut scans);
             assert!(pose.get().is_some());
         }
         node.reset();
-        node.process(&Pose2::new(5.0, 0.0, 0.0), &Scan::default(), &mut pose, &mut map).expect("a map");
+        node.process(&Pose2::new(5.0, 0.0, 0.0), &Scan::default(), &mut pose, &mut scans);
         assert_eq!(pose.get(), Some(&Pose2::new(5.0, 0.0, 0.0)), "a new map begins where odometry is");
     }
 }

@@ -72,6 +72,7 @@ pub const HARD: &[&str] = &[
     "exit",
     "abort",
     "hung",
+    "set_back",
     "every",
     "after",
     "timeout",

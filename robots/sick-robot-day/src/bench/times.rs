@@ -9,12 +9,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Map building counts as a part of its own: the localization in those reactions in which this node, which takes maps,
-/// fires.
-const TAKES_MAPS: &str = "surroundings.find.search";
-const LOCALIZES: &str = "surroundings / localize";
-const MAKES_MAPS: &str = "surroundings / localize, with a map";
-
 /// Length of the intervals at the beginning and the end of a run that are compared.
 const MINUTE: Duration = Duration::from_secs(60);
 
@@ -26,14 +20,13 @@ const LEAST_SHARE: f64 = 0.0005;
 pub struct Times {
     info: &'static Info,
     parts: Parts,
-    /// Statistics by part; the last one is that of map building.
+    /// Statistics by part.
     rows: Vec<Row>,
     end: Time,
     /// Calls in progress: the innermost one is last.
     running: Vec<Running>,
     /// Time by part in this reaction, or `None` if no node of the part was called.
     spent: Vec<Option<Duration>>,
-    map_taken: bool,
 }
 
 #[derive(Debug)]
@@ -65,10 +58,9 @@ impl Times {
     /// Creates the statistics of a robot in a run that ends at `end`.
     pub fn new(info: &'static Info, end: Time) -> Self {
         let parts = Parts::new(info);
-        let names = parts.names().iter().map(String::as_str).chain([MAKES_MAPS]);
-        let rows: Vec<Row> = names.map(Row::new).collect();
+        let rows: Vec<Row> = parts.names().iter().map(|name| Row::new(name)).collect();
         let spent = vec![None; rows.len()];
-        Self { info, parts, rows, end, running: vec![], spent, map_taken: false }
+        Self { info, parts, rows, end, running: vec![], spent }
     }
 
     /// Adds the measurements of another run of the same robot.
@@ -81,7 +73,6 @@ impl Times {
     }
 
     fn begin(&mut self, node: usize) {
-        self.map_taken |= self.info.nodes[node].name == TAKES_MAPS;
         self.running.push(Running { node, since: Instant::now(), inner: Duration::ZERO });
     }
 }
@@ -105,14 +96,11 @@ impl Watch for Times {
     }
 
     fn reacted(&mut self, moment: &StepView<'_>) {
-        let with_map = std::mem::take(&mut self.map_taken);
-        for part in 0..self.spent.len() {
-            let Some(took) = self.spent[part].take() else { continue };
-            let makes_map = with_map && self.rows[part].name == LOCALIZES;
-            let row = if makes_map { self.rows.len() - 1 } else { part };
+        for (row, spent) in self.rows.iter_mut().zip(&mut self.spent) {
+            let Some(took) = spent.take() else { continue };
             let in_first = moment.now < START + MINUTE;
             let in_last = moment.now + MINUTE >= self.end;
-            self.rows[row].count(took, in_first, in_last);
+            row.count(took, in_first, in_last);
         }
     }
 }
