@@ -3,7 +3,10 @@
 use apex_signature::{self as signature, Arg, Callable, Form, METHOD_MARKS, ParamDecl};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
-use syn::{Expr, FnArg, Generics, ImplItem, Item, ItemFn, ItemImpl, ItemStruct, Type, TypeParamBound, Visibility};
+use syn::{
+    Expr, FnArg, Generics, ImplItem, Item, ItemFn, ItemImpl, ItemStruct, Type, TypeParamBound, Visibility,
+    spanned::Spanned as _,
+};
 
 /// Expands `#[node]` on a function, a struct or an `impl`.
 pub fn expand(args: TokenStream, item: TokenStream) -> syn::Result<TokenStream> {
@@ -24,6 +27,7 @@ pub fn expand(args: TokenStream, item: TokenStream) -> syn::Result<TokenStream> 
 /// Expands a function. It keeps its name; a type of the same name has the types of its ports.
 fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let callable = signature::function(&item)?;
+    ask_for_text(&item.sig, &mut item.block);
     remove_marks(&mut item.sig, &["param", signature::FAILURE, signature::UNIT]);
     item.attrs.retain(|a| ![signature::UNIT, signature::COMPUTED].iter().any(|mark| a.path().is_ident(mark)));
     let (vis, name, generics) = (&item.vis, &item.sig.ident, &signature::generics(&item, &callable));
@@ -51,6 +55,13 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
         #events
         #params
     })
+}
+
+/// Lets rustc say at the type of a node's error that it has no text.
+fn ask_for_text(function: &syn::Signature, body: &mut syn::Block) {
+    if let Some(error) = signature::error_type(&function.output) {
+        body.stmts.insert(0, syn::parse_quote_spanned!(error.span()=> const { ::apex_rt::explains::<#error>() };));
+    }
 }
 
 /// Removes attributes of arguments that only `#[node]` knows.
@@ -150,6 +161,7 @@ fn implementation(mut item: ItemImpl) -> syn::Result<TokenStream> {
         if method.sig.ident != "process" && !marks {
             continue;
         }
+        ask_for_text(&method.sig, &mut method.block);
         method.attrs.retain(|a| !METHOD_MARKS.iter().chain(&[signature::UNIT]).any(|mark| a.path().is_ident(mark)));
         remove_marks(&mut method.sig, &[signature::FAILURE, signature::UNIT]);
         method.attrs.push(syn::parse_quote!(#[allow(clippy::ptr_arg, clippy::too_many_arguments)]));

@@ -69,9 +69,23 @@ pub fn contain<T>(call: impl FnOnce() -> T) -> Result<T, Failure> {
     Ok(call())
 }
 
+/// An error that a node may return: its text becomes that of the failure.
+#[diagnostic::on_unimplemented(
+    message = "a node cannot fail with `{Self}`, which has no text",
+    label = "not `Display`",
+    note = "implement `Display` for it, or return `Result<T, String>`"
+)]
+pub trait Explains: Display {}
+
+#[diagnostic::do_not_recommend]
+impl<E: Display> Explains for E {}
+
+/// Asks whether a node may return an error.
+pub const fn explains<E: Explains>() {}
+
 /// Calls a node that returns a `Result`. An error becomes its failure, as does a panic (see [`contain`]).
 #[inline(always)]
-pub fn contain_fallible<T, E: Display>(call: impl FnOnce() -> Result<T, E>) -> Result<T, Failure> {
+pub fn contain_fallible<T, E: Explains>(call: impl FnOnce() -> Result<T, E>) -> Result<T, Failure> {
     contain(call)?.map_err(|error| Failure::new(&error))
 }
 

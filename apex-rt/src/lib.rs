@@ -68,7 +68,7 @@ pub use dispatch::{Bits, Cluster, Conditions, Dispatcher, Missing};
 pub use event::Event;
 #[doc(hidden)]
 pub use event::event;
-pub use failure::{Failure, contain, contain_fallible};
+pub use failure::{Explains, Failure, contain, contain_fallible, explains};
 pub use info::{ConnectionInfo, GroupInfo, Info, KindInfo, NodeInfo, Place, PortInfo, PortKind};
 pub use list::List;
 pub use mailbox::Mailbox;

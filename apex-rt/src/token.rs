@@ -1,7 +1,7 @@
 //! Functions on tokens that generated code calls.
 
-use crate::{Observer, ParamField};
-use core::fmt::{Debug, Display};
+use crate::{Explains, Observer, ParamField};
+use core::fmt::Debug;
 
 /// Returns copies of the `N` tokens of firing `firing` at a port that takes `N` at once; `None` if one of them is ⊥.
 #[inline(always)]
@@ -71,7 +71,7 @@ where
 
 /// Returns the token that a node which may fail sends. An error is reported, and becomes ⊥.
 #[inline(always)]
-pub fn sent<T, E: Display, O: Observer>(result: Result<T, E>, index: usize, observer: &mut O) -> Option<T> {
+pub fn sent<T, E: Explains, O: Observer>(result: Result<T, E>, index: usize, observer: &mut O) -> Option<T> {
     match result {
         Ok(value) => Some(value),
         Err(error) => {

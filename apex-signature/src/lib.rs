@@ -175,17 +175,18 @@ pub fn methods(item: &ItemImpl) -> syn::Result<Methods> {
         } else if marked(&method.attrs, "slot") {
             methods.slots.push(slot(method)?);
         } else if let Some(mark) = METHOD_MARKS.iter().find(|mark| marked(&method.attrs, mark)) {
-            if method.sig.inputs.len() != 1 || method.sig.receiver().is_none() {
-                let message = format!("a `#[{mark}]` method takes `&mut self` and nothing else");
-                return Err(syn::Error::new_spanned(&method.sig.inputs, message));
+            check_hook(&method.sig, mark)?;
+            let place = match *mark {
+                "on_activate" => &mut methods.on_activate,
+                "on_deactivate" => &mut methods.on_deactivate,
+                "on_stop" => &mut methods.on_stop,
+                _ => &mut methods.no_message,
+            };
+            if let Some(other) = place {
+                let message = format!("a node has one `#[{mark}]` method, and `{other}` is it already");
+                return Err(syn::Error::new_spanned(&method.sig.ident, message));
             }
-            let name = Some(method.sig.ident.to_string());
-            match *mark {
-                "on_activate" => methods.on_activate = name,
-                "on_deactivate" => methods.on_deactivate = name,
-                "on_stop" => methods.on_stop = name,
-                _ => methods.no_message = name,
-            }
+            *place = Some(method.sig.ident.to_string());
         }
     }
     let mut known: Vec<(&str, String)> = vec![];
@@ -250,6 +251,27 @@ pub fn docs(attrs: &[Attribute]) -> String {
 /// Without the blank that all lines begin with; further ones mean something in Markdown.
 fn unindented(line: &str) -> String {
     line.strip_prefix(' ').unwrap_or(line).trim_end().to_owned()
+}
+
+/// Checks a method that is called at a certain moment: nothing goes into it, and what it would return has no way out.
+fn check_hook(sig: &syn::Signature, mark: &str) -> syn::Result<()> {
+    if sig.inputs.len() != 1 || sig.receiver().is_none() {
+        let message = format!("a `#[{mark}]` method takes `&mut self` and nothing else");
+        return Err(syn::Error::new_spanned(&sig.inputs, message));
+    }
+    let returns_nothing = match &sig.output {
+        syn::ReturnType::Default => true,
+        syn::ReturnType::Type(_, ty) => matches!(&**ty, Type::Tuple(tuple) if tuple.elems.is_empty()),
+    };
+    if returns_nothing {
+        return Ok(());
+    }
+    let instead = match mark {
+        "no_message" => "to send something for ⊥, take the input as `Option<&T>` in `process`",
+        _ => "keep it in a field, and send it in `process`",
+    };
+    let message = format!("a `#[{mark}]` method returns nothing: its value would be dropped; {instead}");
+    Err(syn::Error::new_spanned(&sig.output, message))
 }
 
 fn slot(method: &syn::ImplItemFn) -> syn::Result<Slot> {
@@ -415,6 +437,7 @@ fn optional_or_many(ty: &Type) -> syn::Result<Option<InputForm>> {
             return Err(syn::Error::new(length.span(), message));
         }
     };
+    check_named(&reference.elem)?;
     Ok(Some(InputForm { token: Token { ty: (*reference.elem).clone(), batch: None }, optional, count }))
 }
 
@@ -455,9 +478,33 @@ fn returns(output: &ReturnType) -> syn::Result<Returns> {
             "a node sends values: return `T`, or write into a `&mut Out<T>`",
         ));
     }
+    check_named(ty)?;
     let is_unit = matches!(ty, Type::Tuple(t) if t.elems.is_empty());
     let token = if is_unit { None } else { Some(token(ty)?) };
     Ok(Returns { token, maybe, fallible, unit: None })
+}
+
+/// Checks that a type of tokens has a name, by which generated code keeps the token.
+fn check_named(ty: &Type) -> syn::Result<()> {
+    match ty {
+        Type::ImplTrait(_) => Err(syn::Error::new_spanned(
+            ty,
+            "a token has a type with a name, and `impl` stands for one without: write the type, or `Box<dyn …>`",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The error type `E` of a function that returns `Result<T, E>`.
+pub fn error_type(output: &ReturnType) -> Option<&Type> {
+    let ReturnType::Type(_, ty) = output else { return None };
+    let Type::Path(path) = &**ty else { return None };
+    let last = path.path.segments.last().filter(|last| last.ident == "Result")?;
+    let PathArguments::AngleBracketed(args) = &last.arguments else { return None };
+    match args.args.iter().nth(1)? {
+        GenericArgument::Type(error) => Some(error),
+        _ => None,
+    }
 }
 
 /// `T` of `Name<T, …>`.

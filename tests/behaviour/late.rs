@@ -86,7 +86,7 @@ impl Meet {
 }
 
 graph! {
-    use apex_nodes::flow::{Relay, Wait, constant, tick};
+    use apex_nodes::flow::{Await, Relay, Wait, constant, tick};
     use crate::late::{Brittle, Diary, Meet, Motor};
 
     /// Timers and timeouts of several periods, and tokens from outside.
@@ -136,6 +136,35 @@ graph! {
         set_back                     -> relay.put;
         relay.signal                 -> pair.one;
         constant(value = 1.0) after 1s -> pair.other;
+    }
+
+    /// A ring in which nothing circulates, and a timer.
+    graph Ring {
+        node one = Relay();
+        node two = Await();
+        tick() every 1ms -> one.put;
+        one.signal       -> two.put;
+        two.signal       -> one.put;
+    }
+
+    /// A token from outside and a timer at the same instant.
+    graph Both {
+        slot go;
+        go                -> Diary(name = "g");
+        tick() every 10ms -> Diary(name = "t");
+    }
+
+    /// The same on another thread.
+    graph BothFar {
+        slot go;
+        node both = Nested() on other;
+        go -> both.go;
+    }
+
+    graph Nested {
+        slot go;
+        go                -> Diary(name = "g");
+        tick() every 10ms -> Diary(name = "t");
     }
 
     /// A late source that skips, beside one that does not.
@@ -344,6 +373,41 @@ fn an_event_says_that_the_time_has_gone_back() {
     assert_eq!(entries(), []);
     program.react(Time::from_millis(600));
     assert_eq!(entries(), [('m', 1000)]);
+}
+
+/// Observer of endless loops.
+#[derive(Default)]
+struct Endless(usize);
+
+impl Observer for Endless {
+    fn endless(&mut self, _nodes: &[usize], _counts: &[u32]) {
+        self.0 += 1;
+    }
+}
+
+#[test]
+fn what_is_made_up_for_is_not_an_endless_loop() {
+    let (mut program, mut seen) = (Ring::new(), Endless::default());
+    program.set_budget(10);
+    for ms in [0, 10_000] {
+        program.react_with(Time::from_millis(ms), &mut seen);
+    }
+    assert_eq!(seen.0, 0);
+}
+
+#[test]
+fn a_token_from_outside_comes_before_the_timers_of_its_instant_on_any_thread() {
+    let (mut one, mut two) = (Both::new(), BothFar::new());
+    for ms in [0, 5, 10, 20] {
+        for slot in [&mut one.inputs().go, &mut two.inputs().go] {
+            assert_eq!(slot.put(()), Ok(()));
+        }
+        one.react(Time::from_millis(ms));
+        let expected = entries();
+        two.react(Time::from_millis(ms));
+        assert_eq!(entries(), expected, "at {ms} ms");
+        assert_eq!(expected.first().map(|entry| entry.0), Some('g'));
+    }
 }
 
 #[test]

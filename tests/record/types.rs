@@ -7,7 +7,7 @@ use apex_rt::{
     drive_with,
     prelude::*,
     record::{
-        Codec, Message, Reason, Report,
+        Codec, Message, Reason, Recorder, Report, WhenFull,
         cdr::{Reader, Writer},
         replay, tokens,
     },
@@ -15,6 +15,7 @@ use apex_rt::{
 use mcap::{MessageStream, WriteOptions, records::MessageHeader};
 use serde::{Deserialize, Serialize};
 use std::{
+    borrow::Cow,
     collections::BTreeMap,
     fs, panic,
     path::{Path, PathBuf},
@@ -505,4 +506,64 @@ fn bytes_that_are_left_over_are_an_error() {
         text.contains("3 recorded tokens of `measure.out` are not values of its type: bytes are left over"),
         "{text}"
     );
+}
+
+/// Sends a word that lives as long as the program.
+#[node]
+pub fn constant_word(ctx: &Ctx) -> &'static str {
+    if ctx.now() < Time::from_millis(150) { "begins" } else { "goes on" }
+}
+
+/// Sends the same, borrowed or not.
+#[node]
+pub fn borrowed_word(ctx: &Ctx) -> Cow<'static, str> {
+    if ctx.now() < Time::from_millis(150) { "begins".into() } else { "goes on".to_owned().into() }
+}
+
+/// Number of letters of two words.
+#[node]
+pub fn letters(constant: &&'static str, borrowed: &Cow<'static, str>) -> u64 {
+    (constant.len() + borrowed.len()) as u64
+}
+
+mod words {
+    use super::graph;
+
+    graph! {
+        use crate::types::{borrowed_word, constant_word, letters};
+        use apex_tests::nodes::swallow;
+
+        robot Words {
+            node constant = constant_word() every 100ms;
+            node borrowed = borrowed_word() every 100ms;
+            node letters  = letters();
+            constant -> letters.constant;
+            borrowed -> letters.borrowed;
+            letters  -> swallow();
+            record "words.mcap" { letters; }
+        }
+
+        robot Borrowed {
+            node borrowed = borrowed_word() every 100ms;
+            borrowed -> swallow();
+        }
+    }
+}
+
+#[test]
+fn what_a_reference_leads_to_cannot_be_recorded() {
+    let folder = Folder::new();
+    let mut program = words::Words::new();
+    drive_with(&mut program, until(150), ());
+    let refused = Recorder::to_file::<words::Words>(&folder.file("words.mcap"), WhenFull::Wait);
+    let why = refused.err().map(|e| e.to_string()).unwrap_or_default();
+    assert!(why.contains("constant") && !why.contains("borrowed"), "{why}");
+    // What may be owned can be read back.
+    let path = folder.file("borrowed.mcap");
+    record::<words::Borrowed>(&path, |tap| {
+        drive_with(&mut words::Borrowed::new(), until(250), tap);
+    });
+    let file = path.to_str().expect("a name in UTF-8");
+    let read = tokens("", file, "borrowed.out", apex_rt::__codec!(Cow<'static, str>));
+    assert_eq!(read.iter().map(|(_, token)| &**token).collect::<Vec<_>>(), ["begins", "begins", "goes on"]);
 }

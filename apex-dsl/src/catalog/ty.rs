@@ -28,7 +28,7 @@ impl Ty {
     pub fn from_syn(ty: &syn::Type) -> Self {
         use quote::ToTokens as _;
         match ty {
-            syn::Type::Path(path) if path.qself.is_none() => {
+            syn::Type::Path(path) if path.qself.is_none() && !has_lifetime(path) => {
                 let plain = |name: String| name.strip_prefix("r#").map(str::to_owned).unwrap_or(name);
                 let segments = path.path.segments.iter().map(|s| plain(s.ident.to_string())).collect();
                 let args = match path.path.segments.last().map(|s| &s.arguments) {
@@ -91,6 +91,15 @@ impl Ty {
             Self::Other(text) => text == name,
         }
     }
+}
+
+/// Returns `true` for `Cow<'static, T>`, whose lifetime belongs to it and is not checked here.
+fn has_lifetime(path: &syn::TypePath) -> bool {
+    let is_lifetime = |argument: &syn::GenericArgument| matches!(argument, syn::GenericArgument::Lifetime(_));
+    path.path.segments.iter().any(|segment| match &segment.arguments {
+        syn::PathArguments::AngleBracketed(arguments) => arguments.args.iter().any(is_lifetime),
+        _ => false,
+    })
 }
 
 impl fmt::Display for Ty {

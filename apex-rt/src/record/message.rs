@@ -77,15 +77,26 @@ impl<T> Clone for Codec<T> {
 
 impl<T> Copy for Codec<T> {}
 
-/// A type of tokens, with which generated code selects its codec. A call of `codec` on `&&&Kind` is
-/// [`ByMessage::codec`] if the type is a [`Message`], [`BySerde::codec`] if it has the traits of serde, and
-/// [`ByNothing::codec`] otherwise, because rustc tries the type with more references first.
+/// A type of tokens, with which generated code selects its codec. A call of `codec` on `&&&&Kind` is
+/// [`ByReference::codec`] if the type is a reference, [`ByMessage::codec`] if it is a [`Message`], [`BySerde::codec`] if
+/// it has the traits of serde, and [`ByNothing::codec`] otherwise, because rustc tries the type with more references
+/// first.
 pub struct Kind<T>(PhantomData<T>);
 
 impl<T> Kind<T> {
     /// Value for the type.
     pub const NEW: Self = Self(PhantomData);
 }
+
+/// References, which cannot be read back from a file.
+pub trait ByReference<T> {
+    /// Returns `None`. Without this, serde would be asked whether it reads references of every lifetime.
+    fn codec(&self) -> Option<Codec<T>> {
+        None
+    }
+}
+
+impl<U: ?Sized> ByReference<&'static U> for &&&Kind<&'static U> {}
 
 /// Codec of types that are messages.
 pub trait ByMessage<T> {

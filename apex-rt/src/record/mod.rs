@@ -26,7 +26,7 @@ mod waits;
 
 pub use limits::RecordOptions;
 #[doc(hidden)]
-pub use message::{ByMessage, ByNothing, BySerde, Kind};
+pub use message::{ByMessage, ByNothing, ByReference, BySerde, Kind};
 pub use message::{Codec, Message, Reason, Schema};
 pub use recorder::{Finished, Recorder, WhenFull};
 pub use replay::{Replay, ReplayError};
@@ -102,8 +102,8 @@ pub type Channels = std::vec::Vec<Channel>;
 macro_rules! __codec {
     ($ty:ty) => {{
         #[allow(unused_imports, reason = "only one of them is right for a type")]
-        use $crate::record::{ByMessage as _, ByNothing as _, BySerde as _};
-        (&&&$crate::record::Kind::<$ty>::NEW).codec()
+        use $crate::record::{ByMessage as _, ByNothing as _, ByReference as _, BySerde as _};
+        (&&&&$crate::record::Kind::<$ty>::NEW).codec()
     }};
 }
 

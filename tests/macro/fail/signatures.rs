@@ -41,6 +41,14 @@ fn returns(x: &u64) -> &u64 {
 }
 
 #[node]
+fn nameless() -> impl Fn() -> u64 {
+    || 3
+}
+
+#[node]
+fn nameless_input(x: &impl Fn() -> u64) {}
+
+#[node]
 fn unknown_key(x: &u64, #[param(defualt = 3)] k: u64) {}
 
 #[node]
@@ -73,6 +81,28 @@ struct Two;
 impl Two {
     #[slot]
     fn both(&mut self, a: &u64, b: &u64) {}
+}
+
+/// What hooks return has no way out, and each comes once.
+struct Returning;
+
+#[node]
+impl Returning {
+    #[no_message]
+    fn missing(&mut self) -> f32 {
+        0.0
+    }
+}
+
+struct Twice;
+
+#[node]
+impl Twice {
+    #[on_stop]
+    fn halt(&mut self) {}
+
+    #[on_stop]
+    fn brake(&mut self) {}
 }
 
 struct Hook;
