@@ -16,6 +16,8 @@ impl Dimension {
     pub const NONE: Self = Self([0; 6]);
     /// A time.
     pub const TIME: Self = Self([0, 1, 0, 0, 0, 0]);
+    /// Something per time.
+    pub const FREQUENCY: Self = Self([0, -1, 0, 0, 0, 0]);
 
     /// Returns `true` for a plain number.
     pub fn is_none(self) -> bool {
@@ -149,6 +151,25 @@ const UNITS: [(&str, [i8; 6], Fraction); 32] = [
     ("mV", [2, -3, 1, -1, 0, 0], Fraction::constant(1, 1000, 0)),
     ("Pa", [-1, -2, 1, 0, 0, 0], Fraction::constant(1, 1, 0)),
     ("%", [0, 0, 0, 0, 0, 0], Fraction::constant(1, 100, 0)),
+];
+
+/// Units that are common elsewhere, and what to write instead.
+pub const ELSEWHERE: [(&str, &str); 15] = [
+    ("l", "a litre is `1000cm^3`"),
+    ("ml", "a millilitre is `1cm^3`"),
+    ("bar", "a bar is `100000Pa`"),
+    ("mbar", "a millibar is `100Pa`"),
+    ("rpm", "a turn a minute is `1rev/min`"),
+    ("degC", "a temperature is in `K`: 0 °C is `273.15K`"),
+    ("C", "a temperature is in `K`: 0 °C is `273.15K`; a charge is in `A*s`"),
+    ("Ah", "an ampere hour is `1A*h`"),
+    ("mAh", "a milliampere hour is `1mA*h`"),
+    ("Wh", "a watt hour is `1W*h`"),
+    ("lx", "light has no unit here: use a plain number, and name its unit in the documentation"),
+    ("lm", "light has no unit here: use a plain number, and name its unit in the documentation"),
+    ("dB", "a ratio is a plain number, or in `%`"),
+    ("ppm", "a ratio is a plain number, or in `%`"),
+    ("px", "pixels are counted: use a plain number"),
 ];
 
 /// The names of all units.

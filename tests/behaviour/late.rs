@@ -113,7 +113,7 @@ graph! {
         rest.timeout  -> Diary(name = "r");
     }
 
-    /// What is done when the time goes back.
+    /// Writes down that the time went back.
     graph Told {
         set_back -> Diary(name = "b");
     }
@@ -150,8 +150,8 @@ graph! {
     /// A token from outside and a timer at the same instant.
     graph Both {
         slot go;
-        go                -> Diary(name = "g");
-        tick() every 10ms -> Diary(name = "t");
+        go                 -> Diary(name = "g");
+        tick() every 100Hz -> Diary(name = "t");
     }
 
     /// The same on another thread.

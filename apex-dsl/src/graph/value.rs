@@ -134,6 +134,13 @@ pub struct Number {
 }
 
 impl Number {
+    /// 1 divided by the number; `None` for 0.
+    pub fn inverse(self) -> Option<Self> {
+        let dimension = Dimension::NONE.combine(self.dimension, -1)?;
+        let exact = self.exact.and_then(|exact| Fraction::ONE.checked_div(exact));
+        (self.value != 0.0).then(|| Self { value: 1.0 / self.value, exact, is_float: true, dimension })
+    }
+
     /// A plain whole number.
     pub fn whole(number: i128) -> Self {
         let exact = Fraction::whole(number);

@@ -3,7 +3,7 @@
 use super::{
     condition::names_in,
     names::suggest,
-    value::{Evaluated, RustNames, Scope, Wanted, declared_unit, duration, evaluate, seconds},
+    value::{Evaluated, RustNames, Scope, Wanted, declared_unit, duration, evaluate, period, seconds},
 };
 use crate::{
     catalog::{DefaultValue, Literal, ParamSig, Signature, Type},
@@ -19,13 +19,13 @@ use std::{
 };
 
 /// Placeholder for an unknown time.
-const ANY_TIME: Duration = Duration::from_secs(1);
+pub const ANY_TIME: Duration = Duration::from_secs(1);
 
 /// The given arguments by name, and `true` if all of them have a known name. Reports errors of the list itself.
 fn by_name<'a>(
     args: &'a [Arg],
     known: &[&str],
-    what: &str,
+    (what, is_port): (&str, &dyn Fn(&str) -> bool),
     diagnostics: &mut Diagnostics,
 ) -> (BTreeMap<&'a str, &'a Expr>, bool) {
     let mut given: BTreeMap<&str, (&Ident, &Expr)> = BTreeMap::new();
@@ -49,14 +49,16 @@ fn by_name<'a>(
         };
         if !known.contains(&name.text.as_str()) {
             let message = format!("`{what}` has no parameter `{}`", name.text);
-            let mut error =
-                suggest(Diagnostic::error("unknown-argument", name.span, message), name, known.iter().copied());
-            error = error.note(if known.is_empty() {
-                format!("`{what}` has no parameters")
+            let error = Diagnostic::error("unknown-argument", name.span, message);
+            diagnostics.push(if is_port(&name.text) {
+                error.note(format!("`{}` is an input: connect it, `… -> name.{};`", name.text, name.text))
+            } else if let Some(modifier) = MODIFIERS_WITH_TIME.iter().find(|modifier| **modifier == name.text) {
+                error.note(format!("it is a modifier, written after the instance: `{what}() {modifier} 5s`"))
+            } else if known.is_empty() {
+                error.note(format!("`{what}` has no parameters"))
             } else {
-                format!("its parameters are {}", quoted(known))
+                suggest(error, name, known.iter().copied()).note(format!("its parameters are {}", quoted(known)))
             });
-            diagnostics.push(error);
             whole = false;
         } else if let Some((first, _)) = given.insert(&name.text, (name, &arg.value)) {
             let message = format!("`{}` is given twice", name.text);
@@ -65,6 +67,15 @@ fn by_name<'a>(
         }
     }
     (given.into_iter().map(|(name, (_, value))| (name, value)).collect(), whole)
+}
+
+/// Modifiers that are mistaken for parameters.
+const MODIFIERS_WITH_TIME: [&str; 4] = ["every", "after", "timeout", "deadline"];
+
+/// Returns `true` if the modifier `name` is among the arguments of a node.
+pub fn has_misplaced(args: &[Arg], signature: &Signature, name: &str) -> bool {
+    let is_param = signature.params.iter().any(|param| param.name == name);
+    !is_param && args.iter().any(|arg| arg.name.as_ref().is_some_and(|given| given.text == name))
 }
 
 fn quoted(names: &[&str]) -> String {
@@ -82,7 +93,8 @@ pub fn of_node(
     diagnostics: &mut Diagnostics,
 ) -> Vec<Value> {
     let known: Vec<&str> = signature.params.iter().map(|p| p.name.as_str()).collect();
-    let (given, whole) = by_name(args, &known, &signature.name, diagnostics);
+    let is_port = |name: &str| signature.ports.iter().any(|port| port.name == name && !port.kind.sends());
+    let (given, whole) = by_name(args, &known, (&signature.name, &is_port), diagnostics);
     let mut values = vec![];
     for param in &signature.params {
         let value = match given.get(param.name.as_str()) {
@@ -195,12 +207,13 @@ pub fn of_graph(
     at: Span,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, Value> {
-    of_graph_inside(name, params, given, rust, &Origins::new(), at, diagnostics)
+    of_graph_inside((name, &|_| false), params, given, rust, &Origins::new(), at, diagnostics)
 }
 
-/// Values of all parameters of a graph, given with their types. `origins` are those of the graph around.
+/// Values of all parameters of a graph, given with their types. `is_port` tells its inputs and slots by their names.
+/// `origins` are those of the graph around.
 pub fn of_graph_inside(
-    name: &Ident,
+    (name, is_port): (&Ident, &dyn Fn(&str) -> bool),
     params: &[(&ParamItem, Type)],
     given: Option<(&[Arg], &Scope<'_>)>,
     rust: RustNames<'_>,
@@ -210,7 +223,7 @@ pub fn of_graph_inside(
 ) -> BTreeMap<String, Value> {
     let known: Vec<&str> = params.iter().map(|(p, _)| p.name.text.as_str()).collect();
     let (exprs, whole) = match given {
-        Some((args, _)) => by_name(args, &known, &name.text, diagnostics),
+        Some((args, _)) => by_name(args, &known, (&name.text, is_port), diagnostics),
         None => (BTreeMap::new(), true),
     };
     let mut values: BTreeMap<String, Value> = BTreeMap::new();
@@ -321,9 +334,9 @@ fn graph_default(
 /// Modifiers that remain with a node; `each` and `delay` are left to the caller.
 pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, origins: &Origins, diagnostics: &mut Diagnostics) -> Modifiers {
     let mut modifiers = Modifiers::default();
-    let mut time = |expr: &Expr| -> Option<Duration> {
+    let mut time = |expr: &Expr, of_number: fn(Number, &Expr) -> Evaluated<Duration>| -> Option<Duration> {
         let value = evaluate(expr, scope).and_then(|value| match value {
-            Value::Number(n) => duration(n, expr),
+            Value::Number(n) => of_number(n, expr),
             Value::Duration(d) => Ok(d),
             // The value is not known yet: any time will do for the checks.
             Value::RustDefault => Ok(ANY_TIME),
@@ -348,10 +361,10 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, origins: &Origins, diagno
     };
     for modifier in list {
         match &modifier.kind {
-            ModifierKind::Every(expr) => modifiers.every = time(expr),
-            ModifierKind::After(expr) => modifiers.after = time(expr),
-            ModifierKind::Timeout(expr) => modifiers.timeout = time(expr),
-            ModifierKind::Deadline(expr) => modifiers.deadline = time(expr),
+            ModifierKind::Every(expr) => modifiers.every = time(expr, period),
+            ModifierKind::After(expr) => modifiers.after = time(expr, duration),
+            ModifierKind::Timeout(expr) => modifiers.timeout = time(expr, duration),
+            ModifierKind::Deadline(expr) => modifiers.deadline = time(expr, duration),
             ModifierKind::On(group) => modifiers.group = Some(group.text.clone()),
             ModifierKind::Pipelined => modifiers.pipelined = true,
             ModifierKind::Skip => modifiers.skip = true,

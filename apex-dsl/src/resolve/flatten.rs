@@ -200,7 +200,7 @@ fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
                 let message = format!("{} is connected twice: an input takes one connection", name(builder, wire.to));
                 let error = Diagnostic::error("connected-twice", wire.span, message)
                     .also(wires[before].span, "first connected here")
-                    .note("merge both streams in a node with two inputs, or send them to a slot, which accepts several connections");
+                    .note("`[a, b] -> merge() -> c;` takes the first of them that is not ⊥ (`apex_nodes::flow::merge`); a slot takes several connections");
                 builder.diagnostics.push(error);
                 excuse_inputs(builder, wire.to);
             }

@@ -384,8 +384,10 @@ impl<'a> Builder<'a> {
     fn graph_args(&mut self, body: &Body<'_>, id: GraphId, instance: &Instance) -> BTreeMap<String, Value> {
         let params = self.param_types(id);
         let scope = self.names(&body.values);
+        let item = self.texts.graph(id);
+        let is_port = |name: &str| item.ports.iter().any(|port| port.name.text == name && !port.kind.sends());
         args::of_graph_inside(
-            &self.texts.graph(id).name,
+            (&item.name, &is_port),
             &params,
             Some((&instance.args, &scope)),
             scope.rust,

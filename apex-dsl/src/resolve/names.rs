@@ -217,10 +217,9 @@ impl SourceSet {
         let machines = machines.map(|(item, signature)| (&item.name, Resolution::Machine(*signature)));
         for (name, meaning) in imports.into_iter().chain(graphs).chain(machines) {
             if let Some(first) = places.insert(name.text.clone(), name) {
-                let message = format!("`{}` is already defined here", name.text);
-                diagnostics.push(
-                    Diagnostic::error("duplicate-name", name.span, message).also(first.span, "first defined here"),
-                );
+                let message = format!("`{}` is already deed here", name.text);
+                diagnostics
+                    .push(Diagnostic::error("duplicate-name", name.span, message).also(first.span, "first deed here"));
                 unclear.insert(name.text.clone());
             }
             names.insert(name.text.clone(), meaning);
@@ -244,7 +243,14 @@ impl SourceSet {
             let is_there =
                 !catalog.nodes(&words).is_empty() || !catalog.types(&words).is_empty() || catalog.is_refused(&words);
             if !is_there && !is_constant() {
-                return Err(Some(Box::new(unknown_import(&words, last, catalog))));
+                let error = unknown_import(&words, last, catalog);
+                return Err(Some(Box::new(match (first.text.as_str(), self.stem_of(file, last, sources)) {
+                    ("crate", Some(Some(stem))) => {
+                        error.note(format!("a graph is imported by its file: `use {stem}::{};`", last.text))
+                    }
+                    ("crate", Some(None)) => error.note("the graphs of this file need no import"),
+                    _ => error,
+                })));
             }
             return Ok(Resolution::Rust(words));
         }
@@ -259,6 +265,18 @@ impl SourceSet {
         let found = self.files.iter().position(|(id, _)| sources.get(*id).path == sibling).filter(|_| path.len() == 2);
         let Some(other) = found else { return Err(Some(Box::new(unknown_crate(first, catalog)))) };
         self.import_item(other, first, last)
+    }
+
+    /// The file, by the name that an import has for it, with a graph or state machine `name`; `Some(None)` for `file`
+    /// itself.
+    fn stem_of(&self, file: usize, name: &Ident, sources: &Sources) -> Option<Option<String>> {
+        let has_item = |tree: &File| {
+            let machines = tree.machines.iter().map(|machine| machine.name.text.clone());
+            tree.graphs.iter().map(|graph| graph.name.text.clone()).chain(machines).any(|item| item == name.text)
+        };
+        let found = self.files.iter().position(|(_, tree)| has_item(tree))?;
+        let stem = sources.get(self.files[found].0).path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        Some(stem.filter(|_| found != file))
     }
 
     /// The graph or state machine `name` of source file `other`, which is imported as `module`.
@@ -427,6 +445,9 @@ impl SourceSet {
             });
         }
         let used = self.paths(file).filter_map(|path| path.segments.first()).map(|name| name.text.as_str()).collect();
+        // A graph does not contain itself.
+        let around = self.files[file].1.graphs.iter().find(|graph| graph.extent.contains(path.span));
+        let in_text = in_text.filter(|name| around.is_none_or(|graph| graph.name.text != *name));
         let known = in_text.map(|name| self.known(file, name, &used)).chain(own.map(Known::elsewhere));
         let known: Vec<Known<'_>> = known.collect();
         if let Some(misspelt) = unknown("unknown-node", message, last, &uses, &known) {
@@ -435,6 +456,9 @@ impl SourceSet {
             let all = catalog.signatures.iter().map(|s| s.name.as_str());
             if let Some(near) = nearest(&last.text, all) {
                 error = error.note(format!("there is a node with a similar name, `{near}`, that is not imported here"));
+            } else {
+                error =
+                    error.note(format!("`apex nodes {}` searches all nodes for the word", last.text.to_lowercase()));
             }
         }
         error = catalog.broken().fold(error, Diagnostic::note);

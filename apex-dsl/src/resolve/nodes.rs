@@ -37,7 +37,11 @@ impl Builder<'_> {
         let at = instance.span;
         let params = args::of_node(signature, &instance.args, at, &scope, &body.origins, &fed, self.diagnostics);
         let types = self.type_args(body, signature.generics.len(), &instance.types, instance);
-        let modifiers = args::modifiers(&instance.modifiers, &scope, &body.origins, self.diagnostics);
+        let mut modifiers = args::modifiers(&instance.modifiers, &scope, &body.origins, self.diagnostics);
+        // A time limit among the arguments has been reported.
+        if args::has_misplaced(&instance.args, signature, "timeout") {
+            modifiers.timeout.get_or_insert(args::ANY_TIME);
+        }
         if signature.process.is_none() && !signature.is_function && signature.ports.is_empty() {
             let message = format!("`{}` has neither `process` nor a slot", signature.name);
             let error = Diagnostic::error("no-process", instance.path.span, message).note(format!(

@@ -120,7 +120,11 @@ fn number(digits: &str, unit: Option<&str>, span: Span) -> Evaluated<Value> {
 /// The error at a unit that does not exist.
 fn unknown_unit(unit: &str, span: Span) -> Diagnostic {
     let word = Ident { text: unit.to_owned(), span };
-    let error = Diagnostic::error("unknown-unit", span, format!("there is no unit `{unit}`"))
+    let error = Diagnostic::error("unknown-unit", span, format!("there is no unit `{unit}`"));
+    if let Some((_, instead)) = units::ELSEWHERE.iter().find(|(name, _)| *name == unit) {
+        return error.note(*instead);
+    }
+    let error = error
         .note("units are for example `m`, `cm`, `s`, `ms`, `Hz`, `deg`, `rad`, `kg`, `m/s`, `rad/s`, `m/s^2`, `%`");
     suggest(error, &word, units::names())
 }
@@ -476,6 +480,17 @@ pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
         return Err(Box::new(minutes(Diagnostic::error("wrong-unit", expr.span, message), expr)));
     }
     seconds(n, expr.span)
+}
+
+/// The period of a source, which may be given as a frequency.
+pub fn period(n: Number, expr: &Expr) -> Evaluated<Duration> {
+    match n.inverse() {
+        Some(period) if period.dimension == Dimension::TIME => seconds(period, expr.span),
+        None if n.dimension == Dimension::FREQUENCY => {
+            error("out-of-range", expr.span, "the frequency must be greater than zero")
+        }
+        _ => duration(n, expr),
+    }
 }
 
 /// A number of seconds as a duration, of which a program counts the nanoseconds.

@@ -40,7 +40,7 @@ fn explained(char: char, error: Diagnostic) -> Diagnostic {
         'µ' | 'μ' => "u",
         '\u{a0}' => " ",
         '\'' => return error.note("a string is written in double quotes"),
-        '#' => return error.note("a comment begins with `//`"),
+        '#' => return error.guess("a comment begins with `//`", span, "//"),
         c if is_invisible(c) => return error.fix("remove this invisible character", span, ""),
         c if c.is_alphabetic() => return error.note(NAMES),
         _ => return error,

@@ -21,6 +21,23 @@ pub struct CommonMistake<'a> {
     pub expected: &'a [&'static str],
 }
 
+/// Words with which statements of programming languages begin, and what a graph has instead.
+const ELSEWHERE: [(&[&str], &str); 4] = [
+    (
+        &["if", "else", "match", "when", "unless"],
+        "a node decides: `gate` passes tokens while a condition holds, `switch` and `either` send them one way or the other",
+    ),
+    (
+        &["for", "while", "loop", "repeat"],
+        "tokens circulate over a connection with `delay`; `each` runs a node for every element of a list",
+    ),
+    (
+        &["fn", "def", "func", "struct", "class", "impl", "enum"],
+        "nodes and types are written in Rust, beside this file",
+    ),
+    (&["return", "print", "println", "assert"], "what happens is seen in `apex studio`, and checked by a `test`"),
+];
+
 /// Keywords that begin a statement of a graph.
 const STATEMENTS: [&str; 7] = ["node", "in", "out", "slot", "event", "claim", "record"];
 
@@ -37,6 +54,10 @@ impl CommonMistake<'_> {
             Self::arrow,
             Self::argument,
             Self::parentheses,
+            Self::elsewhere,
+            Self::operator,
+            Self::equals,
+            Self::glob,
             Self::keyword,
             Self::modifier,
         ];
@@ -256,6 +277,58 @@ impl CommonMistake<'_> {
             behind,
             "()",
         ))
+    }
+
+    /// Explains `if a { … }` and other words of programming languages.
+    fn elsewhere(&self) -> Option<Diagnostic> {
+        let first = word(self.text.trim_start());
+        let (_, instead) = ELSEWHERE.iter().find(|(words, _)| words.contains(&first))?;
+        let begins = self.text.len() - self.text.trim_start().len();
+        // As the name of a node it goes on with a connection.
+        if self.at <= begins || self.text[begins + first.len()..].trim_start().starts_with(['-', '=', '.', '(']) {
+            return None;
+        }
+        let error = Diagnostic::error(
+            "syntax",
+            self.span(begins, begins + first.len()),
+            format!("no statement begins with `{first}`"),
+        );
+        Some(error.note(*instead))
+    }
+
+    /// Explains `a + b -> c`.
+    fn operator(&self) -> Option<Diagnostic> {
+        let node = match self.rest().chars().next()? {
+            '+' => "add",
+            '-' if !self.rest().starts_with("->") => "sub",
+            '*' => "mul",
+            '/' => "div",
+            _ => return None,
+        };
+        if !self.expects("`->` or `=>`") || !self.rest()[1..].starts_with(' ') {
+            return None;
+        }
+        let error = Diagnostic::error("syntax", self.here(1), "a connection has no operators: nodes calculate");
+        Some(error.note(format!("write `node {node} = {node}(); a -> {node}.a; b -> {node}.b;` (`apex_nodes::math`)")))
+    }
+
+    /// Explains `expect a = 3`.
+    fn equals(&self) -> Option<Diagnostic> {
+        let is_sign = self.rest().starts_with('=') && !self.rest().starts_with("==") && !self.rest().starts_with("=>");
+        if !is_sign || !self.expects("a comparison") {
+            return None;
+        }
+        let error = Diagnostic::error("syntax", self.here(1), "values are compared with `==`");
+        Some(error.fix("write `==`", self.here(1), "=="))
+    }
+
+    /// Explains `use path::*`.
+    fn glob(&self) -> Option<Diagnostic> {
+        if word(self.text.trim_start()) != "use" || !self.rest().starts_with('*') {
+            return None;
+        }
+        let error = Diagnostic::error("syntax", self.here(1), "an import names what it imports");
+        Some(error.note("write `use path::{Name, …};`; `apex nodes` lists the nodes"))
     }
 
     /// Explains `nod a = Ramp();`.

@@ -264,7 +264,7 @@ impl Scanner<'_> {
         }
         let Some(char) = self.text[start..].chars().next() else { return };
         self.unknown += 1;
-        let diagnostic = characters::unknown(char, Span::new(self.file, start, self.at));
+        let diagnostic = characters::unknown(char, Span::new(self.file, start, start + char.len_utf8()));
         if self.unknown >= MAX_UNKNOWN {
             self.give_up(diagnostics, diagnostic.note("more follow: is this an `.afg` file?"));
         } else {

@@ -70,6 +70,8 @@ pub fn token(text: &str, start: usize) -> Option<Token<'_>> {
         'a'..='z' | 'A'..='Z' | '_' => (TokenKind::Word, span(rest, |c| c.is_ascii_alphanumeric() || c == '_')),
         '(' | '[' | '{' => (TokenKind::Open, 1),
         ')' | ']' | '}' => (TokenKind::Close, 1),
+        // As in other languages, the rest of the line is probably a comment.
+        '#' => (TokenKind::Unknown, rest.find('\n').unwrap_or(rest.len())),
         _ => match sign(rest) {
             Some(length) => (TokenKind::Sign, length),
             None => (TokenKind::Unknown, first.len_utf8()),

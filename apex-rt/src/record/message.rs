@@ -78,9 +78,9 @@ impl<T> Clone for Codec<T> {
 impl<T> Copy for Codec<T> {}
 
 /// A type of tokens, with which generated code selects its codec. A call of `codec` on `&&&&Kind` is
-/// [`ByReference::codec`] if the type is a reference, [`ByMessage::codec`] if it is a [`Message`], [`BySerde::codec`] if
-/// it has the traits of serde, and [`ByNothing::codec`] otherwise, because rustc tries the type with more references
-/// first.
+/// [`ByReference::codec`] if the type is a reference, [`ByMessage::codec`] if it is a [`Message`],
+/// [`BySerde::codec`] if it has the traits of serde, and [`ByNothing::codec`] otherwise, because rustc tries the type
+/// with more references first.
 pub struct Kind<T>(PhantomData<T>);
 
 impl<T> Kind<T> {

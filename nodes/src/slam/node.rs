@@ -7,10 +7,10 @@ use core::f32::consts::PI;
 /// the map (thesis 4.3.5; see [`Mapper`] and [`selected_scans`]).
 ///
 /// `odometry` is the pose of the robot at the time of the scan, in any frame without jumps. `pose` is the corrected
-/// pose in the frame of the map, which is that of odometry at the first scan; it is sent for every scan. `scans` are those
-/// of which [`DrawScans`] draws the map, at their corrected poses; they are sent for the first kept scan and then for
-/// every `map_every`-th one, otherwise ⊥. If odometry is not a number or more than 1000 km away, both outputs are ⊥ and
-/// the scan is not used.
+/// pose in the frame of the map, which is that of odometry at the first scan; it is sent for every scan. `scans` are
+/// those of which [`DrawScans`] draws the map, at their corrected poses; they are sent for the first kept scan and then
+/// for every `map_every`-th one, otherwise ⊥. If odometry is not a number or more than 1000 km away, both outputs are ⊥
+/// and the scan is not used.
 ///
 /// Scans should show stationary objects only: remove other robots with [`ShortSegmentFilter`].
 ///

@@ -83,7 +83,7 @@ impl Two {
     fn both(&mut self, a: &u64, b: &u64) {}
 }
 
-/// What hooks return has no way out, and each comes once.
+// What hooks return has no way out, and each comes once.
 struct Returning;
 
 #[node]
