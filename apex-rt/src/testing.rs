@@ -247,6 +247,12 @@ impl<P: Program + Parameters + 'static> Test<P> {
 
     fn add(&mut self, feed: Feed<P>) {
         self.is_waiting = false;
+        let before = self.now - Duration::from_nanos(1);
+        let replaced = self.feeds.iter().filter(|other| other.is_replaced_by(&feed));
+        if let Some((what, place)) = replaced.filter_map(|other| Some((other.left(before, None)?, other.place))).next() {
+            self.fail(&what, self.now, place);
+        }
+        self.feeds.retain(|other| !other.is_replaced_by(&feed));
         self.feeds.push(feed);
         self.feed_count += 1;
         self.fed = self.reactions;
@@ -432,7 +438,7 @@ impl<P: Program + Parameters + 'static> Test<P> {
         self.run(time.max(self.now), |_| false);
         let mut left = self.feeds.iter().filter_map(|feed| Some((feed.left(self.now, self.ended)?, feed.place)));
         if let Some((what, place)) = left.next() {
-            self.fail(&what, self.now, place);
+            self.fail(&format!("the test ends, but {what}"), self.now, place);
         }
     }
 

@@ -63,7 +63,12 @@ impl<P> Feed<P> {
         Self { is_open: true, ..self }
     }
 
-    /// The message that a token was never put in, at the end of a test; `None` if none is missing. `ended` is the time
+    /// Returns `true` if `next`, which begins now, takes the place of this feed: both go on without an end.
+    pub fn is_replaced_by(&self, next: &Self) -> bool {
+        self.is_open && next.is_open && self.port == next.port
+    }
+
+    /// The message that a token which was due by `now` was never put in; `None` if none is missing. `ended` is the time
     /// at which the program ended, if it did.
     pub fn left(&self, now: Time, ended: Option<Time>) -> Option<String> {
         let why = match ended {
@@ -73,6 +78,6 @@ impl<P> Feed<P> {
             None => return None,
         };
         let (number, port, due) = (self.count + 1, self.port, self.due);
-        Some(format!("the test ends, but token {number} for `{port}`, due at {due}, was never put in: {why}"))
+        Some(format!("token {number} for `{port}`, due at {due}, was never put in: {why}"))
     }
 }
