@@ -249,7 +249,8 @@ impl<P: Program + Parameters + 'static> Test<P> {
         self.is_waiting = false;
         let before = self.now - Duration::from_nanos(1);
         let replaced = self.feeds.iter().filter(|other| other.is_replaced_by(&feed));
-        if let Some((what, place)) = replaced.filter_map(|other| Some((other.left(before, None)?, other.place))).next() {
+        if let Some((what, place)) = replaced.filter_map(|other| Some((other.left(before, None)?, other.place))).next()
+        {
             self.fail(&what, self.now, place);
         }
         self.feeds.retain(|other| !other.is_replaced_by(&feed));

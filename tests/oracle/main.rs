@@ -4,3 +4,4 @@ mod compile;
 mod nets;
 mod pnml;
 mod programs;
+mod words;

@@ -80,7 +80,7 @@ impl Checker {
         Self { catalog: RefCell::new(catalog) }
     }
 
-    /// The first program of `text` with its net, or the errors of the text.
+    /// The last program of `text` with its net, or the errors of the text. Nested graphs are written before it.
     pub fn check(&self, text: &str) -> Result<Checked, String> {
         let mut sources = Sources::default();
         let root = sources.add(Path::new(env!("CARGO_MANIFEST_DIR")).join("text.afg"), text);
@@ -96,7 +96,7 @@ impl Checker {
         if !errors.is_empty() {
             return Err(errors.join("\n"));
         }
-        let graph = checked.programs.into_iter().next().ok_or("there is no program")?.graph;
+        let graph = checked.programs.into_iter().next_back().ok_or("there is no program")?.graph;
         let net = petri::net(&graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
         Ok(Checked { graph, net })
     }

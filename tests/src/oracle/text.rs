@@ -25,10 +25,11 @@ impl Case {
         let mut names: Vec<&str> = self.nodes.iter().map(|n| n.ty.name).collect();
         names.sort_unstable();
         names.dedup();
-        let mut text = format!("use apex_tests::nodes::{{{}}};\n", names.join(", "));
+        let imports: Vec<String> = names.iter().map(|name| self.import(name)).collect();
+        let mut text = format!("use apex_tests::nodes::{{{}}};\n", imports.join(", "));
         for group in (0..self.groups.len()).rev().filter(|g| *g == 0 || self.is_used(*g)) {
             let graph = if group == 0 { name.to_owned() } else { format!("{name}Group{group}") };
-            let _ = writeln!(text, "graph {graph} {{");
+            let _ = writeln!(text, "{} {graph} {{", self.item(group));
             for line in bodies.pins.get(&group).into_iter().flat_map(BTreeMap::values) {
                 let _ = writeln!(text, "    {line}");
             }
@@ -42,13 +43,37 @@ impl Case {
         text
     }
 
+    /// Every `n`-th graph is written in another form with the same meaning.
+    fn in_form(&self, n: u64) -> bool {
+        (self.seed / 2).is_multiple_of(n)
+    }
+
+    /// Import of a node, under another name in some graphs.
+    fn import(&self, name: &str) -> String {
+        if self.in_form(7) { format!("{name} as {}", self.called(name)) } else { name.to_owned() }
+    }
+
+    fn called(&self, name: &str) -> String {
+        if self.in_form(7) { format!("Own{name}") } else { name.to_owned() }
+    }
+
+    /// Keywords of the graph, or of a nested one.
+    fn item(&self, group: usize) -> &'static str {
+        match group {
+            0 if self.in_form(3) => "robot",
+            0 => "graph",
+            _ if self.in_form(5) => "pub graph",
+            _ => "graph",
+        }
+    }
+
     fn instance(&self, node: &Instance) -> String {
         if node.ty.name == "pass" {
-            return format!("pass() each{}", self.on(node));
+            return format!("{}() each{}", self.called("pass"), self.on(node));
         }
         let mut text = format!(
             "{}(id = {}, script = [{}, {}, {}])",
-            node.ty.name,
+            self.called(node.ty.name),
             node.id,
             self.seed % 1_000_000,
             node.mode,
@@ -59,9 +84,19 @@ impl Case {
             if after > 0 {
                 let _ = write!(text, " after {after}ms");
             }
+            // No reaction of these programs is late.
+            if self.in_form(6) {
+                text.push_str(" skip");
+            }
         }
         if node.delay > 0 {
             let _ = write!(text, " delay {:?}", vec![7; node.delay]);
+        }
+        if self.in_form(4) {
+            text.push_str(" deadline 1h");
+        }
+        if self.in_form(9) {
+            text.push_str(" restart");
         }
         text + &self.on(node)
     }
