@@ -20,7 +20,7 @@ import { Moment } from "./moment.js";
 export const robot = {
   /** @type {About | null} */ about: null,
   /** @type {NodeState[]} */ nodes: [],
-  /** @type {{count: number, fresh: boolean, rate: number}[]} */ connections: [],
+  /** `passed` is the time at which activity passed last. @type {{count: number, fresh: boolean, rate: number, passed: number}[]} */ connections: [],
   /** Connections over which a node waits for a token. @type {Set<number>} */ awaited: new Set(),
   now: 0,
   readonly: false,
@@ -36,7 +36,7 @@ export const robot = {
 /** Selects a node or a nested graph by its full name, everywhere. @param {string | null} name @param {string} [by] */
 export function select(name, by) {
   robot.selected = name;
-  picture.select(name);
+  picture.select(name, by);
   text.select(name, by);
   values.select(name);
   timeline.draw();
@@ -45,7 +45,7 @@ export function select(name, by) {
 /** @param {number} time */
 export const shown = (time) => `${time.toFixed(3)} s`;
 
-const picture = new Picture(element("picture"));
+export const picture = new Picture(element("picture"));
 const timeline = new Timeline(element("timeline"));
 const params = new Params(element("params"), element("params-filter"));
 const values = new Values(element("values"), element("values-filter"));
@@ -132,7 +132,7 @@ function forget() {
   robot.now = 0;
   if (robot.times) robot.times = new Map();
   robot.nodes = nodes.map(() => ({ active: false, fired: 0, last: 0, problems: 0, since: 0, fresh: false, rate: 0 }));
-  robot.connections = connections.map(() => ({ count: 0, fresh: false, rate: 0 }));
+  robot.connections = connections.map(() => ({ count: 0, fresh: false, rate: 0, passed: -Infinity }));
   rates.length = 0;
   element("problems").replaceChildren();
   problems = 0;
@@ -174,6 +174,7 @@ function tick(told) {
   }
   robot.awaited = new Set(told.awaited);
   for (const [at, count] of told.handled) Object.assign(robot.connections[at], { fresh: true, count });
+  for (const [at, passed] of told.passed) robot.connections[at].passed = passed;
   measure();
   if (changed) showActive();
   else showSince();
@@ -342,6 +343,7 @@ document.addEventListener("keydown", (event) => {
     h: heat,
     f: () => timeline.follow(),
     w: () => why.ask(),
+    a: () => picture.turn(),
     "/": () => /** @type {HTMLElement} */ (document.querySelector("[data-panel]:not([hidden]) input[type=search]") ?? element("lanes-filter")).focus(),
     o: () => picture.toggle(robot.selected),
     Escape: () => select(null),

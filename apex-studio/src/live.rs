@@ -3,6 +3,7 @@
 use crate::{
     detail,
     lane::{Drawn, Lane, Window, limited},
+    passes::Passes,
     pulse::Pulse,
     steps::{State, Step, Steps, What},
     tokens::Tokens,
@@ -84,6 +85,8 @@ pub struct Live {
     pub steps: Steps,
     /// Nodes that wait for others.
     pub waits: Waits,
+    /// Where activity has passed.
+    pub passes: Passes,
     /// `true` if the robot lets viewers only look.
     pub readonly: bool,
     pulse: Pulse,
@@ -190,6 +193,7 @@ impl Default for Live {
             checkpoints: vec![],
             steps: Steps::new(Arc::default()),
             waits: Waits::default(),
+            passes: Passes::default(),
             readonly: false,
             pulse: Pulse::default(),
             lanes: vec![],
@@ -212,7 +216,7 @@ impl Live {
         self.nodes = vec![Node::default(); about.nodes.len()];
         self.lanes = about.nodes.iter().map(|_| Lane::of(about.nodes.len())).collect();
         self.handled = vec![0; about.connections.len()];
-        self.waits = Waits::new(&about);
+        (self.waits, self.passes) = (Waits::new(&about), Passes::new(&about));
         self.about = Some(about);
         last
     }
@@ -339,6 +343,8 @@ impl Live {
             }
             self.lanes[node as usize].activity(self.now, active);
             if changes {
+                let state = |node: u32| self.nodes.get(node as usize).map_or((false, 0), |n| (n.active, n.since));
+                self.passes.change(node, self.now, state);
                 self.step(if active { What::Starts(node) } else { What::Stops(node) });
             }
         }
@@ -459,6 +465,7 @@ impl Live {
         let active = (0..).zip(&self.nodes).filter(|(_, node)| node.active).map(|(node, _)| node).collect();
         self.steps.take_back(State { now: self.now, reaction: reactions, active });
         self.tokens.values_mut().for_each(|tokens| tokens.take_back(self.now));
+        self.passes.take_back(self.now);
         (self.returns, self.run, self.repeats) = (self.returns + 1, Run::Running, true);
         true
     }

@@ -127,7 +127,7 @@ fn figures_of_a_thousand_nodes() {
     for all_open in [false, true] {
         if all_open {
             page.value(
-                "import('./page.js').then(({ ask }) => ask({ open: [...Array(25).keys()].map((n) => `part${n}`) }))",
+                "import('./page.js').then(({ ask }) => ask({ open: { view: 'wiring', open: [...Array(25).keys()].map((n) => `part${n}`) } }))",
             );
             page.wait_for("document.querySelectorAll('#picture [data-item]').length > 1000");
         }

@@ -166,8 +166,6 @@ fn film_of_the_competition() {
     let studio = Studio::open(Command::new(apex()), &folder, &arguments);
     let mut page = Browser::open(&studio.address).expect("a browser");
     page.size(1120, 700, false);
-    page.value("import('./studio.js').then(({ ask }) => ask({ open: ['mission'] }))");
-    page.wait_for("document.querySelector('[data-item=\"mission.fetch\"]')");
     click(&mut page, "[data-tab=values]");
     for channel in ["slam.map", "slam.pose", "around.both.merged"] {
         click(&mut page, &format!("[data-channel$=\"{channel}\"] input"));
