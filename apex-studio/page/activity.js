@@ -12,7 +12,7 @@ export function duration(seconds) {
 }
 
 /** The graph around a node. @param {string} name */
-const around = (name) => name.slice(0, Math.max(0, name.lastIndexOf(".")));
+export const around = (name) => name.slice(0, Math.max(0, name.lastIndexOf(".")));
 
 /** The longest path that is the same for all of these. @param {string[]} paths */
 export function common(paths) {

@@ -8,9 +8,10 @@ import { Values } from "./values.js";
 import { Text } from "./text.js";
 import { Why } from "./why.js";
 import { Moment } from "./moment.js";
+import { completeNames } from "./names.js";
 
 /** @typedef {{name: string, kind: string, docs: string, file: number, line: number, column: number, ports: [string, string, string][]}} AboutNode */
-/** @typedef {{from: number, output: string, to: number, input: string}} Connection */
+/** @typedef {{from: number, output: string, to: number, input: string, activity: boolean}} Connection */
 /** @typedef {{name: string, node: number, schema: {name: string, definition: string} | null}} Channel */
 /** @typedef {{name: string, ty: string, unit: string | null, min: number | null, max: number | null}} ParamInfo */
 /** @typedef {{name: string, docs: string, files: string[], simulated: boolean, nodes: AboutNode[], connections: Connection[], groups: string[], claims: string[], channels: Channel[], params: ParamInfo[]}} About */
@@ -271,7 +272,6 @@ function look(at) {
   for (const list of ["active", "problems"]) element(list).replaceChildren();
   element("name").textContent = "Apex Studio";
   ask({ robot: at });
-  element("robot").blur();
   if (robot.times !== null) ask({ measure: true });
 }
 
@@ -292,6 +292,7 @@ element("take").addEventListener("click", () => ask("take"));
 element("heat").addEventListener("click", heat);
 element("back").addEventListener("click", () => ask("back"));
 element("goto").addEventListener("click", () => timeline.go());
+completeNames(element("break"), element("names"));
 element("break").addEventListener("change", () => ask({ break: element("break").value }));
 element("restart").addEventListener("click", () => ask("restart"));
 element("robot").addEventListener("change", () => {
@@ -299,14 +300,10 @@ element("robot").addEventListener("change", () => {
   if (chosen.startsWith("study")) location.assign(`${chosen}${location.hash}`);
   else look(Number(chosen));
 });
-element("earlier").addEventListener("change", () => {
-  ask({ look: Number(element("earlier").value) });
-  element("earlier").blur();
-});
+element("earlier").addEventListener("change", () => ask({ look: Number(element("earlier").value) }));
 element("speed").addEventListener("change", () => {
   const chosen = element("speed").value;
   ask({ run: { speed: chosen === "" ? null : Number(chosen) } });
-  element("speed").blur();
 });
 
 /** Shows one of the panels. @param {string} name */

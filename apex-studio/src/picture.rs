@@ -1,8 +1,8 @@
 //! The pictures of a robot, and which of its connections each line stands for.
 
-use crate::kinds::is_inserted;
+use crate::kinds::{is_inserted, is_silent};
 use apex_diagram::{Anchor, Frame, Item, joined, layout::place, states, svg};
-use apex_rt::studio::message::{About, AboutConnection};
+use apex_rt::studio::message::{About, AboutConnection, AboutNode};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -64,8 +64,8 @@ impl Picture {
     /// Numbers of the nodes in the view of the activity.
     pub fn states(&self, about: &About) -> Vec<usize> {
         let paths = self.paths();
-        let nodes = about.nodes.iter().enumerate();
-        nodes.filter(|(_, node)| paths.contains(&node.name)).map(|(at, _)| at).collect()
+        let is_state = |(_, node): &(usize, &AboutNode)| !is_silent(&node.kind) && paths.contains(&node.name);
+        about.nodes.iter().enumerate().filter(is_state).map(|(at, _)| at).collect()
     }
 
     /// Full names of all uses of a graph; the empty one for the whole.

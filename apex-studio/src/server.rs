@@ -89,7 +89,7 @@ const ROBOT: File = File { path: "/robot", kind: "text/html; charset=utf-8", tex
 /// The page of a study.
 const STUDY: File = File { path: "/study", kind: "text/html; charset=utf-8", text: include_str!("../page/study.html") };
 
-const FILES: [File; 20] = [
+const FILES: [File; 21] = [
     ROBOT,
     STUDY,
     File { path: "/studio.css", kind: "text/css; charset=utf-8", text: include_str!("../page/studio.css") },
@@ -106,6 +106,7 @@ const FILES: [File; 20] = [
     File { path: "/studio.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/studio.js") },
     File { path: "/picture.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/picture.js") },
     File { path: "/activity.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/activity.js") },
+    File { path: "/names.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/names.js") },
     File { path: "/labels.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/labels.js") },
     File { path: "/timeline.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/timeline.js") },
     File { path: "/params.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/params.js") },

@@ -10,7 +10,7 @@ use crate::{
     moment,
     picture::{Picture, View},
     robot::{Earlier, Shared, locked},
-    why::why,
+    why::{Line, why},
 };
 use apex_rt::studio::message::Command;
 use base64::{Engine as _, prelude::BASE64_STANDARD};
@@ -33,6 +33,8 @@ pub struct Session {
     picture: Option<Picture>,
     editor: Editor,
     watched: BTreeSet<u32>,
+    /// Channels of the last answer to why.
+    explained: BTreeSet<u32>,
     measures: bool,
     /// The view that the user has chosen, and the open graphs of each view, from the first choice on.
     view: Option<View>,
@@ -90,6 +92,7 @@ impl Session {
             picture,
             editor,
             watched,
+            explained: BTreeSet::new(),
             measures,
             view,
             open,
@@ -145,9 +148,8 @@ impl Session {
                 return self.draw();
             }
             Asked::Watch(channels) => {
-                let both = || [&self.shared].into_iter().chain(self.beside.as_ref().map(|beside| &beside.shared));
-                channels.difference(&self.watched).for_each(|channel| both().for_each(|robot| robot.watch(*channel)));
-                self.watched.difference(&channels).for_each(|channel| both().for_each(|robot| robot.unwatch(*channel)));
+                self.watch(&channels);
+                self.unwatch(&self.watched);
                 self.watched = channels;
                 return None;
             }
@@ -173,7 +175,10 @@ impl Session {
             Asked::Why { node, at } => {
                 let live = self.live();
                 let time = at.map_or(live.now, nanos);
-                return Some(Told::Why(why(&live, node, time)));
+                let lines = why(&live, node, time);
+                drop(live);
+                self.explain(&lines);
+                return Some(Told::Why(lines));
             }
             Asked::Edit { file, version, text } => return self.editor.edit(file, version, text).map(Told::Written),
             Asked::Hover(place) => {
@@ -226,6 +231,30 @@ impl Session {
             self.shared.tell(&command);
         }
         None
+    }
+
+    /// Asks for the tokens of channels, also of the robot beside this one.
+    fn watch(&self, channels: &BTreeSet<u32>) {
+        self.robots().for_each(|robot| channels.iter().for_each(|channel| robot.watch(*channel)));
+    }
+
+    fn unwatch(&self, channels: &BTreeSet<u32>) {
+        self.robots().for_each(|robot| channels.iter().for_each(|channel| robot.unwatch(*channel)));
+    }
+
+    fn robots(&self) -> impl Iterator<Item = &Arc<Shared>> {
+        [&self.shared].into_iter().chain(self.beside.as_ref().map(|beside| &beside.shared))
+    }
+
+    /// Asks from now on for the tokens of an answer, so that the next answer about the same has their values.
+    fn explain(&mut self, lines: &[Line]) {
+        if self.readonly {
+            return;
+        }
+        let channels = lines.iter().filter_map(|line| line.channel).collect();
+        self.watch(&channels);
+        self.unwatch(&self.explained);
+        self.explained = channels;
     }
 
     /// Writes a test of an interval. Returns the path of its file.
@@ -382,9 +411,8 @@ impl Drop for Session {
         if self.measures {
             self.shared.measure(false);
         }
-        for robot in [&self.shared].into_iter().chain(self.beside.as_ref().map(|beside| &beside.shared)) {
-            self.watched.iter().for_each(|channel| robot.unwatch(*channel));
-        }
+        self.unwatch(&self.watched);
+        self.unwatch(&self.explained);
     }
 }
 

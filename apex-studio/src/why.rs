@@ -4,6 +4,7 @@ use crate::{
     kinds::is_silent,
     live::Live,
     steps::{Part, What},
+    words::one_line,
 };
 use apex_rt::studio::message::{About, AboutConnection, PortRole};
 use serde::Serialize;
@@ -13,6 +14,8 @@ use std::{collections::BTreeSet, ops::Range};
 const MAX_LINES: usize = 80;
 /// Maximum number of causes one behind the other.
 const MAX_DEPTH: u32 = 24;
+/// Maximum number of characters of the value of a token.
+const MAX_VALUE: usize = 60;
 
 /// A line of an answer: a fact, and below it, deeper by one, its causes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -23,6 +26,9 @@ pub struct Line {
     pub node: u32,
     /// Its time in s.
     pub at: f64,
+    /// The channel of the token that it is about.
+    #[serde(skip)]
+    pub channel: Option<u32>,
 }
 
 /// Explains the activity of a node and its firing, or why there was none, at a time in ns.
@@ -31,7 +37,7 @@ pub fn why(live: &Live, node: usize, time: i64) -> Vec<Line> {
     let steps = live.steps.around(time);
     let (node, end) = (node as u32, steps.until(time));
     let is_forgotten = steps.is_forgotten;
-    let mut answer = Answer { about, steps: &steps, lines: vec![], told: BTreeSet::new() };
+    let mut answer = Answer { live, about, steps: &steps, lines: vec![], told: BTreeSet::new() };
     if end == 0 {
         let why = match is_forgotten {
             true => "what happened then is not known any more: go there, and ask again",
@@ -46,6 +52,7 @@ pub fn why(live: &Live, node: usize, time: i64) -> Vec<Line> {
 }
 
 struct Answer<'a> {
+    live: &'a Live,
     about: &'a About,
     steps: &'a Part<'a>,
     lines: Vec<Line>,
@@ -64,7 +71,7 @@ struct Origin<'a> {
 impl<'a> Answer<'a> {
     fn say(&mut self, depth: u32, text: String, node: u32, now: i64) {
         if self.lines.len() < MAX_LINES {
-            self.lines.push(Line { depth, text, node, at: now as f64 / 1e9 });
+            self.lines.push(Line { depth, text, node, at: now as f64 / 1e9, channel: None });
         }
     }
 
@@ -304,31 +311,67 @@ impl<'a> Answer<'a> {
         changes(self.steps[last].what, "disable").then_some(last)
     }
 
+    /// The value of a token that was sent over a channel at a time in ns, if it is known: `: 0.4`.
+    fn value(&self, channel: u32, time: i64) -> Option<String> {
+        let text = one_line(self.live.tokens.get(&channel)?.at(time)?);
+        let short: String = text.chars().take(MAX_VALUE).collect();
+        Some(if short.len() < text.len() { format!(": {short}…") } else { format!(": {short}") })
+    }
+
+    /// The last tokens that the slots of a node took before step `at`: they may count still.
+    fn taken(&self, node: u32, at: usize) -> Vec<usize> {
+        let slots = self.incoming(node).filter(|c| self.has_role(node, &c.input, PortRole::Slot));
+        let last = slots.filter_map(|c| {
+            let is_taken = |what| matches!(what, What::Takes(n) if self.connection(n).is_some_and(|o| same(o, c)));
+            self.steps.last(at, is_taken)
+        });
+        last.collect()
+    }
+
     /// Explains a step, and its causes below it.
     fn cause(&mut self, at: usize, depth: u32) {
+        if self.tell(at, depth) && depth < MAX_DEPTH {
+            for cause in self.causes(at) {
+                self.cause(cause, depth + 1);
+            }
+            let What::Fires(node) = self.steps[at].what else { return };
+            // How these tokens came about long ago is a question of its own, which leads round through the robot.
+            for taken in self.taken(node, at) {
+                if self.tell(taken, depth + 1) {
+                    for sent in self.causes(taken) {
+                        self.tell(sent, depth + 2);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Says what happens in a step. Returns `true` the first time.
+    fn tell(&mut self, at: usize, depth: u32) -> bool {
         let step = self.steps[at];
         let (text, node) = match step.what {
             What::Fires(node) => (format!("`{}` fired", self.name(node)), node),
             What::Takes(number) => match self.connection(number) {
                 Some(c) => (format!("`{}.{}` took a token", self.name(c.to), c.input), c.to),
-                None => return,
+                None => return false,
             },
             What::Sends(channel) => match self.about.channels.get(channel as usize) {
                 Some(channel) => (format!("`{}` was sent", channel.name), channel.node),
-                None => return,
+                None => return false,
             },
             What::Starts(node) => (format!("`{}` became active", self.name(node)), node),
             What::Stops(node) => (format!("`{}` became inactive", self.name(node)), node),
-            What::Begins => return,
+            What::Begins => return false,
         };
         let is_new = self.told.insert(at);
         let again = if is_new { "" } else { " (see above)" };
-        self.say(depth, format!("{text} at {}{again}", shown(step.now)), node, step.now);
-        if is_new && depth < MAX_DEPTH {
-            for cause in self.causes(at) {
-                self.cause(cause, depth + 1);
-            }
+        let channel = if let What::Sends(channel) = step.what { Some(channel) } else { None };
+        let value = channel.and_then(|channel| self.value(channel, step.now)).unwrap_or_default();
+        self.say(depth, format!("{text}{value} at {}{again}", shown(step.now)), node, step.now);
+        if let Some(line) = self.lines.last_mut() {
+            line.channel = line.channel.or(channel);
         }
+        is_new
     }
 
     /// The steps that led to a step.

@@ -7,7 +7,7 @@ use crate::{
 };
 
 /// Starts the robot that tends plants, and opens its page.
-fn tends(name: &'static str) -> Option<(Browser, Started)> {
+pub fn tends(name: &'static str) -> Option<(Browser, Started)> {
     let robot = start_of(name, Tends::new, 3600);
     let mut page = Browser::open(&studio_for_file(name, "studio/tends.afg"))?;
     page.size(1000, 700, false);

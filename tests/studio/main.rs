@@ -6,6 +6,7 @@ mod bytes;
 mod checkpoints;
 mod figures;
 mod foxglove;
+mod hands;
 mod hostile;
 mod measure;
 mod page;

@@ -91,7 +91,7 @@ fn a_robot_without_its_text_is_drawn_from_what_it_says() {
     let Some(mut page) = Browser::open(&opened(vec![seat("untold", Arc::new(NoText))], false)) else { return };
     page.wait_for(RUNNING);
     // Its activity, too.
-    page.wait_for("document.getElementById('does').textContent.startsWith('does: gate')");
+    page.wait_for("document.getElementById('does').textContent.startsWith('does: gate,')");
     wiring(&mut page);
     page.wait_for("document.querySelector('[data-item=\"gated.gate\"].is-active')");
     page.wait_for("document.querySelector('[data-item=gated].is-active')");
