@@ -3,6 +3,9 @@
 import { element } from "./page.js";
 import { robot } from "./studio.js";
 
+/** Number of graphs, and of nodes in each, that are named. */
+const MOST = 3;
+
 /** A duration as one says it. @param {number} seconds */
 export function duration(seconds) {
   const whole = Math.floor(Math.max(0, seconds));
@@ -24,6 +27,12 @@ export function common(paths) {
 
 /** A name without the path before it. @param {string} name @param {string} path */
 export const below = (name, path) => (path !== "" && name.startsWith(`${path}.`) ? name.slice(path.length + 1) : name);
+
+/** Words for those of a list that are not named. @param {any[]} all @param {string} between */
+const more = (all, between) => (all.length > MOST ? `${between}${all.length - MOST} more` : "");
+
+/** The first names of a list. @param {string[]} names @param {string} between */
+const some = (names, between) => names.slice(0, MOST).join(between) + more(names, between);
 
 /** The active states, by the graphs around them. @param {number[]} states numbers of all states */
 function doing(states) {
@@ -47,8 +56,10 @@ function doing(states) {
 export function showDoing(states) {
   const place = element("does");
   const groups = doing(states);
-  const parts = groups.map(({ graph, names, since }) => `${[...graph, names.join(" + ")].join(" > ")}, ${duration(robot.now - since)}`);
-  const words = parts.length === 0 ? "does nothing" : `does: ${parts.join("; ")}`;
+  // What has changed last is named if all is too much.
+  const newest = [...groups].sort((a, b) => b.since - a.since).slice(0, MOST);
+  const parts = groups.filter((group) => newest.includes(group)).map(({ graph, names, since }) => `${[...graph, some(names, " + ")].join(" > ")}, ${duration(robot.now - since)}`);
+  const words = parts.length === 0 ? "does nothing" : `does: ${parts.join("; ")}${more(groups, "; ")}`;
   place.hidden = states.length === 0;
   if (place.textContent !== words) place.textContent = words;
   const last = groups.reduce((last, group) => (last === null || group.since > last.since ? group : last), /** @type {typeof groups[0] | null} */ (null));

@@ -117,8 +117,9 @@ export class Labels {
     // A name may be longer than its box, but does not lie over another one.
     const isFree = (/** @type {Taken} */ place) => this.all.every((other) => other === box || other.isFrame || !meets(place, onScreen(other, scale)));
     const room = isFrame ? w * scale - 8 : w * scale + 8;
-    const words = !isFrame && isFree(own(name)) ? name : shortened(name, room);
-    if (words === "" || !this.put(label, own(words), scale, taken)) return "";
+    const tried = [!isFrame && isFree(own(name)) ? name : "", shortened(name, room)];
+    const words = tried.find((words) => words !== "" && this.put(label, own(words), scale, taken));
+    if (!words) return "";
     since.setAttribute("x", String(middle / scale));
     since.setAttribute("y", String((top + 2 * SIZE - 1) / scale));
     return words;

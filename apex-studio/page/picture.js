@@ -429,7 +429,11 @@ export class Picture {
     const head = error ? `${title}\n${error}` : title;
     if (item.nodes.length !== 1) return head;
     const node = robot.nodes[item.nodes[0]];
-    const fired = node.fired === 0 ? "has not fired" : `fired ${node.fired} times, ${node.rate.toFixed(1)}/s; ${this.ago(node.last)}`;
+    const ran = [
+      ...(node.fired > 0 ? [`fired ${node.fired} times, ${node.rate.toFixed(1)}/s`] : []),
+      ...(node.taken > 0 ? [`its slots took ${node.taken} tokens`] : []),
+    ];
+    const fired = ran.length === 0 ? "has not fired" : `${ran.join("; ")}; ${this.ago(node.last)}`;
     const missing = [...robot.awaited].flatMap((at) => robot.about?.connections[at] ?? []).filter(({ to }) => to === item.nodes[0]);
     const waits = missing.length === 0 ? "" : `\nwaits for ${missing.map(({ from, output }) => `${robot.about?.nodes[from].name}.${output}`).join(", ")}`;
     const problems = node.problems > 0 ? `\n${node.problems} problems` : "";

@@ -15,7 +15,7 @@ import { completeNames } from "./names.js";
 /** @typedef {{name: string, node: number, schema: {name: string, definition: string} | null}} Channel */
 /** @typedef {{name: string, ty: string, unit: string | null, min: number | null, max: number | null}} ParamInfo */
 /** @typedef {{name: string, docs: string, files: string[], simulated: boolean, nodes: AboutNode[], connections: Connection[], groups: string[], claims: string[], channels: Channel[], params: ParamInfo[]}} About */
-/** @typedef {{active: boolean, fired: number, last: number, problems: number, since: number, fresh: boolean, rate: number}} NodeState */
+/** @typedef {{active: boolean, fired: number, taken: number, last: number, problems: number, since: number, fresh: boolean, rate: number}} NodeState */
 
 /** What all modules see. */
 export const robot = {
@@ -132,7 +132,7 @@ function forget() {
   const { nodes, connections } = robot.about ?? { nodes: [], connections: [] };
   robot.now = 0;
   if (robot.times) robot.times = new Map();
-  robot.nodes = nodes.map(() => ({ active: false, fired: 0, last: 0, problems: 0, since: 0, fresh: false, rate: 0 }));
+  robot.nodes = nodes.map(() => ({ active: false, fired: 0, taken: 0, last: 0, problems: 0, since: 0, fresh: false, rate: 0 }));
   robot.connections = connections.map(() => ({ count: 0, fresh: false, rate: 0, passed: -Infinity }));
   rates.length = 0;
   element("problems").replaceChildren();
@@ -168,10 +168,10 @@ function tick(told) {
   let changed = false;
   // The program is not there yet.
   if (robot.about === null) return;
-  for (const [at, active, since, fired, last, problems] of told.nodes) {
+  for (const [at, active, since, fired, taken, last, problems] of told.nodes) {
     const node = robot.nodes[at];
     changed ||= node.active !== active;
-    Object.assign(node, { active, since, fresh: fired !== node.fired, fired, last, problems });
+    Object.assign(node, { active, since, fresh: fired + taken !== node.fired + node.taken, fired, taken, last, problems });
   }
   robot.awaited = new Set(told.awaited);
   for (const [at, count] of told.handled) Object.assign(robot.connections[at], { fresh: true, count });

@@ -1,6 +1,6 @@
 // @ts-check
 // Tokens of ports: numbers as plots, what has a place in the plane, images, all else as text.
-import { World, drawImage, hasPlace, isPose, read } from "./world.js";
+import { World, drawImage, hasPlace, isMeasured, isPose, read } from "./world.js";
 import { ask, empty } from "./page.js";
 import { robot } from "./studio.js";
 
@@ -225,7 +225,7 @@ export class Values {
 function takenAt(name) {
   const { channels = [], connections = [], nodes = [] } = robot.about ?? {};
   const channel = channels.find((channel) => channel.name === name);
-  if (!channel || !hasPlace(channel.schema?.name ?? "") || isPose(channel.schema?.name ?? "")) return null;
+  if (!channel || !isMeasured(channel.schema?.name ?? "")) return null;
   const isInserted = (/** @type {number} */ node) => ["relay", "probe"].includes(nodes[node].kind);
   /** The nodes behind a connection, over those of the compiler. @type {(to: number, depth?: number) => number[]} */
   const behind = (to, depth = 0) => (isInserted(to) && depth < 8 ? connections.filter(({ from }) => from === to).flatMap((next) => behind(next.to, depth + 1)) : [to]);

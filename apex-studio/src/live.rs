@@ -122,8 +122,10 @@ pub struct Node {
     pub active: bool,
     /// Time in ns since which it is active or inactive.
     pub since: i64,
+    /// Number of firings, and of tokens that its slots took.
     pub fired: u64,
-    /// Time of the last firing in ns.
+    pub taken: u64,
+    /// Time of the last of these in ns.
     pub last: i64,
     /// Number of failures, missed deadlines and the like.
     pub problems: u64,
@@ -236,7 +238,7 @@ impl Live {
             Report::Fired(node) => {
                 self.step(What::Fires(node));
                 self.waits.fired(node);
-                self.fire(node);
+                self.run(node, |state| state.fired += 1);
             }
             Report::Handled(connection) => {
                 self.step(What::Takes(connection));
@@ -317,9 +319,10 @@ impl Live {
         self.about.as_ref().is_some_and(|about| (channel as usize) < about.channels.len())
     }
 
-    fn fire(&mut self, node: u32) {
+    /// A node fires, or one of its slots takes a token.
+    fn run(&mut self, node: u32, count: fn(&mut Node)) {
         if let Some(state) = self.nodes.get_mut(node as usize) {
-            state.fired += 1;
+            count(state);
             state.last = self.now;
             self.lanes[node as usize].fire(self.now);
         }
@@ -331,7 +334,7 @@ impl Live {
         }
         let to = self.about.as_ref().and_then(|about| Some(about.connections.get(connection as usize)?.to));
         if let Some(to) = to {
-            self.fire(to);
+            self.run(to, |state| state.taken += 1);
         }
     }
 
@@ -454,7 +457,7 @@ impl Live {
         self.checkpoints.truncate(at + 1);
         let Checkpoint { now, nodes, handled, problem_count, lost, .. } = &self.checkpoints[at];
         for (lane, node) in self.lanes.iter_mut().zip(nodes) {
-            *lane = lane.until(*now, node.active, node.fired);
+            *lane = lane.until(*now, node.active, node.fired + node.taken);
         }
         let known = self.problem_count - self.problems.len() as u64;
         self.problems.truncate(usize::try_from(problem_count.saturating_sub(known)).unwrap_or(usize::MAX));

@@ -129,9 +129,9 @@ pub struct Tick {
     pub silence: Option<String>,
     /// Time in s before which only sums are known, if there is one.
     pub forgotten: Option<f64>,
-    /// Nodes that have changed: index, active, since when in s, number of firings, time of the last one in s, number of
-    /// problems.
-    pub nodes: Vec<(usize, bool, f64, u64, f64, u64)>,
+    /// Nodes that have changed: index, active, since when in s, numbers of firings and of tokens that its slots took,
+    /// time of the last of these in s, number of problems.
+    pub nodes: Vec<(usize, bool, f64, u64, u64, f64, u64)>,
     /// Connections that have changed, with the number of their tokens.
     pub handled: Vec<(usize, u64)>,
     /// Connections over which activity has passed, with the last time in s.

@@ -433,7 +433,7 @@ impl Seen {
         for (at, (node, seen)) in live.nodes.iter().zip(&mut self.nodes).enumerate() {
             if node != seen {
                 let (since, last) = (seconds(node.since), seconds(node.last));
-                nodes.push((at, node.active, since, node.fired, last, node.problems));
+                nodes.push((at, node.active, since, node.fired, node.taken, last, node.problems));
                 *seen = *node;
             }
         }

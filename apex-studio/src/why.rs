@@ -92,13 +92,17 @@ impl<'a> Answer<'a> {
         ports.iter().any(|(name, is, _)| name == port && *is == role)
     }
 
-    /// `true` if the tokens of a connection are taken one by one, by a slot.
-    fn is_asynchronous(&self, c: &AboutConnection) -> bool {
+    /// `true` if a connection ends at a slot.
+    fn is_to_slot(&self, c: &AboutConnection) -> bool {
         let declared = self.about.nodes.get(c.to as usize).map_or(&[][..], |node| &node.ports);
         let is_standard = matches!(c.input.as_str(), "enable" | "disable" | "cancel" | "resume");
         self.has_role(c.to, &c.input, PortRole::Slot)
             || is_standard && declared.iter().all(|(name, ..)| *name != c.input)
-            || self.has_role(c.from, &c.output, PortRole::Event)
+    }
+
+    /// `true` if the tokens of a connection are taken one by one.
+    fn is_asynchronous(&self, c: &AboutConnection) -> bool {
+        self.is_to_slot(c) || self.has_role(c.from, &c.output, PortRole::Event)
     }
 
     /// The ports of real nodes from which the tokens of a connection come.
@@ -318,14 +322,15 @@ impl<'a> Answer<'a> {
         Some(if short.len() < text.len() { format!(": {short}…") } else { format!(": {short}") })
     }
 
-    /// The last tokens that the slots of a node took before step `at`: they may count still.
+    /// The last token that each slot of a node took before step `at`: it may count still.
     fn taken(&self, node: u32, at: usize) -> Vec<usize> {
-        let slots = self.incoming(node).filter(|c| self.has_role(node, &c.input, PortRole::Slot));
-        let last = slots.filter_map(|c| {
-            let is_taken = |what| matches!(what, What::Takes(n) if self.connection(n).is_some_and(|o| same(o, c)));
-            self.steps.last(at, is_taken)
-        });
-        last.collect()
+        let slots: BTreeSet<&str> =
+            self.incoming(node).filter(|c| self.is_to_slot(c)).map(|c| c.input.as_str()).collect();
+        let takes = |what, slot: &str| match what {
+            What::Takes(number) => self.connection(number).is_some_and(|c| c.to == node && c.input == slot),
+            _ => false,
+        };
+        slots.into_iter().filter_map(|slot| self.steps.last(at, |what| takes(what, slot))).collect()
     }
 
     /// Explains a step, and its causes below it.
@@ -335,9 +340,11 @@ impl<'a> Answer<'a> {
                 self.cause(cause, depth + 1);
             }
             let What::Fires(node) = self.steps[at].what else { return };
-            // How these tokens came about long ago is a question of its own, which leads round through the robot.
             for taken in self.taken(node, at) {
-                if self.tell(taken, depth + 1) {
+                // How a token came about before is a question of its own, which leads round through the robot.
+                if self.steps[taken].now == self.steps[at].now {
+                    self.cause(taken, depth + 1);
+                } else if self.tell(taken, depth + 1) {
                     for sent in self.causes(taken) {
                         self.tell(sent, depth + 2);
                     }
@@ -380,7 +387,7 @@ impl<'a> Answer<'a> {
             What::Fires(node) => {
                 let start = self.steps.reaction(at).start;
                 let mut causes = vec![];
-                for c in self.incoming(node).filter(|c| !self.has_role(node, &c.input, PortRole::Slot)) {
+                for c in self.incoming(node).filter(|c| !self.is_to_slot(c)) {
                     for origin in self.origins(c) {
                         let end = if origin.delayed { start } else { at };
                         let sent = self.sending(origin.node, origin.output, end);

@@ -2,7 +2,7 @@
 
 use crate::{
     browser::Browser,
-    page::{RUNNING, opened},
+    page::{RUNNING, opened, wiring},
     several::NoText,
     socket,
 };
@@ -123,6 +123,7 @@ fn figures_of_a_thousand_nodes() {
     let mut page = Browser::open(&opened(vec![seat], false)).expect("a browser");
     page.size(1280, 760, false);
     page.wait_for(RUNNING);
+    wiring(&mut page);
     page.wait_for("document.querySelector('.item.is-firing')");
     for all_open in [false, true] {
         if all_open {

@@ -78,7 +78,8 @@ fn a_page_shows_one_of_several_robots() {
     wiring(&mut page);
     page.wait_for("document.querySelector('[data-item=times]')");
     choose(&mut page, 0);
-    page.wait_for(&format!("{choice}.value === '0' && document.querySelector('[data-item=gated]')"));
+    page.wait_for(&format!("{choice}.value === '0'"));
+    page.wait_for("document.getElementById('picture').dataset.view === 'activity'");
     wiring(&mut page);
     page.wait_for(&format!("{choice}.value === '0' && document.querySelector('[data-item=times]')"));
     page.wait_for("document.querySelector('#text-area textarea').value.includes('graph Counts')");
