@@ -261,7 +261,8 @@ impl Page for RobotPage {
 
     fn answer(&mut self, text: &str) -> Vec<Told> {
         let told = match serde_json::from_str(text) {
-            Ok(Asked::Robot(robot)) => self.serving.session(robot).map(|other| {
+            Ok(Asked::Robot(robot)) => self.serving.session(robot).map(|mut other| {
+                other.look_like(&self.session);
                 self.session = other;
                 self.serving.names(robot)
             }),

@@ -99,6 +99,11 @@ impl Session {
         }
     }
 
+    /// Shows what another session of the same page has shown: the activity, or the wiring.
+    pub fn look_like(&mut self, other: &Self) {
+        self.view = other.view;
+    }
+
     /// The run that is shown.
     fn live(&self) -> MutexGuard<'_, Live> {
         self.earlier.as_ref().map_or_else(|| self.shared.live(), |earlier| locked(earlier))

@@ -1,6 +1,10 @@
 //! The pictures of the documentation: of robots that run, so that they are drawn on demand only.
 
-use crate::{browser::Browser, page::moment, socket};
+use crate::{
+    browser::Browser,
+    page::{moment, wiring},
+    socket,
+};
 use std::{
     env, fs,
     io::{self, BufRead as _, BufReader},
@@ -141,8 +145,8 @@ fn pictures() {
     click(&mut page, "[data-tab=values]");
     click(&mut page, "[data-channel=\"sim.base.battery\"] input");
     click(&mut page, "[data-channel=\"sim.laser.scan\"] input");
-    see_from(&mut page, "sim.laser.scan", "sim.base.pose");
     time_is_over(&mut page, 60.0);
+    wiring(&mut page);
     page.press("0");
     save(&mut page, "studio_dark.png");
     // Narrow, for a look only.
