@@ -56,7 +56,7 @@ export class Labels {
       ...box,
       name: box.path.split(".").pop() ?? "",
       label: make("text", box.isFrame ? "label of-frame" : "label"),
-      since: make("text", "label small"),
+      since: make("text", "label small since"),
     }));
     // Graphs before what is in them: their names say more.
     this.all.sort((a, b) => Number(b.isFrame) - Number(a.isFrame) || a.path.split(".").length - b.path.split(".").length);

@@ -85,7 +85,7 @@ pub struct Live {
     pub steps: Steps,
     /// Nodes that wait for others.
     pub waits: Waits,
-    /// Where activity has passed.
+    /// Ways of activity, and the last time for each.
     pub passes: Passes,
     /// `true` if the robot lets viewers only look.
     pub readonly: bool,

@@ -177,6 +177,8 @@ fn film_of_the_competition() {
     see_from(&mut page, "surroundings.around.both.merged", "surroundings.localize.slam.pose");
     page.fill("document.getElementById('lanes-filter')", "follow");
     time_is_over(&mut page, 20.0);
+    // The plane is above the ports.
+    page.value("document.querySelector('[data-panel=values]').scrollTop = 0");
     page.press("0");
     let interval = Duration::from_millis(250);
     Film::take(&mut page, 48, interval).save(interval, "studio_competition.png").expect("a file");
