@@ -39,6 +39,8 @@ mod remote;
 mod requests;
 mod run;
 #[cfg(feature = "std")]
+mod shadow;
+#[cfg(feature = "std")]
 mod stop;
 #[cfg(feature = "viewer")]
 pub mod studio;
@@ -91,6 +93,8 @@ pub use remote::RemoteParams;
 #[cfg(feature = "std")]
 pub use run::drive_from;
 pub use run::{Next, Program, drive, drive_with, run};
+#[cfg(feature = "std")]
+pub use shadow::is_shadow;
 #[cfg(feature = "std")]
 pub use stop::UntilStopped;
 #[cfg(feature = "std")]

@@ -104,6 +104,8 @@ export function listen() {
   });
   element("help").addEventListener("click", () => element("keys").showModal());
   element("keys").addEventListener("click", () => element("keys").close());
+  // After a choice, keys are those of the page again.
+  document.addEventListener("change", ({ target }) => target instanceof HTMLSelectElement && target.blur());
   addEventListener("hashchange", () => location.reload());
   return tabs;
 }
@@ -111,16 +113,17 @@ export function listen() {
 /** `true` for a key that belongs to a field, or to the browser. @param {KeyboardEvent} event */
 export function isTyping(event) {
   const target = /** @type {HTMLElement} */ (event.target);
-  // Space halts the robot, whatever was clicked before.
-  if (event.key === " " && target.matches("button, [type=checkbox], [type=range]")) return false;
+  // Space halts the robot, whatever was clicked before: names that one looks for have no spaces.
+  if (event.key === " " && target.matches("button, [type=checkbox], [type=range], [type=search], [readonly]")) return false;
   if (!target.matches("input, select, textarea") && !event.ctrlKey && !event.metaKey && !event.altKey) return false;
-  if (event.key === "Escape") target.blur();
+  // What was typed counts; the next key is one of the page again.
+  if (event.key === "Escape" || (event.key === "Enter" && target.matches("input"))) target.blur();
   return true;
 }
 
 /** Does what a key stands for; digits show the panels. @param {KeyboardEvent} event @param {Record<string, () => void>} keys @param {HTMLElement[]} tabs */
 export function press(event, keys, tabs) {
-  if (element("keys").open) return;
+  if (element("keys").open && event.key !== " ") return;
   const act = keys[event.key] ?? tabs[Number(event.key) - 1]?.click.bind(tabs[Number(event.key) - 1]);
   if (act) {
     event.preventDefault();

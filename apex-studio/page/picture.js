@@ -1,21 +1,33 @@
 // @ts-check
 // The picture of the robot: the SVG of `apex graph`, alive.
-import { ask, tip } from "./page.js";
+import { duration, showDoing } from "./activity.js";
+import { Labels } from "./labels.js";
+import { ask, element, tip } from "./page.js";
 import { robot, select } from "./studio.js";
 
 /** @typedef {{within: string, names: string[], connects: boolean, text: string}} Concern */
 
 /** An element of the picture, with the classes of its state that it has. @typedef {{element: Element, state: number}} Shown */
+/** A box, with its nodes, and the line of words in which a state says since when it is active. @typedef {Shown & import("./labels.js").Box & {nodes: number[], since: Element | null, kind: string}} Item */
+/** @typedef {{view: string, has_activity: boolean, svg: string, graphs: string[], open: string[], lines: Record<string, number[]>, states: number[]}} Drawing */
 
 /** `true` for a node that the compiler has inserted into a connection. @param {number} node */
 const isInserted = (node) => ["relay", "probe"].includes(robot.about?.nodes[node]?.kind ?? "");
 
-/** Pixels per unit of the picture from which on its words, of 10 units and more, can be read. */
-const READABLE = 0.3;
+/** Pixels per unit of the picture below which names are drawn at a size of their own, and below which changes of colour
+ * are not seen. */
+const READABLE = 0.8;
+const FAR = 0.3;
+/** Those below which ports have no names. */
+const PORTS = 0.95;
+/** The most for a small picture. */
+const LARGEST = 1.6;
+/** Space around what is shown, in pixels. */
+const MARGIN = 12;
 
 /** Classes of the state of boxes, and of lines. */
 const BOX = ["is-active", "is-firing", "has-problem", "is-waiting"];
-const LINE = ["flows", "is-awaited"];
+const LINE = ["flows", "is-awaited", "is-last"];
 
 /** Gives an element the classes of its state. Only those that change are touched: the browser styles and paints what was.
  * @param {Shown} shown @param {string[]} classes @param {boolean[]} states */
@@ -31,7 +43,12 @@ export class Picture {
   constructor(place) {
     this.place = place;
     /** @type {SVGSVGElement | null} */ this.svg = null;
-    /** @type {Map<string, Shown & {nodes: number[], path: string}>} */ this.items = new Map();
+    this.labels = new Labels();
+    /** What is shown: `activity` or `wiring`. */
+    this.shown = "";
+    /** Nodes that can be active. @type {number[]} */ this.states = [];
+    /** The node that became active last. @type {string | null} */ this.doing = null;
+    /** @type {Map<string, Item>} */ this.items = new Map();
     /** @type {(Shown & {connections: number[]})[]} */ this.lines = [];
     /** For each connection the nodes before and behind it, if a token takes both to fire. @type {([number[], number[]] | null)[]} */ this.flow = [];
     /** @type {string[]} */ this.graphs = [];
@@ -40,20 +57,29 @@ export class Picture {
     /** Nodes of the last answer to "why". @type {Set<number>} */ this.lit = new Set();
     /** What the errors of the text concern. @type {Concern[]} */ this.concerns = [];
     /** Errors of the text, by what they concern. @type {Map<Element, string>} */ this.errors = new Map();
-    this.view = { x: 0, y: 0, width: 1, height: 1 };
+    /** The upper left corner of the window in the picture, and pixels per unit. */
+    this.view = { x: 0, y: 0, scale: 1 };
+    this.size = { width: 1, height: 1 };
+    /** `true` until the user has moved the picture: it is shown as a whole. */
+    this.isWhole = true;
+    /** A graph that is opened or closed, and its place in the window before. @type {{graph: string, left: number, top: number} | null} */ this.turned = null;
     this.listen();
   }
 
-  /** Shows a picture. @param {{svg: string, graphs: string[], open: string[], lines: Record<string, number[]>}} told */
-  show({ svg, graphs, open, lines }) {
+  /** Shows a picture. @param {Drawing} told */
+  show({ view, has_activity, svg, graphs, open, lines, states }) {
     const parsed = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
     if (parsed.localName !== "svg") return;
-    const before = this.svg;
     this.svg = /** @type {any} */ (document.importNode(parsed, true));
+    const size = this.svg?.viewBox.baseVal;
+    if (size) this.size = { width: size.width, height: size.height };
     this.svg?.removeAttribute("width");
     this.svg?.removeAttribute("height");
-    this.graphs = graphs;
-    this.open = new Set(open);
+    const isOther = view !== this.shown;
+    Object.assign(this, { shown: view, states, graphs, open: new Set(open) });
+    element("views").hidden = !has_activity;
+    for (const button of element("views").children) button.setAttribute("aria-pressed", String(button.dataset.view === view));
+    this.place.dataset.view = view;
     this.place.replaceChildren(/** @type {any} */ (this.svg));
     // Names are unique; a node inside a graph also lets the graph appear active.
     const names = robot.about?.nodes.map((node) => node.name) ?? [];
@@ -61,8 +87,7 @@ export class Picture {
     for (const element of this.svg?.querySelectorAll("[data-item]") ?? []) {
       const path = element.getAttribute("data-item") ?? "";
       const inside = (/** @type {string} */ name) => name === path || name.startsWith(`${path}.`);
-      const nodes = names.flatMap((name, at) => (inside(name) ? [at] : []));
-      if (path !== "") this.items.set(path, { element, nodes, path, state: 0 });
+      if (path !== "") this.items.set(path, this.item(element, path, names.flatMap((name, at) => (inside(name) ? [at] : []))));
       element.classList.toggle("can-open", graphs.includes(path));
     }
     this.lines = [...(this.svg?.querySelectorAll("[data-from]") ?? [])].map((element) => ({
@@ -72,12 +97,14 @@ export class Picture {
     }));
     this.flow = (robot.about?.connections ?? []).map((connection) =>
       this.isEvent(connection) ? null : [this.behind(connection.from, true), this.behind(connection.to, false)]);
-    const size = this.svg?.viewBox.baseVal;
-    if (size) this.size = { width: size.width, height: size.height };
-    if (!before || !this.shownBefore) this.fit();
-    else this.look();
-    this.shownBefore = true;
-    this.select(robot.selected);
+    const boxes = [...this.items.values()].filter(({ width }) => width > 0);
+    if (this.svg) this.labels.begin(this.svg, boxes, view === "activity" ? this.events() : []);
+    if (isOther) this.turned = null;
+    if (isOther || this.isWhole) this.fit();
+    if (this.turned) this.keep(this.turned);
+    this.turned = null;
+    this.mark(robot.selected);
+    this.look();
     this.update();
     this.heat();
     this.relight();
@@ -85,27 +112,78 @@ export class Picture {
     if (this.wanted) this.jump(this.wanted);
   }
 
+  /** The names of the events that end states, which are beside the boxes. */
+  events() {
+    return [...(this.svg?.querySelectorAll('text[font-size="10"]') ?? [])].map((text) => {
+      const { x, y } = this.corner(text.parentElement);
+      const [dx, dy] = ["x", "y"].map((side) => Number(text.getAttribute(side)));
+      return { words: text.textContent ?? "", x: x + dx, y: y + dy, anchor: text.getAttribute("text-anchor") ?? "start" };
+    });
+  }
+
+  /** The place of a group in the picture. @param {Element | null} group */
+  corner(group) {
+    let [x, y] = [0, 0];
+    for (let at = group; at && at !== this.svg; at = at.parentElement) {
+      const moved = /translate\((-?\d+) (-?\d+)\)/.exec(at.getAttribute("transform") ?? "");
+      [x, y] = [x + Number(moved?.[1] ?? 0), y + Number(moved?.[2] ?? 0)];
+    }
+    return { x, y };
+  }
+
+  /** A box of the picture. @param {Element} element @param {string} path @param {number[]} nodes @returns {Item} */
+  item(element, path, nodes) {
+    const box = element.querySelector(":scope > rect.box");
+    const [width, height] = ["width", "height"].map((side) => Number(box?.getAttribute(side) ?? 0));
+    const isFrame = element.classList.contains("frame");
+    // A state says below its name of which kind it is, or since when it is active.
+    const since = this.shown === "activity" && !isFrame ? element.querySelectorAll(":scope > text")[1] ?? null : null;
+    return { element, path, nodes, state: 0, ...this.corner(element), width, height, isFrame, since, kind: since?.textContent ?? "" };
+  }
+
   /** Forgets the picture of a robot. */
   forget() {
     this.svg = null;
+    this.shown = "";
+    this.isWhole = true;
     this.items.clear();
     this.lines = [];
     this.concerns = [];
+    this.states = [];
+    element("views").hidden = true;
+    element("does").hidden = true;
+    delete this.place.dataset.view;
     this.place.replaceChildren();
   }
 
   /** Shows what is active, fires and fails. */
   update() {
+    // In the view of the activity nothing else is to be seen.
+    const isActivity = this.shown === "activity";
     const waiting = new Set([...robot.awaited].map((at) => robot.about?.connections[at]?.to));
     for (const item of this.items.values()) {
       const is = (/** @type {(node: import("./studio.js").NodeState) => boolean} */ test) => item.nodes.some((at) => test(robot.nodes[at]));
       const waits = item.nodes.length === 1 && waiting.has(item.nodes[0]);
-      show(item, BOX, [is((node) => node.active), is((node) => node.fresh), is((node) => node.problems > 0), waits]);
+      show(item, BOX, [is((node) => node.active), !isActivity && is((node) => node.fresh), is((node) => node.problems > 0), !isActivity && waits]);
+      this.say(item);
     }
-    for (const line of this.lines) {
-      const { connections } = line;
-      show(line, LINE, [connections.some((at) => this.flows(at)), connections.some((at) => robot.awaited.has(at))]);
-    }
+    const times = this.lines.map(({ connections }) => (isActivity ? Math.max(...connections.map((at) => robot.connections[at].passed)) : -Infinity));
+    const last = Math.max(...times);
+    this.lines.forEach((line, at) => {
+      const is = (/** @type {(at: number) => boolean} */ test) => !isActivity && line.connections.some(test);
+      show(line, LINE, [is((at) => this.flows(at)), is((at) => robot.awaited.has(at)), times[at] === last && last > -Infinity]);
+    });
+    this.doing = showDoing(this.states);
+  }
+
+  /** Says in a state since when it is active. @param {Item} item */
+  say({ since, kind, nodes, path }) {
+    if (!since) return;
+    const active = nodes.map((at) => robot.nodes[at]).filter((node) => node.active);
+    const words = active.length === 0 ? kind : duration(robot.now - Math.min(...active.map((node) => node.since)));
+    if (since.textContent === words) return;
+    since.textContent = words;
+    this.labels.say(path, active.length === 0 ? "" : words);
   }
 
   /** Colours all boxes by their share of the computing time. */
@@ -194,31 +272,87 @@ export class Picture {
     return null;
   }
 
-  /** @param {string | null} name */
-  select(name) {
+  /** Marks a box. @param {string | null} name */
+  mark(name) {
     for (const { element, path } of this.items.values()) element.classList.toggle("is-selected", path === name);
+    this.labels.place(this.view.scale, name);
   }
 
-  /** Selects a node and brings it into view, and opens the graphs around it. @param {string} name @param {number} smallest */
-  jump(name, smallest = 30) {
+  /** Selects a box, and comes near enough to read it, unless it was clicked here. @param {string | null} name @param {string} [by] */
+  select(name, by) {
+    this.mark(name);
+    const item = this.items.get(name ?? "");
+    if (item && item.width > 0 && by !== "picture") this.reveal(item);
+  }
+
+  /** Comes near enough to a box to read it, unless it can be read already. @param {Item} item */
+  reveal(item) {
+    const { scale } = this.view;
+    const near = Math.max(scale, item.isFrame ? Math.min(1, this.filling(item)) : 1);
+    const isLegible = scale >= READABLE || near <= scale;
+    if (isLegible && this.sees(item)) return;
+    this.isWhole = false;
+    this.centre(item, isLegible ? scale : near);
+  }
+
+  /** `true` if all of a box is in the window. @param {import("./labels.js").Box} box */
+  sees({ x, y, width, height }) {
+    const { view, place } = this;
+    const [left, top] = [(x - view.x) * view.scale, (y - view.y) * view.scale];
+    return left >= -1 && top >= -1 && left + width * view.scale <= place.clientWidth + 1 && top + height * view.scale <= place.clientHeight + 1;
+  }
+
+  /** Pixels per unit with which something fills the window. @param {{width: number, height: number}} of */
+  filling({ width, height }) {
+    const { clientWidth, clientHeight } = this.place;
+    return Math.min((clientWidth - 2 * MARGIN) / width, (clientHeight - 2 * MARGIN) / height);
+  }
+
+  /** Shows a box in the middle of the window. @param {{x: number, y: number, width: number, height: number}} box @param {number} scale */
+  centre({ x, y, width, height }, scale) {
+    const { clientWidth, clientHeight } = this.place;
+    this.view = { x: x + width / 2 - clientWidth / scale / 2, y: y + height / 2 - clientHeight / scale / 2, scale };
+    this.look();
+  }
+
+  /** Keeps a graph that was opened or closed where it was, and all of it in the window. @param {{graph: string, left: number, top: number}} turned */
+  keep({ graph, left, top }) {
+    const item = this.items.get(graph);
+    if (!item || this.isWhole) return;
+    const { clientWidth, clientHeight } = this.place;
+    const scale = Math.min(this.view.scale, this.filling(item));
+    const within = (/** @type {number} */ at, /** @type {number} */ long, /** @type {number} */ all) => Math.max(MARGIN, Math.min(at, all - long * scale - MARGIN));
+    const [x, y] = [within(left, item.width, clientWidth), within(top, item.height, clientHeight)];
+    this.view = { x: item.x - x / scale, y: item.y - y / scale, scale };
+  }
+
+  /** Selects a node and shows it, opens the graphs around it, and leaves the activity for a node that is not part of it. @param {string} name */
+  jump(name) {
+    const isState = this.graphs.includes(name) || this.states.some((at) => robot.about?.nodes[at].name === name);
+    if (this.shown === "activity" && !isState) {
+      this.wanted = name;
+      ask({ open: { view: "wiring", open: null } });
+      return;
+    }
     const around = this.graphs.filter((graph) => name.startsWith(`${graph}.`));
     if (around.some((graph) => !this.open.has(graph))) {
       this.wanted = name;
       around.forEach((graph) => this.open.add(graph));
-      ask({ open: [...this.open] });
+      this.ask();
       return;
     }
     this.wanted = null;
     select(name);
-    const box = /** @type {any} */ (this.items.get(name)?.element)?.getBoundingClientRect();
-    const place = this.place.getBoundingClientRect();
-    if (!box) return;
-    const is = box.left >= place.left && box.right <= place.right && box.top >= place.top && box.bottom <= place.bottom;
-    if (is && box.width > smallest) return;
-    const scale = this.view.width / place.width;
-    this.view.x += ((box.left + box.right) / 2 - (place.left + place.right) / 2) * scale;
-    this.view.y += ((box.top + box.bottom) / 2 - (place.top + place.bottom) / 2) * scale;
-    this.look();
+  }
+
+  /** Asks for the picture with the open graphs. */
+  ask() {
+    ask({ open: { view: this.shown, open: [...this.open] } });
+  }
+
+  /** Shows the activity, or the wiring. @param {string} [view] */
+  turn(view = this.shown === "activity" ? "wiring" : "activity") {
+    ask({ open: { view, open: null } });
   }
 
   /** Selects the nearest box in a direction. @param {number} dx @param {number} dy */
@@ -235,7 +369,7 @@ export class Picture {
     };
     const best = boxes.reduce((best, box) => (cost(box) < cost(best) ? box : best), boxes[0]);
     if (!best || cost(best) === Infinity) return;
-    this.jump(best.path, 0);
+    this.jump(best.path);
     const { left, bottom } = best.element.getBoundingClientRect();
     tip(this.words(best.element), /** @type {any} */ ({ clientX: left, clientY: bottom - 8 }));
   }
@@ -244,33 +378,39 @@ export class Picture {
   toggle(name) {
     const graph = this.graphs.includes(name ?? "") ? name : this.graphs.filter((g) => name?.startsWith(`${g}.`)).sort((a, b) => b.length - a.length)[0];
     if (!graph) return;
+    const { view, items } = this;
+    const { x, y } = items.get(graph) ?? view;
+    this.turned = { graph, left: (x - view.x) * view.scale, top: (y - view.y) * view.scale };
     if (!this.open.delete(graph)) this.open.add(graph);
-    ask({ open: [...this.open] });
+    this.ask();
   }
 
   /** Shows all of it. */
   fit() {
-    const { width = 1, height = 1 } = this.size ?? {};
-    this.view = { x: 0, y: 0, width, height };
-    this.look();
+    this.isWhole = true;
+    this.centre({ x: 0, y: 0, ...this.size }, Math.min(this.filling(this.size), LARGEST));
   }
 
   /** @param {number} factor @param {MouseEvent} [at] */
   zoom(factor, at) {
-    const place = this.place.getBoundingClientRect();
-    const [fx, fy] = at ? [(at.clientX - place.left) / place.width, (at.clientY - place.top) / place.height] : [0.5, 0.5];
-    const { x, y, width, height } = this.view;
-    const all = this.size?.width ?? width;
-    const by = Math.min(Math.max(factor, 60 / width), (4 * all) / width);
-    this.view = { x: x + fx * width * (1 - by), y: y + fy * height * (1 - by), width: width * by, height: height * by };
+    const box = this.place.getBoundingClientRect();
+    const [left, top] = at ? [at.clientX - box.left, at.clientY - box.top] : [box.width / 2, box.height / 2];
+    this.isWhole = false;
+    const { x, y, scale } = this.view;
+    const least = Math.min(1, this.filling(this.size) / 2);
+    const next = Math.min(Math.max(scale / factor, least), 12);
+    this.view = { x: x + left / scale - left / next, y: y + top / scale - top / next, scale: next };
     this.look();
   }
 
   look() {
-    const { x, y, width, height } = this.view;
-    this.svg?.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
-    const scale = Math.min(this.place.clientWidth / width, this.place.clientHeight / height);
-    this.place.classList.toggle("is-far", scale < READABLE);
+    const { x, y, scale } = this.view;
+    const { place } = this;
+    this.svg?.setAttribute("viewBox", `${x} ${y} ${place.clientWidth / scale} ${place.clientHeight / scale}`);
+    place.classList.toggle("is-far", scale < FAR);
+    place.classList.toggle("is-small", scale < READABLE);
+    place.classList.toggle("has-no-ports", scale < PORTS);
+    this.labels.place(scale, robot.selected);
   }
 
   /** Words about what is under the pointer. @param {Element} target */
@@ -289,7 +429,11 @@ export class Picture {
     const head = error ? `${title}\n${error}` : title;
     if (item.nodes.length !== 1) return head;
     const node = robot.nodes[item.nodes[0]];
-    const fired = node.fired === 0 ? "has not fired" : `fired ${node.fired} times, ${node.rate.toFixed(1)}/s; ${this.ago(node.last)}`;
+    const ran = [
+      ...(node.fired > 0 ? [`fired ${node.fired} times, ${node.rate.toFixed(1)}/s`] : []),
+      ...(node.taken > 0 ? [`its slots took ${node.taken} tokens`] : []),
+    ];
+    const fired = ran.length === 0 ? "has not fired" : `${ran.join("; ")}; ${this.ago(node.last)}`;
     const missing = [...robot.awaited].flatMap((at) => robot.about?.connections[at] ?? []).filter(({ to }) => to === item.nodes[0]);
     const waits = missing.length === 0 ? "" : `\nwaits for ${missing.map(({ from, output }) => `${robot.about?.nodes[from].name}.${output}`).join(", ")}`;
     const problems = node.problems > 0 ? `\n${node.problems} problems` : "";
@@ -331,17 +475,26 @@ export class Picture {
       const [dx, dy] = [event.clientX - drag.x, event.clientY - drag.y];
       if (!drag.moved && Math.hypot(dx, dy) < 4) return;
       if (!drag.moved) place.setPointerCapture(event.pointerId);
-      const scale = Math.max(this.view.width / place.clientWidth, this.view.height / place.clientHeight);
-      this.view.x -= dx * scale;
-      this.view.y -= dy * scale;
+      this.isWhole = false;
+      this.view.x -= dx / this.view.scale;
+      this.view.y -= dy / this.view.scale;
       drag = { x: event.clientX, y: event.clientY, moved: true };
       this.look();
     });
     place.addEventListener("pointerup", (event) => {
       const path = /** @type {Element} */ (event.target).closest("[data-item]")?.getAttribute("data-item") ?? null;
-      if (drag && !drag.moved) select(path || null);
+      if (drag && !drag.moved) {
+        const { scale } = this.view;
+        const item = this.items.get(path ?? "");
+        // What was clicked stays under the pointer.
+        if (item && scale < READABLE) this.zoom(scale / Math.max(scale, item.isFrame ? Math.min(1, this.filling(item)) : 1), event);
+        select(path || null, "picture");
+      }
       drag = null;
     });
+    element("does").addEventListener("click", () => this.doing && this.jump(this.doing));
+    for (const button of element("views").children) button.addEventListener("click", () => this.turn(button.dataset.view));
+    new ResizeObserver(() => (this.isWhole ? this.fit() : this.look())).observe(place);
     place.addEventListener("pointerleave", () => tip(null));
     place.addEventListener("blur", () => tip(null));
     place.addEventListener("keydown", (event) => {

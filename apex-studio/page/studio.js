@@ -8,19 +8,20 @@ import { Values } from "./values.js";
 import { Text } from "./text.js";
 import { Why } from "./why.js";
 import { Moment } from "./moment.js";
+import { completeNames } from "./names.js";
 
 /** @typedef {{name: string, kind: string, docs: string, file: number, line: number, column: number, ports: [string, string, string][]}} AboutNode */
-/** @typedef {{from: number, output: string, to: number, input: string}} Connection */
+/** @typedef {{from: number, output: string, to: number, input: string, activity: boolean}} Connection */
 /** @typedef {{name: string, node: number, schema: {name: string, definition: string} | null}} Channel */
 /** @typedef {{name: string, ty: string, unit: string | null, min: number | null, max: number | null}} ParamInfo */
 /** @typedef {{name: string, docs: string, files: string[], simulated: boolean, nodes: AboutNode[], connections: Connection[], groups: string[], claims: string[], channels: Channel[], params: ParamInfo[]}} About */
-/** @typedef {{active: boolean, fired: number, last: number, problems: number, since: number, fresh: boolean, rate: number}} NodeState */
+/** @typedef {{active: boolean, fired: number, taken: number, last: number, problems: number, since: number, fresh: boolean, rate: number}} NodeState */
 
 /** What all modules see. */
 export const robot = {
   /** @type {About | null} */ about: null,
   /** @type {NodeState[]} */ nodes: [],
-  /** @type {{count: number, fresh: boolean, rate: number}[]} */ connections: [],
+  /** `passed` is the time at which activity passed last. @type {{count: number, fresh: boolean, rate: number, passed: number}[]} */ connections: [],
   /** Connections over which a node waits for a token. @type {Set<number>} */ awaited: new Set(),
   now: 0,
   readonly: false,
@@ -36,7 +37,7 @@ export const robot = {
 /** Selects a node or a nested graph by its full name, everywhere. @param {string | null} name @param {string} [by] */
 export function select(name, by) {
   robot.selected = name;
-  picture.select(name);
+  picture.select(name, by);
   text.select(name, by);
   values.select(name);
   timeline.draw();
@@ -45,7 +46,7 @@ export function select(name, by) {
 /** @param {number} time */
 export const shown = (time) => `${time.toFixed(3)} s`;
 
-const picture = new Picture(element("picture"));
+export const picture = new Picture(element("picture"));
 const timeline = new Timeline(element("timeline"));
 const params = new Params(element("params"), element("params-filter"));
 const values = new Values(element("values"), element("values-filter"));
@@ -131,8 +132,8 @@ function forget() {
   const { nodes, connections } = robot.about ?? { nodes: [], connections: [] };
   robot.now = 0;
   if (robot.times) robot.times = new Map();
-  robot.nodes = nodes.map(() => ({ active: false, fired: 0, last: 0, problems: 0, since: 0, fresh: false, rate: 0 }));
-  robot.connections = connections.map(() => ({ count: 0, fresh: false, rate: 0 }));
+  robot.nodes = nodes.map(() => ({ active: false, fired: 0, taken: 0, last: 0, problems: 0, since: 0, fresh: false, rate: 0 }));
+  robot.connections = connections.map(() => ({ count: 0, fresh: false, rate: 0, passed: -Infinity }));
   rates.length = 0;
   element("problems").replaceChildren();
   problems = 0;
@@ -167,13 +168,14 @@ function tick(told) {
   let changed = false;
   // The program is not there yet.
   if (robot.about === null) return;
-  for (const [at, active, since, fired, last, problems] of told.nodes) {
+  for (const [at, active, since, fired, taken, last, problems] of told.nodes) {
     const node = robot.nodes[at];
     changed ||= node.active !== active;
-    Object.assign(node, { active, since, fresh: fired !== node.fired, fired, last, problems });
+    Object.assign(node, { active, since, fresh: fired + taken !== node.fired + node.taken, fired, taken, last, problems });
   }
   robot.awaited = new Set(told.awaited);
   for (const [at, count] of told.handled) Object.assign(robot.connections[at], { fresh: true, count });
+  for (const [at, passed] of told.passed) robot.connections[at].passed = passed;
   measure();
   if (changed) showActive();
   else showSince();
@@ -270,7 +272,6 @@ function look(at) {
   for (const list of ["active", "problems"]) element(list).replaceChildren();
   element("name").textContent = "Apex Studio";
   ask({ robot: at });
-  element("robot").blur();
   if (robot.times !== null) ask({ measure: true });
 }
 
@@ -291,6 +292,7 @@ element("take").addEventListener("click", () => ask("take"));
 element("heat").addEventListener("click", heat);
 element("back").addEventListener("click", () => ask("back"));
 element("goto").addEventListener("click", () => timeline.go());
+completeNames(element("break"), element("names"));
 element("break").addEventListener("change", () => ask({ break: element("break").value }));
 element("restart").addEventListener("click", () => ask("restart"));
 element("robot").addEventListener("change", () => {
@@ -298,14 +300,10 @@ element("robot").addEventListener("change", () => {
   if (chosen.startsWith("study")) location.assign(`${chosen}${location.hash}`);
   else look(Number(chosen));
 });
-element("earlier").addEventListener("change", () => {
-  ask({ look: Number(element("earlier").value) });
-  element("earlier").blur();
-});
+element("earlier").addEventListener("change", () => ask({ look: Number(element("earlier").value) }));
 element("speed").addEventListener("change", () => {
   const chosen = element("speed").value;
   ask({ run: { speed: chosen === "" ? null : Number(chosen) } });
-  element("speed").blur();
 });
 
 /** Shows one of the panels. @param {string} name */
@@ -342,6 +340,7 @@ document.addEventListener("keydown", (event) => {
     h: heat,
     f: () => timeline.follow(),
     w: () => why.ask(),
+    a: () => picture.turn(),
     "/": () => /** @type {HTMLElement} */ (document.querySelector("[data-panel]:not([hidden]) input[type=search]") ?? element("lanes-filter")).focus(),
     o: () => picture.toggle(robot.selected),
     Escape: () => select(null),

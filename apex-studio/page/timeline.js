@@ -1,11 +1,41 @@
 // @ts-check
-// The timeline: a lane for each node that was active, failed, or is looked for.
+// The timeline: a lane for each node that was active, failed, or is looked for, below the graphs around it.
+import { around, below, common } from "./activity.js";
 import { ask, cleared, colors, element, marks, tip } from "./page.js";
 import { robot, select, shown } from "./studio.js";
 
 const HEIGHT = 18;
 const LABELS = 170;
 const AXIS = 20;
+/** Space before a lane in a graph, in pixels. */
+const STEP = 10;
+
+/** A lane of the studio. @typedef {{node: number, spans: [number, number][], ticks: [number, number][], marks: number[]}} Lane */
+/** A row: a lane, or a graph with the lanes in it. @typedef {{path: string, label: string, depth: number, lanes: Lane[], isGraph: boolean}} Row */
+/** @typedef {{path: string, label: string, lane: Lane | null, inside: Map<string, Branch>}} Branch */
+
+/** The lanes of a branch and of all in it. @param {Branch} branch @returns {Lane[]} */
+const lanesOf = ({ lane, inside }) => [...(lane ? [lane] : []), ...[...inside.values()].flatMap(lanesOf)];
+
+/** The rows of a branch. Of a graph with a single lane or graph in it, both are one row. @param {Branch} branch @param {number} depth @param {Set<string>} folded @returns {Row[]} */
+function rowsOf({ path, label, lane, inside }, depth, folded) {
+  const [only, ...others] = inside.values();
+  if (only && others.length === 0 && !lane) return rowsOf({ ...only, label: `${label}.${only.label}` }, depth, folded);
+  if (!only) return lane ? [{ path, label, depth, lanes: [lane], isGraph: false }] : [];
+  const own = { path, label, depth, lanes: lanesOf({ path, label, lane, inside }), isGraph: true };
+  return folded.has(path) ? [own] : [own, ...[...inside.values()].flatMap((branch) => rowsOf(branch, depth + 1, folded))];
+}
+
+/** Times in which at least one of these lanes is active. @param {Lane[]} lanes @returns {[number, number][]} */
+function together(lanes) {
+  /** @type {[number, number][]} */ const all = [];
+  for (const [from, to] of lanes.flatMap(({ spans }) => spans).sort(([a], [b]) => a - b)) {
+    const last = all[all.length - 1];
+    if (last && last[1] >= from) last[1] = Math.max(last[1], to);
+    else all.push([from, to]);
+  }
+  return all;
+}
 
 export class Timeline {
   /** @param {HTMLCanvasElement} canvas */
@@ -23,8 +53,9 @@ export class Timeline {
     this.asked = 0;
     /** @type {number | null} */ this.cursor = null;
     /** A marked interval in s. @type {[number, number] | null} */ this.marked = null;
-    /** The last answer. @type {{from: number, to: number, columns: number, lanes: {node: number, spans: [number, number][], ticks: [number, number][], marks: number[]}[], before: any[], differs: number | null} | null} */
+    /** The last answer. @type {{from: number, to: number, columns: number, lanes: Lane[], before: Lane[], differs: number | null} | null} */
     this.lanes = null;
+    /** Graphs whose lanes are shown as one. @type {Set<string>} */ this.folded = new Set();
     this.begin();
     this.listen();
   }
@@ -60,19 +91,20 @@ export class Timeline {
     const also = selected >= 0 ? [...found.slice(0, 200), selected] : found.slice(0, 200);
     // What is not in view has no contents. At first it is not known who has a lane.
     const [first, end] = this.rows();
-    const seen = this.lanes === null ? null : this.filtered().slice(Math.max(0, first - 5), end + 5).map(({ node }) => node);
+    const rows = this.tree().slice(Math.max(0, first - 5), end + 5).filter(({ isGraph, path }) => !isGraph || this.folded.has(path));
+    const seen = this.lanes === null ? null : rows.flatMap(({ lanes }) => lanes.map(({ node }) => node));
     ask({ lanes: { from: this.end - this.span, to: this.end, columns: Math.max(1, this.width()), also, seen } });
   }
 
-  /** Numbers of the first lane in view, and of the one after the last. @returns {[number, number]} */
+  /** Numbers of the first row in view, and of the one after the last. @returns {[number, number]} */
   rows() {
     const { scrollTop, clientHeight } = this.place;
     return [Math.floor(scrollTop / HEIGHT), Math.ceil((scrollTop + clientHeight - AXIS) / HEIGHT)];
   }
 
-  /** The lane at a place in the canvas. @param {MouseEvent} event */
+  /** The row at a place in the canvas. @param {MouseEvent} event */
   at(event) {
-    return event.offsetY < AXIS ? undefined : this.filtered()[Math.floor((event.offsetY - AXIS + this.place.scrollTop) / HEIGHT)];
+    return event.offsetY < AXIS ? undefined : this.tree()[Math.floor((event.offsetY - AXIS + this.place.scrollTop) / HEIGHT)];
   }
 
   width() { return Math.round(this.canvas.clientWidth - LABELS); }
@@ -90,23 +122,42 @@ export class Timeline {
     return (this.lanes?.lanes ?? []).filter(({ node }) => name(node).toLowerCase().includes(filter));
   }
 
+  /** The lanes below the graphs around them, whose common path is left out. @returns {Row[]} */
+  tree() {
+    const lanes = this.filtered();
+    const name = (/** @type {Lane} */ { node }) => robot.about?.nodes[node]?.name ?? "";
+    const path = common(lanes.map((lane) => around(name(lane))));
+    /** @type {Branch} */ const root = { path, label: "", lane: null, inside: new Map() };
+    for (const lane of lanes) {
+      let at = root;
+      for (const label of below(name(lane), path).split(".")) {
+        const next = at.inside.get(label) ?? { path: at.path === "" ? label : `${at.path}.${label}`, label, lane: null, inside: new Map() };
+        at.inside.set(label, next);
+        at = next;
+      }
+      at.lane = lane;
+    }
+    return [...root.inside.values()].flatMap((branch) => rowsOf(branch, 0, this.folded));
+  }
+
   draw() {
     const { canvas } = this;
     const color = colors();
-    const lanes = this.filtered();
+    const [lanes, rows] = [this.filtered(), this.tree()];
     const [width, height] = [canvas.clientWidth, Math.max(AXIS + HEIGHT, this.place.clientHeight)];
     const c = cleared(canvas, width, height);
-    const below = `${Math.max(0, AXIS + lanes.length * HEIGHT - height)}px`;
+    const below = `${Math.max(0, AXIS + rows.length * HEIGHT - height)}px`;
     if (this.below.style.height !== below) this.below.style.height = below;
     if (!c) return;
     canvas.dataset.window = `${this.end - this.span} ${this.end}`;
+    canvas.dataset.rows = rows.map(({ depth, label }) => `${" ".repeat(depth)}${label}`).join("\n");
     canvas.dataset.lanes = lanes.map(({ node }) => robot.about?.nodes[node].name).join(" ");
     c.save();
     c.beginPath();
     c.rect(0, AXIS, width, height);
     c.clip();
     const [first, end] = this.rows();
-    lanes.slice(first, end).forEach((lane, at) => this.lane(c, color, lane, AXIS + (first + at) * HEIGHT - this.place.scrollTop));
+    rows.slice(first, end).forEach((row, at) => this.row(c, color, row, AXIS + (first + at) * HEIGHT - this.place.scrollTop));
     c.restore();
     this.axis(c, color, height);
     if (this.marked !== null) {
@@ -123,7 +174,8 @@ export class Timeline {
     }
     const other = robot.beside === null ? "the run before" : robot.beside === "shadow" ? "its shadow" : "the robot";
     element("differs").textContent = differs === null ? "" : `differs from ${other} since ${shown(differs)}`;
-    if (this.cursor !== null) {
+    // No line goes through the names.
+    if (this.cursor !== null && this.x(this.cursor) >= LABELS) {
       c.fillStyle = color("--accent");
       c.fillRect(this.x(this.cursor), 0, 1.5, height);
     }
@@ -142,12 +194,19 @@ export class Timeline {
     }
   }
 
-  /** @param {CanvasRenderingContext2D} c @param {(name: string) => string} color @param {any} lane @param {number} y */
+  /** @param {CanvasRenderingContext2D} c @param {(name: string) => string} color @param {Row} row @param {number} y */
+  row(c, color, { path, label, depth, lanes, isGraph }, y) {
+    c.fillStyle = path === robot.selected ? color("--accent") : isGraph ? color("--soft") : color("--ink");
+    const left = 6 + depth * STEP + (isGraph ? 0 : STEP);
+    const words = isGraph ? `${this.folded.has(path) ? "▸" : "▾"} ${label}` : label;
+    const most = Math.floor((LABELS - left - 4) / 6.5);
+    c.fillText(words.length > most ? `${words.slice(0, most - 1)}…` : words, left, y + HEIGHT / 2, LABELS - left - 4);
+    if (!isGraph) this.lane(c, color, lanes[0], y);
+    else if (this.folded.has(path)) this.lane(c, color, { node: -1, spans: together(lanes), ticks: [], marks: lanes.flatMap(({ marks }) => marks) }, y);
+  }
+
+  /** @param {CanvasRenderingContext2D} c @param {(name: string) => string} color @param {Lane} lane @param {number} y */
   lane(c, color, { node, spans, ticks, marks }, y) {
-    const name = robot.about?.nodes[node]?.name ?? "";
-    c.fillStyle = name === robot.selected ? color("--accent") : color("--ink");
-    const short = name.length > 26 ? `…${name.slice(-25)}` : name;
-    c.fillText(short, 6, y + HEIGHT / 2, LABELS - 10);
     const { from, to, columns } = /** @type {any} */ (this.lanes);
     const x = (/** @type {number} */ column) => this.x(from + ((to - from) * column) / columns);
     c.save();
@@ -180,6 +239,13 @@ export class Timeline {
   /** @param {MouseEvent} event */
   time(event) {
     return this.end - this.span + ((event.offsetX - LABELS) / this.width()) * this.span;
+  }
+
+  /** Shows the lanes of a graph as one, or each. @param {string} path */
+  fold(path) {
+    if (!this.folded.delete(path)) this.folded.add(path);
+    this.request();
+    this.draw();
   }
 
   /** Brings a time into view. @param {number} time */
@@ -247,8 +313,7 @@ export class Timeline {
     });
     canvas.addEventListener("pointermove", (event) => {
       if (!drag) {
-        const lane = this.at(event);
-        const name = lane && robot.about?.nodes[lane.node].name;
+        const name = this.at(event)?.path;
         tip(event.offsetX > LABELS ? [name, shown(this.time(event))].filter(Boolean).join("\n") : name ?? null, event);
         return;
       }
@@ -268,8 +333,9 @@ export class Timeline {
     });
     canvas.addEventListener("pointerup", (event) => {
       if (drag && !drag.moved) {
-        const lane = this.at(event);
-        if (lane) select(robot.about?.nodes[lane.node].name ?? null);
+        const row = this.at(event);
+        if (row?.isGraph && event.offsetX <= LABELS) this.fold(row.path);
+        if (row) select(row.path);
         if (event.offsetX > LABELS) this.look(this.time(event));
       }
       drag = null;

@@ -1,6 +1,6 @@
 // @ts-check
 // Tokens of ports: numbers as plots, what has a place in the plane, images, all else as text.
-import { World, drawImage, hasPlace, isPose, read } from "./world.js";
+import { World, drawImage, hasPlace, isMeasured, isPose, read } from "./world.js";
 import { ask, empty } from "./page.js";
 import { robot } from "./studio.js";
 
@@ -17,6 +17,7 @@ export class Values {
     /** @type {Map<number, HTMLElement>} */ this.rows = new Map();
     /** The newest tokens that are messages. @type {Map<number, any>} */ this.messages = new Map();
     /** Names of the channels with the poses from which others are seen. @type {Map<string, string>} */ this.seenFrom = new Map();
+    /** Those that the graph tells. @type {Map<string, string>} */ this.taken = new Map();
     this.world = new World(/** @type {HTMLCanvasElement} */ (document.getElementById("world")));
     filter.addEventListener("input", () => this.list());
   }
@@ -25,6 +26,7 @@ export class Values {
     this.tokens.clear();
     this.beside.clear();
     this.messages.clear();
+    this.taken.clear();
     this.list();
     this.watch();
   }
@@ -40,7 +42,7 @@ export class Values {
       const near = robot.selected !== null && (owner === robot.selected || owner.startsWith(`${robot.selected}.`));
       const found = words !== "" ? name.toLowerCase().includes(words) : near || robot.selected === null;
       return schema && (this.pinned.has(name) || found) ? [{ name, at }] : [];
-    }).slice(0, 300);
+    }).sort((a, b) => Number(this.pinned.has(b.name)) - Number(this.pinned.has(a.name))).slice(0, 300);
   }
 
   list() {
@@ -80,18 +82,19 @@ export class Values {
     const choice = document.createElement("select");
     choice.title = "the pose from which it is seen";
     for (const pose of ["", ...poses.map((channel) => channel.name)]) choice.append(new Option(pose === "" ? "seen from …" : pose, pose));
-    choice.value = this.seenFrom.get(name) ?? "";
+    choice.value = this.pose(name);
     choice.addEventListener("change", () => {
       this.seenFrom.set(name, choice.value);
-      // The pose is needed, too.
-      if (choice.value !== "" && !this.pinned.has(choice.value)) {
-        this.pinned.add(choice.value);
-        this.watch();
-        this.list();
-      }
+      this.watch();
       this.drawWorld();
     });
     return [choice];
+  }
+
+  /** The channel with the pose from which a channel is seen: the chosen one, or the one that the graph tells. @param {string} name */
+  pose(name) {
+    if (!this.taken.has(name)) this.taken.set(name, takenAt(name) ?? "");
+    return this.seenFrom.get(name) ?? this.taken.get(name) ?? "";
   }
 
   /** Draws all pinned tokens with a place. */
@@ -100,19 +103,20 @@ export class Values {
     const message = (/** @type {string | undefined} */ name) => this.messages.get(channels.findIndex((channel) => channel.name === name));
     const tokens = [...this.messages].flatMap(([at, message_]) => {
       const { name, schema } = channels[at];
-      return schema && hasPlace(schema.name) ? [{ schema: schema.name, message: message_, from: message(this.seenFrom.get(name)) }] : [];
+      return schema && this.pinned.has(name) && hasPlace(schema.name) ? [{ schema: schema.name, message: message_, from: message(this.pose(name)) }] : [];
     });
     // Maps are below everything else.
     tokens.sort((a, b) => Number(b.schema.endsWith("Grid")) - Number(a.schema.endsWith("Grid")));
     this.world.canvas.hidden = tokens.length === 0;
-    this.world.canvas.dataset.drawn = String(tokens.length);
+    Object.assign(this.world.canvas.dataset, { drawn: tokens.length, from: tokens.filter(({ from }) => from).length });
     if (tokens.length > 0) this.world.draw(tokens);
   }
 
-  /** Tells the studio which tokens are wanted. */
+  /** Tells the studio which tokens are wanted: of pinned channels, and of the poses from which these are seen. */
   watch() {
     const channels = robot.about?.channels ?? [];
-    ask({ watch: channels.flatMap(({ name }, at) => (this.pinned.has(name) ? [at] : [])) });
+    const poses = new Set([...this.pinned].map((name) => this.pose(name)));
+    ask({ watch: channels.flatMap(({ name }, at) => (this.pinned.has(name) || poses.has(name) ? [at] : [])) });
   }
 
   /** @param {Record<string, {texts: [number, string][]}>} all */
@@ -214,6 +218,22 @@ export class Values {
     c.fillText(String(high), 2, 9);
     c.fillText(String(low), 2, height - 2);
   }
+}
+
+/** The channel with the pose at which the tokens of a channel were taken, as far as the graph tells: a pose that its node
+ * takes, or that another node takes together with them. @param {string} name @returns {string | null} */
+function takenAt(name) {
+  const { channels = [], connections = [], nodes = [] } = robot.about ?? {};
+  const channel = channels.find((channel) => channel.name === name);
+  if (!channel || !isMeasured(channel.schema?.name ?? "")) return null;
+  const isInserted = (/** @type {number} */ node) => ["relay", "probe"].includes(nodes[node].kind);
+  /** The nodes behind a connection, over those of the compiler. @type {(to: number, depth?: number) => number[]} */
+  const behind = (to, depth = 0) => (isInserted(to) && depth < 8 ? connections.filter(({ from }) => from === to).flatMap((next) => behind(next.to, depth + 1)) : [to]);
+  /** The poses that a node takes. @param {number} node */
+  const poses = (node) => channels.filter((pose) => isPose(pose.schema?.name ?? "") &&
+    connections.some(({ from, output, to }) => from === pose.node && pose.name === `${nodes[from].name}.${output}` && behind(to).includes(node)));
+  const takers = connections.filter(({ from, output }) => from === channel.node && name === `${nodes[from].name}.${output}`).flatMap(({ to }) => behind(to));
+  return [channel.node, ...takers].flatMap(poses)[0]?.name ?? null;
 }
 
 /** Keeps tokens of a channel. @param {Map<number, {time: number, text: string}[]>} all @param {number} at @param {[number, string][]} texts */

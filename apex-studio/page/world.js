@@ -57,6 +57,9 @@ const planar = ({ position, orientation: { z, w } }) => ({ x: position.x, y: pos
 /** `true` if tokens of a type have a place. @param {string} schema */
 export const hasPlace = (schema) => schema in DRAWN;
 
+/** `true` if tokens of a type are measured from where the robot is. @param {string} schema */
+export const isMeasured = (schema) => ["sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"].includes(schema);
+
 /** `true` if tokens of a type can give others their place. @param {string} schema */
 export const isPose = (schema) => schema.startsWith("geometry_msgs/msg/Pose");
 

@@ -202,7 +202,7 @@ fn side(role: PortRole) -> Side {
 mod tests {
     use super::*;
     use crate::{
-        picture::Picture,
+        picture::{Picture, View},
         samples::{node, robot},
     };
     use apex_rt::studio::message::AboutNode;
@@ -221,8 +221,8 @@ mod tests {
         about.connections =
             vec![connection(0, 1), connection(1, 2), connection(2, 3), connection(0, 4), connection(0, 77)];
         let picture = Picture::new(drawn(&about));
-        assert_eq!(picture.graphs(), ["a.b", "a", "c"]);
-        let lines = picture.lines(&about);
+        assert_eq!(picture.graphs(View::Wiring), ["a.b", "a", "c"]);
+        let (svg, lines) = picture.drawn(View::Wiring, &picture.first_open(View::Wiring), &about);
         assert_eq!(lines["a.b:x a.y:in"], [0]);
         assert_eq!(lines["a.b.x:out a.b:x"], [0, 3]);
         assert_eq!(lines["a:x z:in"], [3]);
@@ -230,7 +230,6 @@ mod tests {
         for line in ["a.y:out a:y", "a:y c:z.in", "c:z.in c.z:in"] {
             assert_eq!(lines[line], [1, 2], "{line}");
         }
-        let svg = picture.svg(&picture.first_open());
         for name in ["a.b.x", "a.y", "c.z", "z"] {
             assert!(svg.contains(&format!("data-item=\"{name}\"")), "{name}: {svg}");
         }

@@ -3,6 +3,7 @@
 use crate::{
     detail,
     lane::{Drawn, Lane, Window, limited},
+    passes::Passes,
     pulse::Pulse,
     steps::{State, Step, Steps, What},
     tokens::Tokens,
@@ -84,6 +85,8 @@ pub struct Live {
     pub steps: Steps,
     /// Nodes that wait for others.
     pub waits: Waits,
+    /// Ways of activity, and the last time for each.
+    pub passes: Passes,
     /// `true` if the robot lets viewers only look.
     pub readonly: bool,
     pulse: Pulse,
@@ -119,8 +122,10 @@ pub struct Node {
     pub active: bool,
     /// Time in ns since which it is active or inactive.
     pub since: i64,
+    /// Number of firings, and of tokens that its slots took.
     pub fired: u64,
-    /// Time of the last firing in ns.
+    pub taken: u64,
+    /// Time of the last of these in ns.
     pub last: i64,
     /// Number of failures, missed deadlines and the like.
     pub problems: u64,
@@ -190,6 +195,7 @@ impl Default for Live {
             checkpoints: vec![],
             steps: Steps::new(Arc::default()),
             waits: Waits::default(),
+            passes: Passes::default(),
             readonly: false,
             pulse: Pulse::default(),
             lanes: vec![],
@@ -212,7 +218,7 @@ impl Live {
         self.nodes = vec![Node::default(); about.nodes.len()];
         self.lanes = about.nodes.iter().map(|_| Lane::of(about.nodes.len())).collect();
         self.handled = vec![0; about.connections.len()];
-        self.waits = Waits::new(&about);
+        (self.waits, self.passes) = (Waits::new(&about), Passes::new(&about));
         self.about = Some(about);
         last
     }
@@ -232,7 +238,7 @@ impl Live {
             Report::Fired(node) => {
                 self.step(What::Fires(node));
                 self.waits.fired(node);
-                self.fire(node);
+                self.run(node, |state| state.fired += 1);
             }
             Report::Handled(connection) => {
                 self.step(What::Takes(connection));
@@ -313,9 +319,10 @@ impl Live {
         self.about.as_ref().is_some_and(|about| (channel as usize) < about.channels.len())
     }
 
-    fn fire(&mut self, node: u32) {
+    /// A node fires, or one of its slots takes a token.
+    fn run(&mut self, node: u32, count: fn(&mut Node)) {
         if let Some(state) = self.nodes.get_mut(node as usize) {
-            state.fired += 1;
+            count(state);
             state.last = self.now;
             self.lanes[node as usize].fire(self.now);
         }
@@ -327,7 +334,7 @@ impl Live {
         }
         let to = self.about.as_ref().and_then(|about| Some(about.connections.get(connection as usize)?.to));
         if let Some(to) = to {
-            self.fire(to);
+            self.run(to, |state| state.taken += 1);
         }
     }
 
@@ -339,6 +346,8 @@ impl Live {
             }
             self.lanes[node as usize].activity(self.now, active);
             if changes {
+                let state = |node: u32| self.nodes.get(node as usize).map_or((false, 0), |n| (n.active, n.since));
+                self.passes.change(node, self.now, state);
                 self.step(if active { What::Starts(node) } else { What::Stops(node) });
             }
         }
@@ -448,7 +457,7 @@ impl Live {
         self.checkpoints.truncate(at + 1);
         let Checkpoint { now, nodes, handled, problem_count, lost, .. } = &self.checkpoints[at];
         for (lane, node) in self.lanes.iter_mut().zip(nodes) {
-            *lane = lane.until(*now, node.active, node.fired);
+            *lane = lane.until(*now, node.active, node.fired + node.taken);
         }
         let known = self.problem_count - self.problems.len() as u64;
         self.problems.truncate(usize::try_from(problem_count.saturating_sub(known)).unwrap_or(usize::MAX));
@@ -459,6 +468,7 @@ impl Live {
         let active = (0..).zip(&self.nodes).filter(|(_, node)| node.active).map(|(node, _)| node).collect();
         self.steps.take_back(State { now: self.now, reaction: reactions, active });
         self.tokens.values_mut().for_each(|tokens| tokens.take_back(self.now));
+        self.passes.take_back(self.now);
         (self.returns, self.run, self.repeats) = (self.returns + 1, Run::Running, true);
         true
     }

@@ -1,32 +1,71 @@
-//! The picture of a robot, and which of its connections each line stands for.
+//! The pictures of a robot, and which of its connections each line stands for.
 
-use crate::kinds::is_inserted;
-use apex_diagram::{Anchor, Frame, Item, joined, svg};
-use apex_rt::studio::message::About;
+use crate::kinds::{is_inserted, is_silent};
+use apex_diagram::{Anchor, Frame, Item, joined, layout::place, states, svg};
+use apex_rt::studio::message::{About, AboutConnection, AboutNode};
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Number of boxes up to which nested graphs are open at the beginning.
 const MAX_OPEN: usize = 25;
+/// Width in units up to which they are, in the view of the activity: its words can be read without zooming.
+const MAX_WIDTH: i64 = 1200;
 
-/// The picture of a robot.
+/// A view of a robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum View {
+    /// The nodes that can be active, and the tokens that pass activity on.
+    Activity,
+    /// All nodes and connections.
+    Wiring,
+}
+
+/// The pictures of a robot.
 pub struct Picture {
     whole: Item,
+    /// Its activity, if it has one.
+    activity: Option<Item>,
 }
 
 /// A port in a flat graph: the full name of its node, and its own name; empty for any.
 type End = (String, String);
 
 impl Picture {
-    /// The picture of a graph with all that is nested.
+    /// The pictures of a graph with all that is nested.
     pub fn new(whole: Item) -> Self {
-        Self { whole }
+        let activity = states(&whole);
+        Self { whole, activity }
     }
 
-    /// Full names of all nested graphs.
-    pub fn graphs(&self) -> Vec<String> {
+    /// The view at the beginning.
+    pub fn first_view(&self) -> View {
+        if self.activity.is_some() { View::Activity } else { View::Wiring }
+    }
+
+    /// Full names of all nested graphs of a view.
+    pub fn graphs(&self, view: View) -> Vec<String> {
         let mut graphs = vec![];
         collect(&self.whole, "", &mut graphs);
+        if view == View::Activity {
+            let seen = self.paths();
+            graphs.retain(|graph| seen.contains(graph));
+        }
         graphs
+    }
+
+    /// Full names of everything in the view of the activity.
+    fn paths(&self) -> BTreeSet<String> {
+        let mut paths = BTreeSet::new();
+        self.activity.iter().for_each(|item| insert(item, "", &mut paths));
+        paths
+    }
+
+    /// Numbers of the nodes in the view of the activity.
+    pub fn states(&self, about: &About) -> Vec<usize> {
+        let paths = self.paths();
+        let is_state = |(_, node): &(usize, &AboutNode)| !is_silent(&node.kind) && paths.contains(&node.name);
+        about.nodes.iter().enumerate().filter(is_state).map(|(at, _)| at).collect()
     }
 
     /// Full names of all uses of a graph; the empty one for the whole.
@@ -40,8 +79,8 @@ impl Picture {
     }
 
     /// The nested graphs that are open at the beginning: level by level, as long as the picture is readable.
-    pub fn first_open(&self) -> BTreeSet<String> {
-        let mut graphs = self.graphs();
+    pub fn first_open(&self, view: View) -> BTreeSet<String> {
+        let mut graphs = self.graphs(view);
         graphs.sort_by_key(|path| path.matches('.').count());
         let mut open = BTreeSet::new();
         for path in graphs {
@@ -50,28 +89,31 @@ impl Picture {
                 continue;
             }
             open.insert(path.clone());
-            if self.opened(&open).count() > MAX_OPEN {
+            let item = self.opened(view, &open);
+            let is_wide = || view == View::Activity && place(&item).size.0 > MAX_WIDTH;
+            if item.count() > MAX_OPEN || is_wide() {
                 open.remove(&path);
             }
         }
         open
     }
 
-    /// The picture as SVG, with these nested graphs open.
-    pub fn svg(&self, open: &BTreeSet<String>) -> String {
-        svg(&self.opened(open))
+    /// A view with these nested graphs open.
+    fn opened(&self, view: View, open: &BTreeSet<String>) -> Item {
+        let whole = self.whole.clone().opened(&|path| open.contains(path));
+        let activity = if view == View::Activity { states(&whole) } else { None };
+        activity.unwrap_or(whole)
     }
 
-    fn opened(&self, open: &BTreeSet<String>) -> Item {
-        self.whole.clone().opened(&|path| open.contains(path))
-    }
-
-    /// The connections of the robot that each line stands for, by the names at the ends of the line.
-    pub fn lines(&self, about: &About) -> BTreeMap<String, Vec<usize>> {
-        let mut lines = BTreeMap::new();
-        let top = Within { item: &self.whole, path: String::new(), around: None };
-        top.lines(about, &mut lines);
-        lines
+    /// A view with these nested graphs open as SVG, and the connections of the robot that each line stands for, by the
+    /// names at the ends of the line.
+    pub fn drawn(&self, view: View, open: &BTreeSet<String>, about: &About) -> (String, BTreeMap<String, Vec<usize>>) {
+        let (item, mut lines) = (self.opened(view, open), BTreeMap::new());
+        // Lines of the wiring lead into closed graphs.
+        let whole = if view == View::Wiring { &self.whole } else { &item };
+        let top = Within { item: whole, path: String::new(), around: None };
+        top.lines(&Ways { about, view }, &mut lines);
+        (svg(&item), lines)
     }
 }
 
@@ -80,6 +122,15 @@ fn collect(item: &Item, path: &str, graphs: &mut Vec<String>) {
         let path = joined(path, &inner.name);
         collect(inner, &path, graphs);
         graphs.push(path);
+    }
+}
+
+/// Adds the full names of everything in an item.
+fn insert(item: &Item, path: &str, paths: &mut BTreeSet<String>) {
+    for inner in item.inside.iter().flat_map(|frame| &frame.items) {
+        let path = joined(path, &inner.name);
+        insert(inner, &path, paths);
+        paths.insert(path);
     }
 }
 
@@ -93,28 +144,45 @@ fn uses(item: &Item, path: &str, graph: &str, found: &mut Vec<String>) {
     }
 }
 
-/// The connections between these ports, also over nodes of the compiler that are not in the picture.
-fn between(about: &About, from: &[End], to: &[End]) -> Vec<usize> {
-    let is = |ends: &[End], node: u32, port: &str| {
-        let node = about.nodes.get(node as usize).map_or("", |node| &node.name);
-        ends.iter().any(|end| end.0 == node && (end.1.is_empty() || end.1 == port))
-    };
-    let kind = |node: u32| about.nodes.get(node as usize).map_or("", |node| &node.kind);
-    let connections = || about.connections.iter().enumerate();
-    let (mut found, mut passed) = (BTreeSet::new(), BTreeSet::new());
-    for (first, c) in connections().filter(|(_, c)| is(from, c.from, &c.output)) {
-        // The ways from here, each as its connections.
-        let mut ways = vec![(c, vec![first])];
-        while let Some((last, way)) = ways.pop() {
-            if is(to, last.to, &last.input) {
-                found.extend(way);
-            } else if is_inserted(kind(last.to)) && passed.insert((first, last.to)) {
-                let next = connections().filter(|(_, next)| next.from == last.to);
-                ways.extend(next.map(|(at, next)| (next, [&way[..], &[at]].concat())));
+/// The connections that lines of a view stand for.
+struct Ways<'a> {
+    about: &'a About,
+    view: View,
+}
+
+impl Ways<'_> {
+    fn kind(&self, node: u32) -> &str {
+        self.about.nodes.get(node as usize).map_or("", |node| &node.kind)
+    }
+
+    /// `true` if a port is one of these ends. In the view of the activity an end may be a closed graph.
+    fn is_at(&self, ends: &[End], node: u32, port: &str) -> bool {
+        let node = self.about.nodes.get(node as usize).map_or("", |node| &node.name);
+        let is_inside = |graph: &str| {
+            self.view == View::Activity && node.strip_prefix(graph).is_some_and(|rest| rest.starts_with('.'))
+        };
+        ends.iter().any(|end| (end.0 == node || is_inside(&end.0)) && (end.1.is_empty() || end.1 == port))
+    }
+
+    /// The connections between these ports, also over nodes of the compiler that are not in the picture.
+    fn between(&self, from: &[End], to: &[End]) -> Vec<usize> {
+        let connections = || self.about.connections.iter().enumerate();
+        let is_seen = |c: &AboutConnection| self.view == View::Wiring || c.activity;
+        let (mut found, mut passed) = (BTreeSet::new(), BTreeSet::new());
+        for (first, c) in connections().filter(|(_, c)| is_seen(c) && self.is_at(from, c.from, &c.output)) {
+            // The ways from here, each as its connections.
+            let mut ways = vec![(c, vec![first])];
+            while let Some((last, way)) = ways.pop() {
+                if self.is_at(to, last.to, &last.input) {
+                    found.extend(way);
+                } else if is_inserted(self.kind(last.to)) && passed.insert((first, last.to)) {
+                    let next = connections().filter(|(_, next)| next.from == last.to);
+                    ways.extend(next.map(|(at, next)| (next, [&way[..], &[at]].concat())));
+                }
             }
         }
+        found.into_iter().collect()
     }
-    found.into_iter().collect()
 }
 
 /// An open item, with the one around it and its place there.
@@ -132,17 +200,17 @@ enum Towards {
 }
 
 impl Within<'_> {
-    fn lines(&self, about: &About, lines: &mut BTreeMap<String, Vec<usize>>) {
+    fn lines(&self, ways: &Ways<'_>, lines: &mut BTreeMap<String, Vec<usize>>) {
         let Some(frame) = &self.item.inside else { return };
         for line in &frame.lines {
             let (mut from, mut to) = (vec![], vec![]);
             self.ends(frame, line.from, Towards::Source, &mut from);
             self.ends(frame, line.to, Towards::Target, &mut to);
             let name = format!("{} {}", self.name(frame, line.from), self.name(frame, line.to));
-            lines.insert(name, between(about, &from, &to));
+            lines.insert(name, ways.between(&from, &to));
         }
         for (at, item) in frame.items.iter().enumerate() {
-            Within { item, path: joined(&self.path, &item.name), around: Some((self, at)) }.lines(about, lines);
+            Within { item, path: joined(&self.path, &item.name), around: Some((self, at)) }.lines(ways, lines);
         }
     }
 

@@ -405,14 +405,16 @@ fn connection(
     // What an earlier run has shown, or why it was lost, stays until there is a new one.
     let is_first = matches!(shared.live().run, Run::Starting(_));
     if is_first {
-        shared.set(Run::Starting(format!("connecting to {address}")));
+        // The socket of a robot that was started here has a name that says nothing.
+        let what = if robot.comes_back() { format!("connecting to {address}") } else { "starting".to_owned() };
+        shared.set(Run::Starting(what));
     }
     let start = Instant::now();
     loop {
         match connect_until(address, Arc::clone(closed)) {
             Ok(wires) => return Some(wires),
             Err(error) if !robot.comes_back() && (start.elapsed() > PATIENCE || !robot.runs()) => {
-                shared.set(Run::Lost(format!("cannot connect to {address}: {error}")));
+                shared.set(Run::Lost(format!("the robot has not opened its socket: {error}")));
                 return None;
             }
             Err(_) if shared.is_over() => return None,

@@ -2,8 +2,9 @@
 
 use crate::{
     Source, connections, foxglove,
+    messages::{Asked, Told},
     robot::Shared,
-    session::{Asked, Beside, Session, Told},
+    session::{Beside, Session},
     site::Site,
     study::{self, Followed},
 };
@@ -88,7 +89,7 @@ const ROBOT: File = File { path: "/robot", kind: "text/html; charset=utf-8", tex
 /// The page of a study.
 const STUDY: File = File { path: "/study", kind: "text/html; charset=utf-8", text: include_str!("../page/study.html") };
 
-const FILES: [File; 18] = [
+const FILES: [File; 21] = [
     ROBOT,
     STUDY,
     File { path: "/studio.css", kind: "text/css; charset=utf-8", text: include_str!("../page/studio.css") },
@@ -104,6 +105,9 @@ const FILES: [File; 18] = [
     File { path: "/moment.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/moment.js") },
     File { path: "/studio.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/studio.js") },
     File { path: "/picture.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/picture.js") },
+    File { path: "/activity.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/activity.js") },
+    File { path: "/names.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/names.js") },
+    File { path: "/labels.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/labels.js") },
     File { path: "/timeline.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/timeline.js") },
     File { path: "/params.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/params.js") },
     File { path: "/values.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/values.js") },
@@ -257,7 +261,8 @@ impl Page for RobotPage {
 
     fn answer(&mut self, text: &str) -> Vec<Told> {
         let told = match serde_json::from_str(text) {
-            Ok(Asked::Robot(robot)) => self.serving.session(robot).map(|other| {
+            Ok(Asked::Robot(robot)) => self.serving.session(robot).map(|mut other| {
+                other.look_like(&self.session);
                 self.session = other;
                 self.serving.names(robot)
             }),

@@ -1,184 +1,23 @@
-//! One page: what it asks for, and what it is told. All messages are JSON.
+//! One page: answers to what it asks for, and what has changed since it was told.
 
 use crate::{
     ParamChange, Source,
     drawn::drawn,
-    editor::{Editor, Written},
-    lane::{Drawn, Window, nanos},
-    language::Place,
-    live::{Live, Node, Param, Problem, Run},
+    editor::Editor,
+    lane::{Window, nanos},
+    live::{Live, Node, Param, Run},
+    messages::{AboutRun, Asked, Drawing, NewTokens, Tick, Told},
     moment,
-    picture::Picture,
+    picture::{Picture, View},
     robot::{Earlier, Shared, locked},
     why::{Line, why},
 };
-use apex_rt::studio::message::{About, Command};
+use apex_rt::studio::message::Command;
 use base64::{Engine as _, prelude::BASE64_STANDARD};
-use serde::{Deserialize, Serialize};
 use std::{
     collections::{BTreeMap, BTreeSet},
     sync::{Arc, MutexGuard},
 };
-
-/// A message to the page.
-#[derive(Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Told {
-    /// Names of all robots, which of them is shown, and names of the studies beside them.
-    Robots { names: Vec<String>, shown: usize, studies: Vec<String> },
-    /// Numbers and last times in s of the earlier runs of the robot that can be looked at, the number of this one, and
-    /// of the one that is shown.
-    Runs { earlier: Vec<(u64, f64)>, last: u64, shown: u64 },
-    /// A robot. Everything about an earlier one is obsolete.
-    About(AboutRun),
-    /// The robot has gone back to a checkpoint. All numbers, problems and tokens come again.
-    Back(u64),
-    /// Reason why the robot repeats its run from the start to go back.
-    Checkpoints(Option<String>),
-    /// The picture.
-    Picture { svg: String, graphs: Vec<String>, open: BTreeSet<String>, lines: BTreeMap<String, Vec<usize>> },
-    /// Changes since the last such message.
-    Tick(Tick),
-    /// Errors of the source have come or gone.
-    Errors(Option<String>),
-    /// New problems.
-    Problems { count: u64, problems: Vec<Problem> },
-    /// Parameters that have changed.
-    Params(BTreeMap<String, Param>),
-    /// Times of calls: the node, number of calls, total and longest duration in ns.
-    Times(Vec<(u32, u64, u64, u64)>),
-    /// Why a node is active and fired, or why not.
-    Why(Vec<Line>),
-    /// New tokens of channels.
-    Tokens(BTreeMap<u32, NewTokens>),
-    /// New tokens of the same channels of the robot beside it.
-    Beside(BTreeMap<u32, NewTokens>),
-    /// The condition at which the robot halts has a mistake, or none.
-    Break(Option<String>),
-    /// About the source files.
-    Written(Written),
-    /// The changed parameters were written to this file, or could not be.
-    Saved(Result<String, String>),
-    /// A marked moment was written to this file as a test, or could not be.
-    Test(Result<String, String>),
-    /// Lanes of the timeline.
-    Lanes {
-        from: f64,
-        to: f64,
-        columns: u32,
-        lanes: Vec<Drawn>,
-        /// The same lanes of the run that this one repeats.
-        before: Vec<Drawn>,
-        /// Time in s at which they begin to differ.
-        differs: Option<f64>,
-    },
-}
-
-/// New tokens of a channel.
-#[derive(Serialize)]
-pub struct NewTokens {
-    /// Time in s, and text.
-    texts: Vec<(f64, String)>,
-    /// The newest one as a message in CDR, in base 64.
-    bytes: String,
-}
-
-/// A run of a robot.
-#[derive(Serialize)]
-pub struct AboutRun {
-    run: u64,
-    about: Arc<About>,
-    texts: Vec<String>,
-    /// `true` for each text that may be changed.
-    editable: Vec<bool>,
-    /// `true` if the robot is built and started again when a text has changed.
-    rebuilds: bool,
-    readonly: bool,
-    /// `true` if the studio asks for neither tokens nor times.
-    looks: bool,
-    /// `true` if it can go back in time.
-    travels: bool,
-    /// `true` if it repeats the run before up to a point.
-    repeats: bool,
-    /// The robot beside it, with whose lanes and tokens its own are compared: `shadow` or `robot`.
-    beside: Option<&'static str>,
-}
-
-/// State of the run.
-#[derive(Serialize)]
-pub struct Tick {
-    run: Run,
-    /// Time in s.
-    now: f64,
-    paused: bool,
-    /// Simulated seconds per second; `null` for as fast as possible.
-    speed: Option<f64>,
-    lost: u64,
-    /// Reason to believe that the robot stands still, or the connection to it.
-    silence: Option<String>,
-    /// Time in s before which only sums are known, if there is one.
-    forgotten: Option<f64>,
-    /// Nodes that have changed: index, active, since when in s, number of firings, time of the last one in s, number of
-    /// problems.
-    nodes: Vec<(usize, bool, f64, u64, f64, u64)>,
-    /// Connections that have changed, with the number of their tokens.
-    handled: Vec<(usize, u64)>,
-    /// Connections over which a node waits for a token, while others have brought theirs.
-    awaited: Vec<u32>,
-}
-
-/// A message of the page.
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-pub enum Asked {
-    /// Shows another robot, by its number.
-    Robot(usize),
-    /// Shows an earlier run by its number, or the current one.
-    Look(u64),
-    /// Opens these nested graphs, and closes all others.
-    Open(BTreeSet<String>),
-    /// Sets a parameter to a value in TOML.
-    Set { name: String, value: String },
-    /// Halts the robot.
-    Pause,
-    /// Lets it react once.
-    Step,
-    /// Lets it continue at this speed; without one, as fast as possible.
-    Run { speed: Option<f64> },
-    /// Halts it before the last reaction.
-    Back,
-    /// Halts it at this time in s.
-    Goto(f64),
-    /// Halts it whenever this condition becomes true.
-    Break(String),
-    /// Starts it again.
-    Restart,
-    /// Gives the robot the parameters of its shadow, which is shown.
-    Take,
-    /// Writes all changed parameters to a file.
-    Save,
-    /// Writes a parameter into the source.
-    Write(String),
-    /// Takes note of a text of the page.
-    Edit { file: usize, version: u32, text: String },
-    /// Asks for a description of what is at a place.
-    Hover(Place),
-    /// Asks for completions at a place.
-    Complete(Place),
-    /// Saves a text, also `over` one that others have saved.
-    Keep { file: usize, text: String, over: bool },
-    /// Asks for the tokens of these channels, and of no others.
-    Watch(BTreeSet<u32>),
-    /// Asks for the times of calls, or no longer.
-    Measure(bool),
-    /// Asks why a node is active and fired, or why not, at a time in s; without one, now.
-    Why { node: usize, at: Option<f64> },
-    /// Writes a test of the interval between two times in s.
-    Test(f64, f64),
-    /// Asks for the lanes of the timeline, with those of `also`. Times are in s. Only those of the nodes in `seen` have
-    /// contents; without it, all.
-    Lanes { from: f64, to: f64, columns: u32, also: Vec<usize>, seen: Option<BTreeSet<usize>> },
-}
 
 /// A page.
 pub struct Session {
@@ -194,9 +33,12 @@ pub struct Session {
     picture: Option<Picture>,
     editor: Editor,
     watched: BTreeSet<u32>,
+    /// Channels of the last answer to why.
+    explained: BTreeSet<u32>,
     measures: bool,
-    /// The open graphs, from the first choice of the user on.
-    open: Option<BTreeSet<String>>,
+    /// The view that the user has chosen, and the open graphs of each view, from the first choice on.
+    view: Option<View>,
+    open: BTreeMap<View, BTreeSet<String>>,
 }
 
 /// Knowledge of the page.
@@ -209,6 +51,7 @@ struct Seen {
     no_checkpoints: Option<String>,
     nodes: Vec<Node>,
     handled: Vec<u64>,
+    passed: Vec<Option<i64>>,
     problems: u64,
     params: BTreeMap<String, u64>,
     tokens: BTreeMap<u32, u64>,
@@ -237,8 +80,28 @@ impl Session {
     ) -> Self {
         let (seen, watched) = (Seen::default(), BTreeSet::new());
         let editor = Editor::new(Arc::clone(&source));
-        let (earlier, picture, measures, open) = (None, None, false, None);
-        Self { shared, earlier, beside, source, readonly, travels, seen, picture, editor, watched, measures, open }
+        let (earlier, picture, measures, view, open) = (None, None, false, None, BTreeMap::new());
+        Self {
+            shared,
+            earlier,
+            beside,
+            source,
+            readonly,
+            travels,
+            seen,
+            picture,
+            editor,
+            watched,
+            explained: BTreeSet::new(),
+            measures,
+            view,
+            open,
+        }
+    }
+
+    /// Shows what another session of the same page has shown: the activity, or the wiring.
+    pub fn look_like(&mut self, other: &Self) {
+        self.view = other.view;
     }
 
     /// The run that is shown.
@@ -284,14 +147,14 @@ impl Session {
             Asked::Edit { file, version, text } if self.readonly => {
                 return self.editor.colours(file, version, &text).map(Told::Written);
             }
-            Asked::Open(open) => {
-                self.open = Some(open);
+            Asked::Open { view, open } => {
+                self.view = Some(view);
+                open.and_then(|open| self.open.insert(view, open));
                 return self.draw();
             }
             Asked::Watch(channels) => {
-                let both = || [&self.shared].into_iter().chain(self.beside.as_ref().map(|beside| &beside.shared));
-                channels.difference(&self.watched).for_each(|channel| both().for_each(|robot| robot.watch(*channel)));
-                self.watched.difference(&channels).for_each(|channel| both().for_each(|robot| robot.unwatch(*channel)));
+                self.watch(&channels);
+                self.unwatch(&self.watched);
                 self.watched = channels;
                 return None;
             }
@@ -317,7 +180,10 @@ impl Session {
             Asked::Why { node, at } => {
                 let live = self.live();
                 let time = at.map_or(live.now, nanos);
-                return Some(Told::Why(why(&live, node, time)));
+                let lines = why(&live, node, time);
+                drop(live);
+                self.explain(&lines);
+                return Some(Told::Why(lines));
             }
             Asked::Edit { file, version, text } => return self.editor.edit(file, version, text).map(Told::Written),
             Asked::Hover(place) => {
@@ -370,6 +236,30 @@ impl Session {
             self.shared.tell(&command);
         }
         None
+    }
+
+    /// Asks for the tokens of channels, also of the robot beside this one.
+    fn watch(&self, channels: &BTreeSet<u32>) {
+        self.robots().for_each(|robot| channels.iter().for_each(|channel| robot.watch(*channel)));
+    }
+
+    fn unwatch(&self, channels: &BTreeSet<u32>) {
+        self.robots().for_each(|robot| channels.iter().for_each(|channel| robot.unwatch(*channel)));
+    }
+
+    fn robots(&self) -> impl Iterator<Item = &Arc<Shared>> {
+        [&self.shared].into_iter().chain(self.beside.as_ref().map(|beside| &beside.shared))
+    }
+
+    /// Asks from now on for the tokens of an answer, so that the next answer about the same has their values.
+    fn explain(&mut self, lines: &[Line]) {
+        if self.readonly {
+            return;
+        }
+        let channels = lines.iter().filter_map(|line| line.channel).collect();
+        self.watch(&channels);
+        self.unwatch(&self.explained);
+        self.explained = channels;
     }
 
     /// Writes a test of an interval. Returns the path of its file.
@@ -466,9 +356,12 @@ impl Session {
     fn draw(&mut self) -> Option<Told> {
         let about = self.live().about.clone()?;
         let picture = self.picture.as_ref()?;
-        let open = self.open.clone().unwrap_or_else(|| picture.first_open());
-        let (svg, lines) = (picture.svg(&open), picture.lines(&about));
-        Some(Told::Picture { svg, graphs: picture.graphs(), open, lines })
+        let (first, states) = (picture.first_view(), picture.states(&about));
+        let has_activity = first == View::Activity;
+        let view = self.view.filter(|_| has_activity).unwrap_or(first);
+        let open = self.open.get(&view).cloned().unwrap_or_else(|| picture.first_open(view));
+        let (svg, lines) = picture.drawn(view, &open, &about);
+        Some(Told::Picture(Drawing { view, has_activity, svg, graphs: picture.graphs(view), open, lines, states }))
     }
 
     fn since(&mut self, live: &Live) -> Vec<Told> {
@@ -523,9 +416,8 @@ impl Drop for Session {
         if self.measures {
             self.shared.measure(false);
         }
-        for robot in [&self.shared].into_iter().chain(self.beside.as_ref().map(|beside| &beside.shared)) {
-            self.watched.iter().for_each(|channel| robot.unwatch(*channel));
-        }
+        self.unwatch(&self.watched);
+        self.unwatch(&self.explained);
     }
 }
 
@@ -537,7 +429,8 @@ impl Seen {
     /// Knowledge of a page that knows nothing but the robot.
     fn of(live: &Live) -> Self {
         let (nodes, handled) = (vec![Node::default(); live.nodes.len()], vec![0; live.handled.len()]);
-        Self { runs: live.runs, returns: live.returns, nodes, handled, ..Self::default() }
+        let passed = vec![None; live.handled.len()];
+        Self { runs: live.runs, returns: live.returns, nodes, handled, passed, ..Self::default() }
     }
 
     fn tick(&mut self, live: &Live) -> Tick {
@@ -545,7 +438,7 @@ impl Seen {
         for (at, (node, seen)) in live.nodes.iter().zip(&mut self.nodes).enumerate() {
             if node != seen {
                 let (since, last) = (seconds(node.since), seconds(node.last));
-                nodes.push((at, node.active, since, node.fired, last, node.problems));
+                nodes.push((at, node.active, since, node.fired, node.taken, last, node.problems));
                 *seen = *node;
             }
         }
@@ -554,6 +447,13 @@ impl Seen {
             if count != seen {
                 handled.push((at, *count));
                 *seen = *count;
+            }
+        }
+        let mut passed = vec![];
+        for (at, (time, seen)) in live.passes.times().iter().zip(&mut self.passed).enumerate() {
+            if time != seen {
+                passed.extend(time.map(|time| (at, seconds(time))));
+                *seen = *time;
             }
         }
         let speed = live.speed.is_finite().then_some(live.speed);
@@ -572,6 +472,7 @@ impl Seen {
             forgotten,
             nodes,
             handled,
+            passed,
             awaited: live.waits.awaited(),
         }
     }

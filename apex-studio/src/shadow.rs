@@ -8,9 +8,10 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-/// Environment variables of the programs (`apex_rt::drive`): recordings that are made and repeated, that of a replay
-/// which waits for more inputs where the recording ends so far, and sockets for viewers.
+/// Environment variables of the programs (`apex_rt::drive`): recordings and profiles that are made, recordings that are
+/// repeated, that of a replay which waits for more inputs where the recording ends so far, and sockets for viewers.
 const RECORD: &str = "APEX_RECORD";
+const PROFILE: &str = "APEX_PROFILE";
 const REPLAY: &str = "APEX_REPLAY";
 const FOLLOW: &str = "APEX_REPLAY_FOLLOW";
 const STREAM: &str = "APEX_STUDIO";
@@ -46,7 +47,8 @@ impl Recorded {
         // It would print everything a second time.
         shadow.stdout(Stdio::null());
         robot.env(RECORD, &run.recording);
-        shadow.env_remove(RECORD).env(REPLAY, &run.recording).env(FOLLOW, "1");
+        // It writes no files: those of the robot have the same names.
+        shadow.env_remove(RECORD).env_remove(PROFILE).env(REPLAY, &run.recording).env(FOLLOW, "1");
         shadow.env(STREAM, folder.join("shadow")).env(STREAM_WAITS, "1");
         adapt(&mut shadow);
         run.shadow = Some(shadow);

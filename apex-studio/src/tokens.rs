@@ -32,6 +32,13 @@ impl Tokens {
         }
     }
 
+    /// The last token that was sent at a time in ns, as text.
+    pub fn at(&self, time: i64) -> Option<&str> {
+        let end = self.newest.partition_point(|(at, _)| *at <= time);
+        let (at, text) = self.newest.get(end.checked_sub(1)?)?;
+        (*at == time).then_some(text)
+    }
+
     /// Forgets the tokens after a time in ns.
     pub fn take_back(&mut self, now: i64) {
         let before = self.newest.len();

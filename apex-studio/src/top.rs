@@ -144,12 +144,14 @@ fn lines(live: &Live, rates: &Rates, height: usize) -> Vec<String> {
         lines.extend([String::new(), format!("PROBLEMS ({})", live.problem_count)]);
         lines.extend(problems);
     }
-    lines.extend([String::new(), "    RATE     FIRED  LAST".to_owned()]);
-    let mut nodes: Vec<usize> = (0..live.nodes.len()).filter(|at| live.nodes[*at].fired > 0).collect();
+    lines.extend([String::new(), "    RATE     FIRED     TAKEN  LAST".to_owned()]);
+    let mut nodes: Vec<usize> =
+        (0..live.nodes.len()).filter(|at| live.nodes[*at].fired + live.nodes[*at].taken > 0).collect();
     nodes.sort_by(|a, b| rates.rates[*b].total_cmp(&rates.rates[*a]).then(a.cmp(b)));
     lines.extend(nodes.into_iter().map(|at| {
         let (node, rate) = (&live.nodes[at], rates.rates[at]);
-        format!("{rate:6.1}/s {:9}  {:8.3} s ago  {}", node.fired, seconds(live.now - node.last), named(at))
+        let ago = seconds(live.now - node.last);
+        format!("{rate:6.1}/s {:9} {:9}  {ago:8.3} s ago  {}", node.fired, node.taken, named(at))
     }));
     lines.truncate(height);
     lines
@@ -159,19 +161,23 @@ fn lines(live: &Live, rates: &Rates, height: usize) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::samples::robot;
-    use apex_rt::studio::message::{About, Report};
+    use apex_rt::studio::message::{About, AboutConnection, Report};
 
     #[test]
     fn a_robot_is_shown_in_lines() {
         let (mut live, mut rates) = (Live::default(), Rates::default());
         assert_eq!(lines(&live, &rates, 24), ["starting", "q: quit"]);
-        live.note(Report::About(About { name: "Rover".to_owned(), ..robot(&["base", "go.drive"]) }));
+        let (output, input) = ("twist".to_owned(), "drive".to_owned());
+        let connections = vec![AboutConnection { from: 1, output, to: 0, input, activity: false }];
+        live.note(Report::About(About { name: "Rover".to_owned(), connections, ..robot(&["base", "go.drive"]) }));
         rates.measure(&live);
         live.note(Report::Activity { node: 1, active: true });
         for now in 1..=20 {
             live.note(Report::Reaction { group: 0, now: now * 100_000_000 });
             live.note(Report::Fired(0));
         }
+        // A token at a slot is not a firing.
+        live.note(Report::Handled(0));
         live.note(Report::Failed { node: 0, error: "no\u{1b}[2J scan".to_owned() });
         rates.measure(&live);
         let shown = lines(&live, &rates, 24);
@@ -186,8 +192,8 @@ mod tests {
                 "PROBLEMS (1)",
                 "     2.000 s  base: no [2J scan",
                 "",
-                "    RATE     FIRED  LAST",
-                "  10.0/s        20     0.000 s ago  base",
+                "    RATE     FIRED     TAKEN  LAST",
+                "  10.0/s        20         1     0.000 s ago  base",
             ]
         );
         assert_eq!(lines(&live, &rates, 3).len(), 3);

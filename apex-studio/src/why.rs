@@ -4,6 +4,7 @@ use crate::{
     kinds::is_silent,
     live::Live,
     steps::{Part, What},
+    words::one_line,
 };
 use apex_rt::studio::message::{About, AboutConnection, PortRole};
 use serde::Serialize;
@@ -13,6 +14,8 @@ use std::{collections::BTreeSet, ops::Range};
 const MAX_LINES: usize = 80;
 /// Maximum number of causes one behind the other.
 const MAX_DEPTH: u32 = 24;
+/// Maximum number of characters of the value of a token.
+const MAX_VALUE: usize = 60;
 
 /// A line of an answer: a fact, and below it, deeper by one, its causes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -23,6 +26,9 @@ pub struct Line {
     pub node: u32,
     /// Its time in s.
     pub at: f64,
+    /// The channel of the token that it is about.
+    #[serde(skip)]
+    pub channel: Option<u32>,
 }
 
 /// Explains the activity of a node and its firing, or why there was none, at a time in ns.
@@ -31,7 +37,7 @@ pub fn why(live: &Live, node: usize, time: i64) -> Vec<Line> {
     let steps = live.steps.around(time);
     let (node, end) = (node as u32, steps.until(time));
     let is_forgotten = steps.is_forgotten;
-    let mut answer = Answer { about, steps: &steps, lines: vec![], told: BTreeSet::new() };
+    let mut answer = Answer { live, about, steps: &steps, lines: vec![], told: BTreeSet::new() };
     if end == 0 {
         let why = match is_forgotten {
             true => "what happened then is not known any more: go there, and ask again",
@@ -46,6 +52,7 @@ pub fn why(live: &Live, node: usize, time: i64) -> Vec<Line> {
 }
 
 struct Answer<'a> {
+    live: &'a Live,
     about: &'a About,
     steps: &'a Part<'a>,
     lines: Vec<Line>,
@@ -64,7 +71,7 @@ struct Origin<'a> {
 impl<'a> Answer<'a> {
     fn say(&mut self, depth: u32, text: String, node: u32, now: i64) {
         if self.lines.len() < MAX_LINES {
-            self.lines.push(Line { depth, text, node, at: now as f64 / 1e9 });
+            self.lines.push(Line { depth, text, node, at: now as f64 / 1e9, channel: None });
         }
     }
 
@@ -85,13 +92,17 @@ impl<'a> Answer<'a> {
         ports.iter().any(|(name, is, _)| name == port && *is == role)
     }
 
-    /// `true` if the tokens of a connection are taken one by one, by a slot.
-    fn is_asynchronous(&self, c: &AboutConnection) -> bool {
+    /// `true` if a connection ends at a slot.
+    fn is_to_slot(&self, c: &AboutConnection) -> bool {
         let declared = self.about.nodes.get(c.to as usize).map_or(&[][..], |node| &node.ports);
         let is_standard = matches!(c.input.as_str(), "enable" | "disable" | "cancel" | "resume");
         self.has_role(c.to, &c.input, PortRole::Slot)
             || is_standard && declared.iter().all(|(name, ..)| *name != c.input)
-            || self.has_role(c.from, &c.output, PortRole::Event)
+    }
+
+    /// `true` if the tokens of a connection are taken one by one.
+    fn is_asynchronous(&self, c: &AboutConnection) -> bool {
+        self.is_to_slot(c) || self.has_role(c.from, &c.output, PortRole::Event)
     }
 
     /// The ports of real nodes from which the tokens of a connection come.
@@ -304,31 +315,70 @@ impl<'a> Answer<'a> {
         changes(self.steps[last].what, "disable").then_some(last)
     }
 
+    /// The value of a token that was sent over a channel at a time in ns, if it is known: `: 0.4`.
+    fn value(&self, channel: u32, time: i64) -> Option<String> {
+        let text = one_line(self.live.tokens.get(&channel)?.at(time)?);
+        let short: String = text.chars().take(MAX_VALUE).collect();
+        Some(if short.len() < text.len() { format!(": {short}…") } else { format!(": {short}") })
+    }
+
+    /// The last token that each slot of a node took before step `at`: it may count still.
+    fn taken(&self, node: u32, at: usize) -> Vec<usize> {
+        let slots: BTreeSet<&str> =
+            self.incoming(node).filter(|c| self.is_to_slot(c)).map(|c| c.input.as_str()).collect();
+        let takes = |what, slot: &str| match what {
+            What::Takes(number) => self.connection(number).is_some_and(|c| c.to == node && c.input == slot),
+            _ => false,
+        };
+        slots.into_iter().filter_map(|slot| self.steps.last(at, |what| takes(what, slot))).collect()
+    }
+
     /// Explains a step, and its causes below it.
     fn cause(&mut self, at: usize, depth: u32) {
+        if self.tell(at, depth) && depth < MAX_DEPTH {
+            for cause in self.causes(at) {
+                self.cause(cause, depth + 1);
+            }
+            let What::Fires(node) = self.steps[at].what else { return };
+            for taken in self.taken(node, at) {
+                // How a token came about before is a question of its own, which leads round through the robot.
+                if self.steps[taken].now == self.steps[at].now {
+                    self.cause(taken, depth + 1);
+                } else if self.tell(taken, depth + 1) {
+                    for sent in self.causes(taken) {
+                        self.tell(sent, depth + 2);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Says what happens in a step. Returns `true` the first time.
+    fn tell(&mut self, at: usize, depth: u32) -> bool {
         let step = self.steps[at];
         let (text, node) = match step.what {
             What::Fires(node) => (format!("`{}` fired", self.name(node)), node),
             What::Takes(number) => match self.connection(number) {
                 Some(c) => (format!("`{}.{}` took a token", self.name(c.to), c.input), c.to),
-                None => return,
+                None => return false,
             },
             What::Sends(channel) => match self.about.channels.get(channel as usize) {
                 Some(channel) => (format!("`{}` was sent", channel.name), channel.node),
-                None => return,
+                None => return false,
             },
             What::Starts(node) => (format!("`{}` became active", self.name(node)), node),
             What::Stops(node) => (format!("`{}` became inactive", self.name(node)), node),
-            What::Begins => return,
+            What::Begins => return false,
         };
         let is_new = self.told.insert(at);
         let again = if is_new { "" } else { " (see above)" };
-        self.say(depth, format!("{text} at {}{again}", shown(step.now)), node, step.now);
-        if is_new && depth < MAX_DEPTH {
-            for cause in self.causes(at) {
-                self.cause(cause, depth + 1);
-            }
+        let channel = if let What::Sends(channel) = step.what { Some(channel) } else { None };
+        let value = channel.and_then(|channel| self.value(channel, step.now)).unwrap_or_default();
+        self.say(depth, format!("{text}{value} at {}{again}", shown(step.now)), node, step.now);
+        if let Some(line) = self.lines.last_mut() {
+            line.channel = line.channel.or(channel);
         }
+        is_new
     }
 
     /// The steps that led to a step.
@@ -337,7 +387,7 @@ impl<'a> Answer<'a> {
             What::Fires(node) => {
                 let start = self.steps.reaction(at).start;
                 let mut causes = vec![];
-                for c in self.incoming(node).filter(|c| !self.has_role(node, &c.input, PortRole::Slot)) {
+                for c in self.incoming(node).filter(|c| !self.is_to_slot(c)) {
                     for origin in self.origins(c) {
                         let end = if origin.delayed { start } else { at };
                         let sent = self.sending(origin.node, origin.output, end);

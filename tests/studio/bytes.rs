@@ -3,7 +3,7 @@
 use crate::{
     Counts,
     browser::Browser,
-    page::{RUNNING, studio_of},
+    page::{RUNNING, studio_of, wiring},
 };
 use apex_rt::{Clock as _, Next, Observer as _, bytes::ByteStream, prelude::*};
 use apex_studio::Remote;
@@ -44,6 +44,7 @@ fn firmware_is_shown_from_the_middle_of_its_bytes() {
     let Some(mut page) = Browser::open(&studio_of(Remote { address }, false).0) else { return };
     page.wait_for(RUNNING);
     page.wait_for("document.getElementById('name').textContent === 'Counts'");
+    wiring(&mut page);
     page.wait_for("document.querySelector('[data-item=\"gated.gate\"].is-active')");
     page.wait_for("document.querySelector('[data-item=count].is-firing')");
     page.wait_for("parseFloat(document.getElementById('now').textContent) > 1");

@@ -2,7 +2,7 @@
 
 use crate::{
     browser::Browser,
-    page::{RUNNING, opened},
+    page::{RUNNING, opened, wiring},
     several::NoText,
     socket,
 };
@@ -123,11 +123,12 @@ fn figures_of_a_thousand_nodes() {
     let mut page = Browser::open(&opened(vec![seat], false)).expect("a browser");
     page.size(1280, 760, false);
     page.wait_for(RUNNING);
+    wiring(&mut page);
     page.wait_for("document.querySelector('.item.is-firing')");
     for all_open in [false, true] {
         if all_open {
             page.value(
-                "import('./page.js').then(({ ask }) => ask({ open: [...Array(25).keys()].map((n) => `part${n}`) }))",
+                "import('./page.js').then(({ ask }) => ask({ open: { view: 'wiring', open: [...Array(25).keys()].map((n) => `part${n}`) } }))",
             );
             page.wait_for("document.querySelectorAll('#picture [data-item]').length > 1000");
         }

@@ -1,10 +1,12 @@
 //! Running programs as viewers and as pages of the studio see them.
 
+mod activity;
 mod browser;
 mod bytes;
 mod checkpoints;
 mod figures;
 mod foxglove;
+mod hands;
 mod hostile;
 mod measure;
 mod page;
@@ -25,6 +27,7 @@ use std::{env, path::PathBuf};
 
 graph!("studio/counts.afg");
 graph!("studio/counts_moment.afg");
+graph!("studio/tends.afg");
 
 /// A socket for the program of a test.
 fn socket(name: &str) -> PathBuf {
@@ -32,8 +35,8 @@ fn socket(name: &str) -> PathBuf {
 }
 
 /// Opens a socket for viewers of a program.
-fn open(name: &str, time: StreamedTime) -> Studio {
-    Studio::open::<Counts>(socket(name).to_str().expect("UTF-8"), time).expect("a new socket")
+fn open<P: Program>(name: &str, time: StreamedTime) -> Studio {
+    Studio::open::<P>(socket(name).to_str().expect("UTF-8"), time).expect("a new socket")
 }
 
 /// Runs the program for `seconds` of simulated time.

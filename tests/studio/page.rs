@@ -1,10 +1,10 @@
 //! The page of the studio in a real browser: what it shows, by what stands in it.
 
-use crate::{browser::Browser, checkpoints::Own, drive, open, socket};
+use crate::{Counts, browser::Browser, checkpoints::Own, drive_of, open, socket};
 use apex_diagram::{Item, diagram};
 use apex_dsl::{catalog::Catalog, passes, report::Diagnostics, source::Sources};
 use apex_host::{Disk, Seen, Workspace};
-use apex_rt::studio::StreamedTime;
+use apex_rt::{Program, studio::StreamedTime};
 use apex_studio::{ParamChange, Remote, Replayed, Robot, Seat, Source, Studio, Study};
 use std::{
     fs,
@@ -26,6 +26,8 @@ const FOLDER: &str = env!("CARGO_MANIFEST_DIR");
 pub struct Text {
     errors: Mutex<Option<String>>,
     saved: Mutex<String>,
+    /// Its file, if it is not that of `Counts`.
+    pub file: Option<&'static str>,
     /// Its text, if it was changed.
     pub text: Mutex<Option<String>>,
 }
@@ -36,7 +38,7 @@ impl Source for Text {
         let mut disk = Disk::new(Some(&workspace.cache_folder()));
         let mut catalog = Catalog::load(workspace.crates(&Seen::Package), &mut disk);
         let mut sources = Sources::default();
-        let path = Path::new(FOLDER).join("studio/counts.afg");
+        let path = Path::new(FOLDER).join(self.file.unwrap_or("studio/counts.afg"));
         let text = fs::read_to_string(&path).ok()?;
         let file = sources.add(path, text);
         let checked = passes::check(file, &mut catalog, &mut sources, &mut disk, &mut Diagnostics::default());
@@ -99,6 +101,13 @@ pub fn studio_of(robot: impl Robot + 'static, readonly: bool) -> (String, Arc<Te
     (opened(vec![seat], readonly), text)
 }
 
+/// Starts a studio for the socket `name` of the program in `file`, and returns the address of its page.
+pub fn studio_for_file(name: &str, file: &'static str) -> String {
+    let robot = Box::new(Remote { address: socket(name).display().to_string() });
+    let source = Arc::new(Text { file: Some(file), ..Text::default() });
+    opened(vec![Seat { name: "robot".to_owned(), robot, source, shadow_of: None }], false)
+}
+
 /// Starts a studio for several robots, and returns the address of its page.
 pub fn opened(robots: Vec<Seat>, readonly: bool) -> String {
     opened_with(robots, vec![], readonly)
@@ -130,8 +139,13 @@ fn serve(studio: Studio) -> String {
 
 /// Runs the program for `seconds` at the speed that the studio chooses.
 pub fn start(name: &'static str, seconds: i64) -> Started {
-    let robot = open(name, StreamedTime::Waiting);
-    Started { name, thread: Some(thread::spawn(move || drive(&robot, seconds))) }
+    start_of(name, Counts::new, seconds)
+}
+
+/// Runs a program for `seconds` at the speed that the studio chooses.
+pub fn start_of<P: Program + 'static>(name: &'static str, program: fn() -> P, seconds: i64) -> Started {
+    let robot = open::<P>(name, StreamedTime::Waiting);
+    Started { name, thread: Some(thread::spawn(move || drive_of(&robot, program(), seconds))) }
 }
 
 /// A program that runs at least until the end of its test.
@@ -300,6 +314,13 @@ pub fn moment(page: &mut Browser, time: f64) -> (f64, f64) {
     (place[0].as_f64().expect("a number"), place[1].as_f64().expect("a number"))
 }
 
+/// Shows all nodes and connections instead of the activity.
+pub fn wiring(page: &mut Browser) {
+    page.wait_for("!document.getElementById('views').hidden");
+    page.press("a");
+    page.wait_for("document.getElementById('picture').dataset.view === 'wiring'");
+}
+
 pub const RUNNING: &str = "document.getElementById('run').textContent === 'running'";
 
 #[test]
@@ -307,6 +328,7 @@ fn the_picture_is_alive_and_nothing_in_names_is_executed() {
     let _robot = start("alive", 3600);
     let Some(mut page) = Browser::open(&studio("alive", false).0) else { return };
     page.wait_for(RUNNING);
+    wiring(&mut page);
     page.wait_for("document.querySelector('[data-item=\"gated.gate\"].is-active')");
     page.wait_for("document.querySelector('[data-item=gated].is-active')");
     page.wait_for("document.querySelector('[data-item=count].is-firing')");
@@ -316,7 +338,7 @@ fn the_picture_is_alive_and_nothing_in_names_is_executed() {
     page.wait_for("document.querySelector('[data-item=times].has-problem')");
     page.wait_for("document.getElementById('problems').textContent.includes('times: three <b>')");
     // Closed in place, and opened by a jump to what is inside.
-    page.double_click("document.querySelector('[data-item=gated] > text, [data-item=gated] text')");
+    page.double_click("document.querySelector('[data-item=\"gated.gate\"] > .box')");
     page.wait_for("!document.querySelector('[data-item=\"gated.gate\"]')");
     page.wait_for("document.querySelector('[data-item=gated].is-active')");
     page.click("document.querySelector('#active button')");
@@ -338,6 +360,7 @@ fn a_node_says_why_it_fired_and_why_not() {
     let _robot = start("why", 3600);
     let Some(mut page) = Browser::open(&studio("why", false).0) else { return };
     page.wait_for(RUNNING);
+    wiring(&mut page);
     let problem = "document.querySelector('#problems button')";
     page.wait_for(&format!("{problem}?.textContent.includes('three')"));
     let gate = "document.querySelector('[data-item=\"gated.gate\"]')";

@@ -1,6 +1,10 @@
 //! The pictures of the documentation: of robots that run, so that they are drawn on demand only.
 
-use crate::{browser::Browser, page::moment, socket};
+use crate::{
+    browser::Browser,
+    page::{moment, wiring},
+    socket,
+};
 use std::{
     env, fs,
     io::{self, BufRead as _, BufReader},
@@ -141,8 +145,8 @@ fn pictures() {
     click(&mut page, "[data-tab=values]");
     click(&mut page, "[data-channel=\"sim.base.battery\"] input");
     click(&mut page, "[data-channel=\"sim.laser.scan\"] input");
-    see_from(&mut page, "sim.laser.scan", "sim.base.pose");
     time_is_over(&mut page, 60.0);
+    wiring(&mut page);
     page.press("0");
     save(&mut page, "studio_dark.png");
     // Narrow, for a look only.
@@ -166,8 +170,6 @@ fn film_of_the_competition() {
     let studio = Studio::open(Command::new(apex()), &folder, &arguments);
     let mut page = Browser::open(&studio.address).expect("a browser");
     page.size(1120, 700, false);
-    page.value("import('./studio.js').then(({ ask }) => ask({ open: ['mission'] }))");
-    page.wait_for("document.querySelector('[data-item=\"mission.fetch\"]')");
     click(&mut page, "[data-tab=values]");
     for channel in ["slam.map", "slam.pose", "around.both.merged"] {
         click(&mut page, &format!("[data-channel$=\"{channel}\"] input"));
@@ -175,6 +177,8 @@ fn film_of_the_competition() {
     see_from(&mut page, "surroundings.around.both.merged", "surroundings.localize.slam.pose");
     page.fill("document.getElementById('lanes-filter')", "follow");
     time_is_over(&mut page, 20.0);
+    // The plane is above the ports.
+    page.value("document.querySelector('[data-panel=values]').scrollTop = 0");
     page.press("0");
     let interval = Duration::from_millis(250);
     Film::take(&mut page, 48, interval).save(interval, "studio_competition.png").expect("a file");

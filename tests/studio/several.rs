@@ -2,7 +2,7 @@
 
 use crate::{
     browser::Browser,
-    page::{RUNNING, Text, opened, start},
+    page::{RUNNING, Text, opened, start, wiring},
     socket,
 };
 use apex_diagram::Item;
@@ -61,6 +61,7 @@ fn a_page_shows_one_of_several_robots() {
     let (_left, address) = (start("left", 3600), opened(robots, false));
     let Some(mut page) = Browser::open(&address) else { return };
     page.wait_for(RUNNING);
+    wiring(&mut page);
     page.wait_for("document.querySelector('[data-item=times]')");
     let choice = "document.getElementById('robot')";
     assert_eq!(page.value(&format!("[{choice}.hidden, {choice}.options.length]")), serde_json::json!([false, 2]));
@@ -73,6 +74,7 @@ fn a_page_shows_one_of_several_robots() {
     page.wait_for("!document.querySelector('[data-item=times]')");
     let _right = start("right", 3600);
     page.wait_for(RUNNING);
+    // The view is that of the robot before.
     page.wait_for("document.querySelector('[data-item=times]')");
     choose(&mut page, 0);
     page.wait_for(&format!("{choice}.value === '0' && document.querySelector('[data-item=times]')"));
@@ -85,6 +87,9 @@ fn a_robot_without_its_text_is_drawn_from_what_it_says() {
     let _robot = start("untold", 3600);
     let Some(mut page) = Browser::open(&opened(vec![seat("untold", Arc::new(NoText))], false)) else { return };
     page.wait_for(RUNNING);
+    // Its activity, too.
+    page.wait_for("document.getElementById('does').textContent.startsWith('does: gate,')");
+    wiring(&mut page);
     page.wait_for("document.querySelector('[data-item=\"gated.gate\"].is-active')");
     page.wait_for("document.querySelector('[data-item=gated].is-active')");
     page.wait_for("document.querySelector('[data-item=count].is-firing')");

@@ -1,6 +1,6 @@
 //! The stream of a program, as a viewer gets it.
 
-use crate::{drive, open, socket};
+use crate::{Counts, drive, open, socket};
 use apex_rt::studio::{
     StreamedTime, connect,
     message::{self, About, Command, Report, Test},
@@ -68,7 +68,7 @@ impl Viewer {
 
 /// Runs the program for 10 s of simulated time, while `view` looks at it.
 fn streamed<T>(name: &str, time: StreamedTime, view: impl FnOnce(Viewer) -> T) -> T {
-    let studio = open(name, time);
+    let studio = open::<Counts>(name, time);
     let address = studio.address().to_owned();
     let running = thread::spawn(move || drive(&studio, 10));
     let (from, to) = connect(&address).expect("the robot listens");
@@ -184,7 +184,7 @@ fn a_program_halts_at_a_reaction_and_where_a_condition_becomes_true() {
 
 /// A program in real time whose reactions are few, so that values wait for it.
 fn slow(name: &str) -> (apex_rt::studio::Studio, String) {
-    let studio = open(name, StreamedTime::Real);
+    let studio = open::<Counts>(name, StreamedTime::Real);
     let address = studio.address().to_owned();
     (studio, address)
 }

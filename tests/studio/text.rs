@@ -2,7 +2,7 @@
 
 use crate::{
     browser::Browser,
-    page::{RUNNING, start, studio},
+    page::{RUNNING, start, studio, wiring},
 };
 
 const AREA: &str = "document.querySelector('#text-area textarea')";
@@ -11,6 +11,7 @@ const SELECTED: &str = "document.querySelector('#text .is-selected')";
 /// Opens the text of a robot on its page.
 fn open(page: &mut Browser) {
     page.wait_for(RUNNING);
+    wiring(page);
     page.click("document.querySelector('[data-tab=text]')");
     page.wait_for(&format!("{AREA}.value.includes('graph Counts')"));
     page.wait_for("document.querySelector('#text .keyword')?.textContent === 'use'");

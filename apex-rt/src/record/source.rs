@@ -13,7 +13,6 @@ use lz4_flex::frame::FrameDecoder;
 use mcap::{MAGIC, records::op};
 use std::{
     collections::BTreeMap,
-    env,
     fs::File,
     io::{self, BufReader, Read},
     path::{Path, PathBuf},
@@ -21,9 +20,7 @@ use std::{
     time::Duration,
 };
 
-/// Environment variable of a replay that waits at the end of a file which is still being written.
-const FOLLOW: &str = "APEX_REPLAY_FOLLOW";
-/// Interval at which such a file is looked at.
+/// Interval at which a file that is still being written is looked at.
 const LOOK: Duration = Duration::from_millis(5);
 
 /// Maximum length of a record, in bytes. A larger length is damage.
@@ -117,7 +114,7 @@ struct Positioned {
 
 impl Positioned {
     fn open(path: &Path) -> io::Result<Self> {
-        let follows = env::var_os(FOLLOW).map(|_| parent());
+        let follows = crate::is_shadow().then(parent);
         Ok(Self { file: File::open(path)?, at: 0, follows })
     }
 

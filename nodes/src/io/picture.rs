@@ -43,7 +43,7 @@ impl ScanPicture {
     ) -> Result<(), WriteError> {
         let due = self.seen.is_multiple_of(self.every.max(1));
         self.seen = self.seen.wrapping_add(1);
-        if !due || self.written >= self.limit {
+        if !due || self.written >= self.limit || apex_rt::is_shadow() {
             return Ok(());
         }
         let directory = Path::new(self.directory);

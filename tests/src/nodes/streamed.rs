@@ -1,6 +1,6 @@
 //! Nodes of programs that are looked at while they run.
 
-use apex_nodes::scan::Pose2;
+use apex_nodes::scan::{Pose2, Scan};
 use apex_rt::prelude::*;
 
 /// Counts from one.
@@ -39,6 +39,14 @@ impl TimesFactor {
 pub fn pose_on_circle(number: &i64) -> Pose2 {
     let angle = *number as f32 / 100.0;
     Pose2::new(angle.cos(), angle.sin(), angle)
+}
+
+/// Measures two points ahead, from a pose.
+#[node]
+pub fn scan_ahead(_pose: &Pose2) -> Scan {
+    let mut scan = Scan { angle_min: -0.1, angle_increment: 0.2, range_max: 10.0, ..Scan::default() };
+    scan.ranges.extend([1.0, 2.0]);
+    scan
 }
 
 /// Draws a number as a bar: a view of its own. The script in it must not run.

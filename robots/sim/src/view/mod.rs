@@ -127,7 +127,7 @@ impl LiveView {
         let due = |last: Option<Time>, period: Duration| {
             everything || last.is_none_or(|last| picture.now.since(last) >= period)
         };
-        if !self.file.is_empty() && due(self.written, FILE_PERIOD) {
+        if !self.file.is_empty() && due(self.written, FILE_PERIOD) && !apex_rt::is_shadow() {
             write_whole(Path::new(self.file), &svg::draw(picture)).map_err(|e| ViewError::File(self.file, e))?;
             self.written = Some(picture.now);
         }
@@ -242,6 +242,24 @@ mod tests {
         let folder = file.parent().expect("a folder");
         assert_eq!(fs::read_dir(folder).expect("the folder").count(), 1, "nothing else is left there");
         fs::remove_dir_all(folder).expect("the folder can be removed");
+    }
+
+    #[test]
+    fn a_shadow_writes_no_file() {
+        let file = std::env::temp_dir().join(format!("apex-sim-shadow-{}.svg", std::process::id()));
+        if apex_rt::is_shadow() {
+            let name: &'static str = file.to_str().expect("a readable path").to_owned().leak();
+            let mut node = LiveView::construct((ROOM, 0.1, name));
+            node.process(&Ctx::new(Time::ZERO), &Pose2::new(0.7, 0.75, 0.0), None).expect("it writes nothing");
+            assert!(!file.exists());
+            return;
+        }
+        // Only another process has another environment.
+        let own = std::env::current_exe().expect("a path");
+        let mut shadow = std::process::Command::new(own);
+        let output = shadow.args(["--exact", "view::tests::a_shadow_writes_no_file"]).env("APEX_REPLAY_FOLLOW", "1");
+        let output = output.output().expect("it starts");
+        assert!(output.status.success() && String::from_utf8_lossy(&output.stdout).contains("1 passed"), "{output:?}");
     }
 
     #[test]
