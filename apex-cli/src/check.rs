@@ -11,10 +11,13 @@ pub fn run(paths: &[PathBuf], format: Format, mend: bool) -> Result<ExitCode, St
     let mut messages = vec![];
     let files: Vec<Vec<PathBuf>> = paths.iter().map(|path| texts::named(path)).collect::<Result<_, _>>()?;
     for file in files.iter().flatten() {
+        if mend && project::is_input(file) {
+            return Err("standard input cannot be changed: leave out `--fix`, or name a file".to_owned());
+        }
         if mend {
             fix::file(file)?.iter().for_each(|change| project::print_error(change));
         }
-        let checked = project::check(file)?;
+        let checked = project::check_text(file)?;
         failed |= checked.diagnostics.has_errors();
         match format {
             Format::Text => checked.print_diagnostics(),

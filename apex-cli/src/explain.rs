@@ -34,6 +34,7 @@ pub fn run(what: Option<&Path>, format: Format, shown: Shown) -> Result<ExitCode
         return Ok(ExitCode::SUCCESS);
     };
     let is_word = what.extension().is_none() && what.components().count() == 1 && !what.exists();
+    let is_word = is_word && !project::is_input(what);
     match (what.to_str().filter(|_| is_word), shown) {
         (Some(code), _) => self::code(code),
         (None, Shown::Program) => program(what),
@@ -64,7 +65,7 @@ fn first_sentence(page: &str) -> String {
 
 /// Prints each program of a source file as Rust is generated from it.
 fn program(file: &Path) -> Result<ExitCode, String> {
-    let checked = project::check(file)?;
+    let checked = project::check_text(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
@@ -76,7 +77,7 @@ fn program(file: &Path) -> Result<ExitCode, String> {
 
 /// Prints what was decided about each program of a text.
 fn text(file: &Path, format: Format) -> Result<ExitCode, String> {
-    let checked = project::check(file)?;
+    let checked = project::check_text(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
@@ -97,7 +98,7 @@ fn text(file: &Path, format: Format) -> Result<ExitCode, String> {
 
 /// Prints the Petri net of each program of a source file.
 fn net(file: &Path) -> Result<ExitCode, String> {
-    let checked = project::check(file)?;
+    let checked = project::check_text(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));

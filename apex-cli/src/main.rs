@@ -46,10 +46,10 @@ struct Arguments {
 enum Command {
     /// Check source files and report their errors.
     #[command(
-        after_help = "--fix applies the unambiguous fixes and lists them; other suggestions are only printed.\nExit code 0: no errors remain.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check --fix robot.afg"
+        after_help = "--fix applies the unambiguous fixes and lists them; other suggestions are only printed.\nExit code 0: no errors remain.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check - < robot.afg\n  apex check --fix robot.afg"
     )]
     Check {
-        /// Source files, or folders with `.afg` files.
+        /// Source files, or folders with `.afg` files; `-` is standard input, as a file of the current folder.
         #[arg(required = true, value_name = "FILE")]
         paths: Vec<PathBuf>,
         /// Format of the output.
@@ -91,7 +91,7 @@ enum Command {
     },
     /// Print the Rust code that a source file is compiled to.
     Expand {
-        /// Source file.
+        /// Source file, or `-` for standard input.
         file: PathBuf,
     },
     /// Print the decisions of the compiler about a source file, or the meaning of a diagnostic code.
@@ -99,7 +99,7 @@ enum Command {
         after_help = "For a source file: regions, guards, clusters, schedule, rates, pruning, memory, claims. For a code: its page.\n\nExample:\n  apex explain robots/patsy/patsy.afg\n  apex explain --memory robots/firmware/firmware.afg\n  apex explain missing-unit\n  apex explain --list"
     )]
     Explain {
-        /// Source file, or a code such as `missing-unit`.
+        /// Source file, `-` for standard input, or a code such as `missing-unit`.
         #[arg(required_unless_present = "list", value_name = "FILE | CODE")]
         what: Option<PathBuf>,
         /// Print all codes.
@@ -127,7 +127,7 @@ enum Command {
         after_help = "Single lines are `->`, double lines `=>`. Data flows from left to right; slots are at the top, events at the bottom.\nDashed lines are asynchronous, dash-dotted lines hybrid. Nodes that can be active are coloured.\n\nExample:\n  apex graph robots/patsy/patsy.afg --graph Simulated -o patsy.svg"
     )]
     Graph {
-        /// Source file.
+        /// Source file, or `-` for standard input.
         file: PathBuf,
         /// Name of the graph, robot or state machine. By default the only robot, else the only graph that is not part
         /// of another one, else the only state machine.
@@ -181,7 +181,7 @@ enum Command {
     },
     /// List the nodes that a package can use, or describe one.
     #[command(
-        after_help = "A node matches a word in its path, its documentation, or the names of its ports and parameters. If one node has exactly\nthis name, or only one matches, its ports and parameters are listed with types, units, defaults and ranges.\n\nExample:\n  apex nodes\n  apex nodes scan filter\n  apex nodes JumpDistance"
+        after_help = "Outside of a package, the nodes of the library are listed. A node matches a word in its path, its documentation, or the names of its ports and parameters. If one node has exactly\nthis name, or only one matches, its ports and parameters are listed with types, units, defaults and ranges.\n\nExample:\n  apex nodes\n  apex nodes scan filter\n  apex nodes JumpDistance"
     )]
     Nodes {
         /// List only nodes that match all these words.

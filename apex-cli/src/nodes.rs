@@ -12,15 +12,10 @@ use std::{collections::BTreeMap, fmt::Write as _, path::Path, process::ExitCode}
 /// Order of the ports in a list.
 const KINDS: [PortKind; 4] = [PortKind::Input, PortKind::Output, PortKind::Slot, PortKind::Event];
 
-/// Lists the nodes of the package in `folder` that match all `words`; describes a node with this exact name.
+/// Lists the nodes of the package in `folder`, or of the library outside of any package, that match all `words`;
+/// describes a node with this exact name.
 pub fn run(folder: &Path, words: &[String], markdown: bool) -> Result<ExitCode, String> {
     let text = folder.join("nodes.afg");
-    if project::package_of(&text).is_none() {
-        return Err(format!(
-            "`{}` is not in a cargo package, so there are no nodes to list; change to a package, or name its folder with `--package`",
-            folder.display()
-        ));
-    }
     let mut checker = Checker::new(&text)?;
     let (sources, _, checked) = checker.check(&text, "".into());
     checker.save();
