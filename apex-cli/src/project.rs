@@ -102,6 +102,13 @@ impl Checker {
         Ok(Self { catalog, workspace, disk })
     }
 
+    /// Checker for source files in a package for which cargo was not run, with this root file. It knows the library.
+    pub fn alone(package: &str, root: &Path) -> Self {
+        let (crates, mut disk) = apex_library::around(package, root);
+        let catalog = Catalog::load(crates, &mut disk);
+        Self { catalog, workspace: None, disk }
+    }
+
     /// Content of `file`.
     pub fn read(&mut self, file: &Path) -> Result<Arc<str>, String> {
         self.disk.read(file).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))

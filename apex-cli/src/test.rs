@@ -1,6 +1,9 @@
 //! `apex test`: the tests of a source file, as Rust tests.
 
+mod results;
+
 use crate::{
+    answer::Answer,
     build::{self, Built, How, Outcome, Turn},
     calls::{self, Call},
     made::{self, Made},
@@ -13,26 +16,36 @@ use apex_dsl::{
     script::{Script, Step},
 };
 use apex_host::Workspace;
-use std::{ffi::OsString, path::Path, process::ExitCode};
+use std::{
+    ffi::OsString,
+    path::Path,
+    process::{ExitCode, Stdio},
+};
 
 /// Checks, builds and runs the tests whose names contain `filter`.
-pub fn run(file: &Path, filter: Option<&str>, how: How) -> Result<ExitCode, String> {
+pub fn run(file: &Path, filter: Option<&str>, how: How, answer: &mut Answer) -> Result<ExitCode, String> {
     let checked = project::check(file)?;
-    checked.print_diagnostics();
+    answer.messages(&checked.diagnostics, &checked.sources);
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
     let scripts = checked.programs.iter().filter_map(|p| p.script.as_ref()).filter(|script| script.study.is_none());
     let scripts: Vec<&Script> = scripts.collect();
     if scripts.is_empty() {
-        project::print(&format!("`{}` has no `test`", file.display()))?;
+        answer.give(|| format!("`{}` has no `test`", file.display()), || results::json(&[]))?;
         return Ok(ExitCode::SUCCESS);
     }
     let names = chosen(&scripts, filter)?;
-    let Some(Found { built, names, turn }) = built(file, &checked, &names, how)? else { return Ok(ExitCode::from(2)) };
+    let Some(Found { built, names, turn }) = built(file, &checked, &names, how)? else { return answer.not_built() };
     let mut command = built.command();
-    command.args(["--quiet", "--exact"]).args(names).current_dir(run::package(file)?).env("RUST_BACKTRACE", "0");
-    let mut child = command.spawn().map_err(|e| built.not_started(&e))?;
+    command.arg("--exact").args(names).current_dir(run::package(file)?).env("RUST_BACKTRACE", "0");
+    if answer.is_json() {
+        let output = command.stderr(Stdio::inherit()).output().map_err(|e| built.not_started(&e))?;
+        let tests = results::read(&String::from_utf8_lossy(&output.stdout));
+        answer.give(String::new, || results::json(&tests))?;
+        return Ok(if output.status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) });
+    }
+    let mut child = command.arg("--quiet").spawn().map_err(|e| built.not_started(&e))?;
     drop(turn);
     let status = child.wait().map_err(|e| format!("cannot wait for the tests: {e}"))?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })

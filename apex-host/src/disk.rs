@@ -53,9 +53,10 @@ impl Disk {
         Self { file, cache: None, changed: false, asked: BTreeMap::new(), given: BTreeMap::new() }
     }
 
-    /// Returns the file system without a cache. `given` are the items of Rust files, which are not read.
-    pub fn with_items(given: BTreeMap<PathBuf, Arc<[Item]>>) -> Self {
-        Self { given, ..Self::new(None) }
+    /// Adds the items of Rust files, which need not exist.
+    pub fn with_items(mut self, given: impl IntoIterator<Item = (PathBuf, Arc<[Item]>)>) -> Self {
+        self.given.extend(given);
+        self
     }
 
     fn cache(&mut self) -> &mut Cache {

@@ -30,21 +30,31 @@ struct Crate {
 
 /// Returns the crates that a source file outside of any package can use, and a file system with their items.
 pub fn lone() -> (Crates, Disk) {
-    // The build script has written the index for this very type: without it there would be no nodes.
-    let Index { crates, mut files } = serde_json::from_str(INDEX).unwrap_or_default();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("")).to_owned();
     // A crate without items stands for the missing package.
-    let text = Crate {
-        name: "text".to_owned(),
-        root: "text.rs".into(),
+    let text = Path::new("text.rs");
+    let (crates, disk) = around("text", text);
+    (crates, disk.with_items([(text.to_owned(), [].into())]))
+}
+
+/// Returns the crates that a source file can use in a package with this root file, which depends on all crates of the
+/// library, and a file system with their items.
+pub fn around(package: &str, file: &Path) -> (Crates, Disk) {
+    // The build script has written the index for this very type: without it there would be no nodes.
+    let Index { crates, files } = serde_json::from_str(INDEX).unwrap_or_default();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("")).to_owned();
+    let own = Crate {
+        name: package.replace('-', "_"),
+        root: file.to_owned(),
         features: BTreeSet::new(),
         dependencies: crates.iter().map(|known| known.name.clone()).chain(EXTERNS.map(str::to_owned)).collect(),
     };
-    files.insert(text.root.clone(), [].into());
-    let all: Vec<Crate> = [text].into_iter().chain(crates).collect();
-    let files = files.into_iter().map(|(path, items)| (root.join(path), items)).collect();
-    let all = all.iter().map(|krate| spec(krate, &all, &root)).collect();
-    (Crates { root, all, here: 0, own: vec![0], ..Crates::default() }, Disk::with_items(files))
+    let all: Vec<Crate> = [own].into_iter().chain(crates).collect();
+    let files = files.into_iter().map(|(path, items)| (root.join(path), items));
+    let disk = Disk::new(None).with_items(files);
+    let mut all: Vec<CrateSpec> = all.iter().map(|krate| spec(krate, &all, &root)).collect();
+    // It is not in the checkout.
+    all[0].root = file.to_owned();
+    (Crates { root, all, here: 0, own: vec![0], ..Crates::default() }, disk)
 }
 
 /// Crate to scan, with its dependencies among `all`.

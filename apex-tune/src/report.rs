@@ -1,9 +1,10 @@
 use crate::{
-    Found, Goal, Journal, Objective, Point, Study, StudyError,
+    Found, Goal, Journal, Objective, Parameter, Point, Study, StudyError,
     goal::{Fitness, add_to_front},
     picture,
 };
 use apex_optim::Best;
+use serde_json::{Value, json};
 use std::{fmt::Write, fs, io, path::Path};
 
 /// Costs by goal, on the seeds of the study and on those that it has not seen.
@@ -149,6 +150,38 @@ impl Report {
             let _ = write!(text, "\n## Front\n\n{}\n![Front](front.svg)\n", self.front_table());
         }
         text
+    }
+
+    /// Result for programs. Values that are not finite, because runs have failed, are `null`.
+    pub fn json(&self) -> Value {
+        let goal = |(i, goal): (usize, &Goal)| {
+            let of = |costs: &[f64]| costs.get(i).map(|cost| goal.value(*cost));
+            json!({
+                "name": goal.name, "unit": goal.unit, "maximise": goal.maximise, "summary": goal.summary.to_string(),
+                "defaults": of(&self.defaults.training), "tuned": of(&self.tuned.training),
+                "defaults_held_out": of(&self.defaults.held_out), "tuned_held_out": of(&self.tuned.held_out),
+            })
+        };
+        let tuned = self.study.parameters.iter().zip(&self.best.values).zip(&self.importance);
+        let parameter = |((p, value), lost): ((&Parameter, &f64), &f64)| {
+            json!({
+                "name": p.name, "unit": p.unit, "targets": p.targets, "default": p.default, "tuned": value,
+                "low": p.axis.low(), "high": p.axis.high(), "lost_with_default": lost,
+            })
+        };
+        let point = |point: &Point| {
+            let goals = self.study.goals.iter().zip(&point.costs).map(|(goal, cost)| goal.value(*cost));
+            json!({ "goals": goals.collect::<Vec<_>>(), "values": point.values })
+        };
+        json!({
+            "study": self.study.name,
+            "better": self.is_better(),
+            "warning": self.warning(),
+            "goals": self.study.goals.iter().enumerate().map(goal).collect::<Vec<_>>(),
+            "parameters": tuned.map(parameter).collect::<Vec<_>>(),
+            "front": self.front.iter().map(point).collect::<Vec<_>>(),
+            "runs": self.found.iter().map(|found| found.runs).sum::<u64>(),
+        })
     }
 
     /// Number of runs, as a sentence.

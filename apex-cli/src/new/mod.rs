@@ -2,7 +2,7 @@
 
 mod name;
 
-use crate::project;
+use crate::{agents, project};
 use clap::ValueEnum;
 use std::{
     fs,
@@ -102,6 +102,7 @@ pub fn run(folder: &Path, template: Template, checkout: Option<&Path>) -> Result
         let text = filled.iter().fold((*template).to_owned(), |text, (hole, word)| text.replace(hole, word));
         write(&folder.join(file), &text)?;
     }
+    agents::begin(folder, name, &checkout)?;
     let next: String = template.next().iter().map(|line| format!("\n  {line}")).collect();
     project::print(&format!("created `{name}`; next\n  cd {}{next}", shell_word(folder)))?;
     Ok(ExitCode::SUCCESS)

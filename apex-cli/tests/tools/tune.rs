@@ -25,7 +25,7 @@ impl Random {
 }
 ";
 
-fn cart(name: &str) -> Folder {
+pub fn cart(name: &str) -> Folder {
     let folder = Folder::new(name);
     let nodes = include_str!("../../../robots/cart/src/lib.rs").replace("use apex_nodes::math::Random;\n", "");
     package(&folder, &(nodes.replace("#[derive(Debug)]\n", "") + RANDOM));
