@@ -181,8 +181,13 @@ pub fn print(text: &str) -> Result<(), String> {
 
 /// Writes to standard output. A closed pipe is not an error.
 pub fn write(text: &str) -> Result<(), String> {
+    write_bytes(text.as_bytes())
+}
+
+/// Writes bytes to standard output. A closed pipe is not an error.
+pub fn write_bytes(bytes: &[u8]) -> Result<(), String> {
     let mut output = io::stdout().lock();
-    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+    match output.write_all(bytes).and_then(|()| output.flush()) {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(format!("cannot write to standard output: {e}")),
         _ => Ok(()),
     }

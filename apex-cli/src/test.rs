@@ -18,6 +18,7 @@ use apex_dsl::{
 use apex_host::Workspace;
 use std::{
     ffi::OsString,
+    io::{self, IsTerminal as _, Read},
     path::Path,
     process::{ExitCode, Stdio},
 };
@@ -45,10 +46,48 @@ pub fn run(file: &Path, filter: Option<&str>, how: How, answer: &mut Answer) -> 
         answer.give(String::new, || results::json(&tests))?;
         return Ok(if output.status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) });
     }
-    let mut child = command.arg("--quiet").spawn().map_err(|e| built.not_started(&e))?;
+    // Rust's tests would not colour what goes through this command.
+    command.args(io::stdout().is_terminal().then_some("--color=always"));
+    let mut child = command.arg("--quiet").stdout(Stdio::piped()).spawn().map_err(|e| built.not_started(&e))?;
     drop(turn);
+    let output = child.stdout.take().map_or(Ok(String::new()), passed_on)?;
     let status = child.wait().map_err(|e| format!("cannot wait for the tests: {e}"))?;
+    for line in results::failed(&output).iter().filter_map(|name| in_studio(file, &checked, name)) {
+        project::print(&line)?;
+    }
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+/// Prints the output of tests while they run, and returns it.
+fn passed_on(mut from: impl Read) -> Result<String, String> {
+    let (mut all, mut part) = (vec![], [0; 4096]);
+    loop {
+        match from.read(&mut part) {
+            Ok(0) => return Ok(String::from_utf8_lossy(&all).into_owned()),
+            Ok(length) => {
+                all.extend_from_slice(&part[..length]);
+                project::write_bytes(&part[..length])?;
+            }
+            Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+            Err(e) => return Err(format!("cannot read the output of the tests: {e}")),
+        }
+    }
+}
+
+/// Line with the command that shows the graph of a test in the studio: if it is a program, or else the only robot.
+fn in_studio(file: &Path, checked: &Checked, test: &str) -> Option<String> {
+    let tree = &checked.texts.files.first()?.1;
+    let path = &tree.tests.iter().find(|item| item.name.text == test)?.graph;
+    let graph = path.segments.last()?.text.as_str();
+    let programs = || checked.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
+    let robots: Vec<&str> = programs().filter(|graph| graph.robot).map(|graph| graph.name.as_str()).collect();
+    let (what, robot) = match robots.as_slice() {
+        _ if programs().any(|program| program.name == graph) => (format!("`{graph}`"), graph),
+        [robot] => (format!("`{robot}` instead of `{graph}`"), *robot),
+        _ => return None,
+    };
+    let file = file.display();
+    Some(format!("to see {what}, without the steps of `{test}`: apex studio --simulated --robot {robot} {file}"))
 }
 
 /// A program with tests.

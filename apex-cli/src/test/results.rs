@@ -37,6 +37,13 @@ pub fn read(output: &str) -> Vec<Tested> {
     tests
 }
 
+/// Names of the failed tests in the output of a program with tests: the list at its end.
+pub fn failed(output: &str) -> Vec<&str> {
+    let list = output.rsplit_once("\nfailures:\n").map_or("", |(_, list)| list);
+    let names = list.lines().take_while(|line| line.starts_with("    ")).map(str::trim);
+    names.map(|path| path.rsplit("::").next().unwrap_or(path).trim_start_matches("r#")).collect()
+}
+
 /// Result of `apex test --format json`.
 pub fn json(tests: &[Tested]) -> Value {
     let failed = tests.iter().filter(|test| !test.passed).count();
@@ -56,6 +63,7 @@ mod tests {
                       ---- robot::r#b stdout ----\ntest b at 1 s\ntest x ... ok\n\n\n\
                       failures:\n    robot::r#b\n\ntest result: FAILED. 1 passed\n";
         let test = |name: &str, passed, output: &str| Tested { name: name.into(), passed, output: output.into() };
+        assert_eq!(failed(output), ["b"]);
         assert_eq!(read(output), [test("a", true, ""), test("b", false, "test b at 1 s\ntest x ... ok")]);
     }
 }

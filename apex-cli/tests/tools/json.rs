@@ -97,6 +97,12 @@ fn every_command_answers_in_one_form() {
     assert!(outputs.eq([(&json!("doubles"), &json!(true)), (&json!("triples"), &json!(false))]), "{result:#}");
     assert!(result["tests"][1]["output"].as_str().unwrap().contains('6'), "{result:#}");
 
+    // For humans, the line behind the output says where to look.
+    let output = apex().args(["test", "robot.afg"]).current_dir(&folder.0).env("CARGO_TARGET_DIR", TARGET).output();
+    let said = String::from_utf8(output.unwrap().stdout).unwrap();
+    let hint = "to see `Twice`, without the steps of `triples`: apex studio --simulated --robot Twice robot.afg\n";
+    assert!(said.contains("\nwhat happened:\n") && said.ends_with(hint), "{said}");
+
     let mut run = apex();
     run.args(["run", "robot.afg"]).current_dir(&folder.0).env("CARGO_TARGET_DIR", TARGET);
     assert!(run.output().unwrap().status.success());
