@@ -215,16 +215,16 @@ fn in_brackets(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" [{unit}]") }
 }
 
-/// Number with six significant digits.
+/// Number with four significant digits: the others depend on the seeds.
 fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value.is_infinite() { "failed".to_owned() } else { value.to_string() };
     }
-    let digits = 5 - value.abs().log10().floor() as i32;
-    if !(0..=12).contains(&digits) {
-        return format!("{value:.5e}");
+    let digits = 3 - value.abs().log10().floor() as i32;
+    if !(-5..=12).contains(&digits) {
+        return format!("{value:.3e}");
     }
-    let text = format!("{value:.*}", digits as usize);
+    let text = format!("{value:.*}", digits.max(0) as usize);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
@@ -275,8 +275,8 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_six_digits() {
+    fn numbers_have_four_digits() {
         let shown = [0.0, 1.0, -2.5, 123_456.0, 0.000_123_456_789, 1e9, 1e-12, f64::INFINITY].map(number);
-        assert_eq!(shown, ["0", "1", "-2.5", "123456", "0.000123457", "1.00000e9", "1.00000e-12", "failed"]);
+        assert_eq!(shown, ["0", "1", "-2.5", "123456", "0.0001235", "1.000e9", "1.000e-12", "failed"]);
     }
 }

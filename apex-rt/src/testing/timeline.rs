@@ -4,8 +4,8 @@ use crate::{Observer, Time};
 use core::fmt::{Debug, Display, Write as _};
 use std::collections::BTreeMap;
 
-/// Number of moments that the message of a failed test shows one by one. Of more, the last ones are shown after a list of
-/// what has changed.
+/// Number of moments that the message of a failed test shows one by one. Of more, the last ones are shown, after a list
+/// of what has changed.
 const SHOWN: usize = 20;
 /// Number of last moments after that list.
 const LAST: usize = 5;
@@ -144,7 +144,7 @@ impl Timeline {
         core::mem::take(&mut self.sightings)
     }
 
-    /// What has happened: all moments, or if these are too many, all changes and the last moments.
+    /// The list of events: all moments, or if these are too many, all changes and the last moments.
     pub(super) fn text(&self) -> String {
         if self.moments.is_empty() {
             return "what happened:\n  nothing\n".to_owned();
@@ -156,7 +156,8 @@ impl Timeline {
         format!("what changed:\n{}the last moments:\n{}", self.changes(), moments(last))
     }
 
-    /// Changes of activity, problems, and tokens of ports that do not send all the time, with the numbers of the others.
+    /// Changes of activity, problems, and tokens of ports that do not send all the time, with the numbers of the other
+    /// tokens.
     fn changes(&self) -> String {
         let notes = || self.moments.iter().flat_map(|(_, moment)| &moment.notes);
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();

@@ -21,8 +21,8 @@ impl<T> Stamp<T> {
 }
 
 /// Watches over an input: reports when no value has come for the time `after`, and when values come back. The time
-/// begins with the first reaction. Values pass on. ⊥ is no value: an input whose sender works, but has nothing to say,
-/// is silent, too.
+/// begins with the first reaction. Values pass on. ⊥ does not count: an input whose sender works, but has nothing to
+/// say, is silent, too.
 ///
 /// For tokens of events, connect them to the input. To stop a robot whose sensor fails, nothing is needed: nodes that
 /// drive do it themselves.
@@ -72,7 +72,7 @@ mod tests {
         assert_eq!(time, Some(2.5));
     }
 
-    /// What a watched input says at these times, in ms: `s`ilent, `b`ack.
+    /// Events of a watched input at these times, in ms: `s`ilent, `b`ack.
     fn said(node: &mut Silence<u8>, inputs: &[(i64, bool)]) -> String {
         let mut said = String::new();
         for (ms, comes) in inputs {

@@ -1,7 +1,7 @@
 use apex_rt::{Ctx, Event, Time, node};
 
-/// Simulated battery, which loses its charge evenly while it is not connected to a charger, and gains it evenly while it
-/// is. Needs a period, for example `every 50ms`.
+/// Simulated battery, which loses its charge evenly while it is not connected to a charger, and gains it evenly while
+/// it is. Needs a period, for example `every 50ms`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Battery {
