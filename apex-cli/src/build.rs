@@ -14,6 +14,7 @@ use std::{
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
     thread,
+    time::{Duration, Instant},
 };
 use trim::Trimmed;
 
@@ -172,7 +173,10 @@ pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String
     let mut command = cargo_for(wanted, verb, how);
     let trimmed = how.trims.then(|| Trimmed::of(wanted));
     trimmed.iter().for_each(|trimmed| trimmed.apply(&mut command));
-    let sees_progress = io::stderr().is_terminal();
+    if !how.quiet && is_first(wanted, how) {
+        print_error(FIRST);
+    }
+    let (sees_progress, start) = (io::stderr().is_terminal(), Instant::now());
     let passes_on = !how.quiet && !sees_progress;
     command.stderr(if passes_on { Stdio::piped() } else { Stdio::inherit() });
     let mut child = command.spawn().map_err(|e| no_cargo(&e))?;
@@ -185,9 +189,12 @@ pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String
     if !child.wait().map_err(|e| no_cargo(&e))?.success() {
         return Ok(Outcome::Broken);
     }
-    if sees_progress && !how.quiet && !messages.is_new {
+    if sees_progress && !how.quiet && messages.compiled == 0 {
         // Erases the line that reports that nothing had to be done.
         eprint!("\x1b[1A\x1b[2K");
+    }
+    if let Some(line) = took(messages.compiled, start.elapsed()).filter(|_| !how.quiet) {
+        print_error(&line);
     }
     let Some(executable) = messages.executable else { return Ok(Outcome::Nothing) };
     trimmed.iter().for_each(|trimmed| trimmed.check(&executable));
@@ -196,6 +203,27 @@ pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String
     let mut libraries: Vec<PathBuf> = messages.linked.into_iter().filter(is_ours).collect();
     libraries.extend([folder.join("deps"), folder.to_owned()]);
     Ok(Outcome::Built(Built { executable, package: wanted.package.clone(), libraries }))
+}
+
+/// Note before the first build.
+const FIRST: &str = "note: the first build compiles the compiler, the runtime and the library, once: this takes minutes. \
+    Later builds compile only what has changed, in seconds";
+
+/// `true` if nothing has been built in the target folder with these settings.
+fn is_first(wanted: &Wanted, how: How) -> bool {
+    !wanted.target.join(if how.release { "release" } else { "debug" }).exists()
+}
+
+/// Time from which on a build is long enough to say what it took.
+const LONG: Duration = Duration::from_secs(10);
+
+/// Line about a long build.
+fn took(compiled: usize, time: Duration) -> Option<String> {
+    let crates = if compiled == 1 { "1 crate".to_owned() } else { format!("{compiled} crates") };
+    let seconds = time.as_secs();
+    let time_shown =
+        if seconds < 60 { format!("{seconds} s") } else { format!("{} min {} s", seconds / 60, seconds % 60) };
+    (compiled > 0 && time >= LONG).then(|| format!("compiled {crates} in {time_shown}"))
 }
 
 /// Prints cargo's progress messages, without the final ones that report the end of the build.
@@ -212,8 +240,8 @@ fn pass_on(lines: impl Read) {
 /// Cargo's messages about the built programs.
 #[derive(Default)]
 struct Messages {
-    /// `true` if any crate was compiled.
-    is_new: bool,
+    /// Number of crates that were compiled.
+    compiled: usize,
     /// Executable of the last program.
     executable: Option<PathBuf>,
     /// Folders into which build scripts have put libraries.
@@ -229,7 +257,8 @@ impl Messages {
             let line = line.map_err(|e| format!("cannot read the output of cargo: {e}"))?;
             // Lines of other programs are not JSON.
             let Ok(message) = serde_json::from_str::<Value>(&line) else { continue };
-            messages.is_new |= message["fresh"] == false;
+            let is_script = message["target"]["kind"][0] == "custom-build";
+            messages.compiled += usize::from(message["fresh"] == false && !is_script);
             if let Some(executable) = message["executable"].as_str().filter(|_| message["profile"]["test"] == tests) {
                 messages.executable = Some(executable.into());
             }
@@ -237,5 +266,17 @@ impl Messages {
             messages.linked.extend(linked.map(|path| path.split_once('=').map_or(path, |(_, path)| path).into()));
         }
         Ok(messages)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_builds_say_what_they_took() {
+        let took = |compiled, seconds| took(compiled, Duration::from_secs(seconds)).unwrap_or_default();
+        assert_eq!([took(0, 100), took(5, 9), took(1, 10)], ["", "", "compiled 1 crate in 10 s"]);
+        assert_eq!(took(54, 338), "compiled 54 crates in 5 min 38 s");
     }
 }

@@ -1,12 +1,13 @@
 //! `apex explain`.
 
-use crate::{Format, memory, project, times};
+use crate::{answer::Answer, memory, project, times};
 use apex_dsl::{
     explain::{by_name, explain, explain_json},
     passes::listings,
     petri,
     report::{PAGES, nearest, page},
 };
+use serde_json::{Value, json};
 use std::{
     path::{Path, PathBuf},
     process::ExitCode,
@@ -27,32 +28,35 @@ pub enum Shown {
 }
 
 /// Explains a source file or a code; without either, lists the codes.
-pub fn run(what: Option<&Path>, format: Format, shown: Shown) -> Result<ExitCode, String> {
+pub fn run(what: Option<&Path>, shown: Shown, answer: &mut Answer) -> Result<ExitCode, String> {
     let Some(what) = what else {
-        let lines: Vec<_> = PAGES.iter().map(|(code, page)| format!("{code:<24}{}", first_sentence(page))).collect();
-        project::print(&lines.join("\n"))?;
+        let codes = || PAGES.iter().map(|(code, page)| (code, first_sentence(page)));
+        let lines = || codes().map(|(code, summary)| format!("{code:<24}{summary}")).collect::<Vec<_>>().join("\n");
+        let list = || codes().map(|(code, summary)| json!({ "code": code, "summary": summary })).collect::<Vec<_>>();
+        answer.give(lines, || json!({ "codes": list() }))?;
         return Ok(ExitCode::SUCCESS);
     };
     let is_word = what.extension().is_none() && what.components().count() == 1 && !what.exists();
+    let is_word = is_word && !project::is_input(what);
     match (what.to_str().filter(|_| is_word), shown) {
-        (Some(code), _) => self::code(code),
+        (Some(code), _) => self::code(code, answer),
         (None, Shown::Program) => program(what),
         (None, Shown::Net) => net(what),
-        (None, Shown::Memory) => memory::run(what, format),
-        (None, Shown::Times(profile)) => times::run(what, &profile, format),
-        (None, Shown::Decisions) => text(what, format),
+        (None, Shown::Memory) => memory::run(what, answer),
+        (None, Shown::Times(profile)) => times::run(what, &profile, answer),
+        (None, Shown::Decisions) => text(what, answer),
     }
 }
 
 /// Prints the page of a code.
-fn code(code: &str) -> Result<ExitCode, String> {
+fn code(code: &str, answer: &mut Answer) -> Result<ExitCode, String> {
     let Some(page) = page(code) else {
         let near = nearest(code, PAGES.iter().map(|(code, _)| *code));
         let hint =
             near.map_or("`apex explain --list` lists the codes".to_owned(), |near| format!("did you mean `{near}`?"));
         return Err(format!("`{code}` is neither a source file nor the code of a diagnostic; {hint}"));
     };
-    project::print(page.trim_end())?;
+    answer.give(|| page.to_owned(), || json!({ "code": code, "page": page }))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -64,7 +68,7 @@ fn first_sentence(page: &str) -> String {
 
 /// Prints each program of a source file as Rust is generated from it.
 fn program(file: &Path) -> Result<ExitCode, String> {
-    let checked = project::check(file)?;
+    let checked = project::check_text(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
@@ -75,29 +79,25 @@ fn program(file: &Path) -> Result<ExitCode, String> {
 }
 
 /// Prints what was decided about each program of a text.
-fn text(file: &Path, format: Format) -> Result<ExitCode, String> {
-    let checked = project::check(file)?;
-    checked.print_diagnostics();
+fn text(file: &Path, answer: &mut Answer) -> Result<ExitCode, String> {
+    let checked = project::check_text(file)?;
+    answer.messages(&checked.diagnostics, &checked.sources);
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
-    match format {
-        Format::Text => {
-            let programs = checked.programs.iter().map(|p| explain(p, &checked.texts.machines, &checked.catalog));
-            let by_name = by_name(&checked.links, &checked.sources);
-            programs.chain((!by_name.is_empty()).then_some(by_name)).try_for_each(|text| project::print(&text))?;
-        }
-        Format::Json => {
-            let programs: Vec<_> = checked.programs.iter().map(|p| explain_json(p, &checked.catalog)).collect();
-            project::print(&serde_json::to_string_pretty(&programs).map_err(|e| e.to_string())?)?;
-        }
-    }
+    let lines = || {
+        let programs = checked.programs.iter().map(|p| explain(p, &checked.texts.machines, &checked.catalog));
+        let by_name = by_name(&checked.links, &checked.sources);
+        programs.chain((!by_name.is_empty()).then_some(by_name)).collect::<Vec<_>>().join("\n")
+    };
+    let values = || -> Vec<Value> { checked.programs.iter().map(|p| explain_json(p, &checked.catalog)).collect() };
+    answer.give(lines, || json!({ "programs": values() }))?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Prints the Petri net of each program of a source file.
 fn net(file: &Path) -> Result<ExitCode, String> {
-    let checked = project::check(file)?;
+    let checked = project::check_text(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));

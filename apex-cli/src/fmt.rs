@@ -4,11 +4,9 @@ use crate::{project, replace::replace, texts};
 use apex_dsl::{
     report::Diagnostics,
     source::{Sources, World as _},
-    syntax::MAX_BYTES,
 };
-use apex_host::{Disk, read_from};
+use apex_host::Disk;
 use std::{
-    io,
     path::{Path, PathBuf},
     process::ExitCode,
 };
@@ -27,7 +25,7 @@ enum Outcome {
 pub fn run(paths: &[PathBuf], check: bool) -> Result<ExitCode, String> {
     let mut worst = Outcome::Fine;
     for path in paths {
-        if path.as_os_str() == "-" {
+        if project::is_input(path) {
             worst = worst.max(told(standard_input(check)));
             continue;
         }
@@ -63,8 +61,7 @@ fn format_file(path: &Path, check: bool) -> Result<Outcome, String> {
 
 fn standard_input(check: bool) -> Result<Outcome, String> {
     let path = Path::new("<stdin>");
-    let text =
-        read_from(io::stdin().lock(), MAX_BYTES).map_err(|reason| format!("cannot read standard input: {reason}"))?;
+    let text = project::read_input()?;
     let Some(formatted) = formatted(path, &text) else { return Ok(Outcome::Wrong) };
     if check && formatted != text {
         project::print(&hint(path, &text, &formatted))?;

@@ -59,7 +59,7 @@ pub struct Wanted {
 /// Draws a graph or a state machine of a source file.
 pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
     let format = format(wanted)?;
-    let checked = project::check(file)?;
+    let checked = project::check_text(file)?;
     checked.print_diagnostics();
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));

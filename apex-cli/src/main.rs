@@ -1,5 +1,7 @@
 //! The `apex` command, a thin layer over the compiler.
 
+mod agents;
+mod answer;
 mod build;
 mod calls;
 mod check;
@@ -27,6 +29,7 @@ mod times;
 mod tune;
 mod watch;
 
+use answer::Answer;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::{path::PathBuf, process::ExitCode};
 
@@ -44,12 +47,24 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Write AGENTS.md: a short guide to the language and the nodes of a package, for programs that write code.
+    #[command(
+        after_help = "`apex new` writes the file, too. Run this after changes of nodes; what you add before or behind the written part is kept.\nExit code 1 with --check: the file is not up to date.\n\nExample:\n  apex agents\n  apex agents --check"
+    )]
+    Agents {
+        /// Folder of the package.
+        #[arg(default_value = ".", hide_default_value = true)]
+        folder: PathBuf,
+        /// Change nothing, but say if the file is not up to date.
+        #[arg(long)]
+        check: bool,
+    },
     /// Check source files and report their errors.
     #[command(
-        after_help = "--fix applies the unambiguous fixes and lists them; other suggestions are only printed.\nExit code 0: no errors remain.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check --fix robot.afg"
+        after_help = "--fix applies the unambiguous fixes and lists them; other suggestions are only printed.\nExit code 0: no errors remain.\n\nExample:\n  apex check robots/patsy/patsy.afg\n  apex check --format json robot.afg\n  apex check - < robot.afg\n  apex check --fix robot.afg"
     )]
     Check {
-        /// Source files, or folders with `.afg` files.
+        /// Source files, or folders with `.afg` files; `-` is standard input, as a file of the current folder.
         #[arg(required = true, value_name = "FILE")]
         paths: Vec<PathBuf>,
         /// Format of the output.
@@ -91,7 +106,7 @@ enum Command {
     },
     /// Print the Rust code that a source file is compiled to.
     Expand {
-        /// Source file.
+        /// Source file, or `-` for standard input.
         file: PathBuf,
     },
     /// Print the decisions of the compiler about a source file, or the meaning of a diagnostic code.
@@ -99,11 +114,11 @@ enum Command {
         after_help = "For a source file: regions, guards, clusters, schedule, rates, pruning, memory, claims. For a code: its page.\n\nExample:\n  apex explain robots/patsy/patsy.afg\n  apex explain --memory robots/firmware/firmware.afg\n  apex explain missing-unit\n  apex explain --list"
     )]
     Explain {
-        /// Source file, or a code such as `missing-unit`.
+        /// Source file, `-` for standard input, or a code such as `missing-unit`.
         #[arg(required_unless_present = "list", value_name = "FILE | CODE")]
         what: Option<PathBuf>,
         /// Print all codes.
-        #[arg(long, exclusive = true)]
+        #[arg(long, conflicts_with_all = ["what", "program", "pnml", "memory", "profile"])]
         list: bool,
         /// Format of the output.
         #[arg(long, value_enum, default_value_t)]
@@ -127,7 +142,7 @@ enum Command {
         after_help = "Single lines are `->`, double lines `=>`. Data flows from left to right; slots are at the top, events at the bottom.\nDashed lines are asynchronous, dash-dotted lines hybrid. Nodes that can be active are coloured.\n\nExample:\n  apex graph robots/patsy/patsy.afg --graph Simulated -o patsy.svg"
     )]
     Graph {
-        /// Source file.
+        /// Source file, or `-` for standard input.
         file: PathBuf,
         /// Name of the graph, robot or state machine. By default the only robot, else the only graph that is not part
         /// of another one, else the only state machine.
@@ -181,7 +196,7 @@ enum Command {
     },
     /// List the nodes that a package can use, or describe one.
     #[command(
-        after_help = "A node matches a word in its path, its documentation, or the names of its ports and parameters. If one node has exactly\nthis name, or only one matches, its ports and parameters are listed with types, units, defaults and ranges.\n\nExample:\n  apex nodes\n  apex nodes scan filter\n  apex nodes JumpDistance"
+        after_help = "Outside of a package, the nodes of the library are listed. A node matches a word in its path, its documentation, or the names of its ports and parameters. If one node has exactly\nthis name, or only one matches, its ports and parameters are listed with types, units, defaults and ranges.\n\nExample:\n  apex nodes\n  apex nodes scan filter\n  apex nodes JumpDistance"
     )]
     Nodes {
         /// List only nodes that match all these words.
@@ -190,8 +205,11 @@ enum Command {
         #[arg(long, value_name = "FOLDER", default_value = ".", hide_default_value = true)]
         package: PathBuf,
         /// Print the full documentation as Markdown.
-        #[arg(long)]
+        #[arg(long, conflicts_with = "format")]
         markdown: bool,
+        /// Format of the output.
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
     },
     /// Repeat a recorded run and report the differences.
     #[command(
@@ -208,6 +226,9 @@ enum Command {
         /// File (TOML) with parameters that are set before the run, as with `apex run`.
         #[arg(long, value_name = "FILE")]
         params: Option<PathBuf>,
+        /// Format of the report.
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
         #[command(flatten)]
         how: Building,
     },
@@ -235,6 +256,9 @@ enum Command {
         file: PathBuf,
         /// Run only the tests whose names contain this text.
         filter: Option<String>,
+        /// Format of the output.
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
         #[command(flatten)]
         how: Building,
     },
@@ -378,13 +402,37 @@ enum Format {
 }
 
 fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
-        Command::Check { paths, format, fix } => check::run(&paths, format, fix),
+    let command = Arguments::parse().command;
+    let mut answer = command.answer();
+    let ended = obey(command, &mut answer);
+    project::print_where_to_read_on();
+    answer.finish(ended)
+}
+
+impl Command {
+    /// Empty answer of the command.
+    fn answer(&self) -> Answer {
+        match self {
+            Self::Check { format, .. } => Answer::new("check", *format),
+            Self::Explain { format, .. } => Answer::new("explain", *format),
+            Self::Nodes { format, .. } => Answer::new("nodes", *format),
+            Self::Replay { format, .. } => Answer::new("replay", *format),
+            Self::Test { format, .. } => Answer::new("test", *format),
+            Self::Tune(wanted) => Answer::new("tune", wanted.format),
+            _ => Answer::new("", Format::Text),
+        }
+    }
+}
+
+fn obey(command: Command, answer: &mut Answer) -> Result<ExitCode, String> {
+    match command {
+        Command::Agents { folder, check } => agents::run(&folder, check),
+        Command::Check { paths, fix, .. } => check::run(&paths, fix, answer),
         Command::Completions { shell } => completions::run(shell),
         Command::Doc { paths, output } => doc::run(&paths, output.as_deref()),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
         Command::Expand { file } => expand::run(&file),
-        Command::Explain { what, format, program, pnml, memory, profile, .. } => {
+        Command::Explain { what, program, pnml, memory, profile, .. } => {
             let shown = match (pnml, memory, profile) {
                 _ if program => explain::Shown::Program,
                 (true, ..) => explain::Shown::Net,
@@ -392,7 +440,7 @@ fn main() -> ExitCode {
                 (_, _, Some(profile)) => explain::Shown::Times(profile),
                 _ => explain::Shown::Decisions,
             };
-            explain::run(what.as_deref(), format, shown)
+            explain::run(what.as_deref(), shown, answer)
         }
         Command::Graph { file, graph, activity, depth, output, format } => {
             graph::run(&file, &graph::Wanted { graph, activity, depth, output, format })
@@ -400,13 +448,13 @@ fn main() -> ExitCode {
         Command::Import { file, output, nodes } => import::run(&file, output.as_deref(), nodes.as_deref()),
         Command::Lsp => lsp::run(),
         Command::New { folder, template, path } => new::run(&folder, template, path.as_deref()),
-        Command::Nodes { words, package, markdown } => nodes::run(&package, &words, markdown),
+        Command::Nodes { words, package, markdown, .. } => nodes::run(&package, &words, markdown, answer),
         Command::Sbom { folder, notices, output } => sbom::run(&folder, notices, output.as_deref()),
-        Command::Test { file, filter, how } => test::run(&file, filter.as_deref(), how.how()),
-        Command::Replay { recording, file, robot, params, how } => {
+        Command::Test { file, filter, how, .. } => test::run(&file, filter.as_deref(), how.how(), answer),
+        Command::Replay { recording, file, robot, params, how, .. } => {
             let params = run::Params { load: params, save: None };
             let (robot, recording) = (robot.as_deref(), run::Recording::Repeated(&recording));
-            run::run(&run::Wanted {
+            let wanted = run::Wanted {
                 file: &file,
                 robot,
                 params: &params,
@@ -418,9 +466,10 @@ fn main() -> ExitCode {
                 stream: run::Stream::None,
                 simulated: false,
                 how: how.how(),
-            })
+            };
+            run::run(&wanted, answer)
         }
-        Command::Tune(wanted) => tune::run(&wanted),
+        Command::Tune(wanted) => tune::run(&wanted, answer),
         Command::Top { address } => studio::top(address),
         Command::Studio {
             file,
@@ -470,15 +519,7 @@ fn main() -> ExitCode {
             let (file, params, simulated, how) = (&file, &params, false, how.how());
             let wanted =
                 run::Wanted { file, robot, params, profile, recording, limits, args, watch, stream, simulated, how };
-            if watch { watch::run(&wanted) } else { run::run(&wanted) }
-        }
-    };
-    project::print_where_to_read_on();
-    match result {
-        Ok(code) => code,
-        Err(message) => {
-            project::print_error(&format!("error: {message}"));
-            ExitCode::from(2)
+            if watch { watch::run(&wanted) } else { run::run(&wanted, answer) }
         }
     }
 }

@@ -2,7 +2,7 @@
 //! that prints them is built and run.
 
 use crate::{
-    Format,
+    answer::Answer,
     build::{self, How, Turn},
     made::{self, Made},
     project, run,
@@ -25,25 +25,23 @@ struct Measured<'a> {
 }
 
 /// Prints the size of each program of a source file, part by part.
-pub fn run(file: &Path, format: Format) -> Result<ExitCode, String> {
+pub fn run(file: &Path, answer: &mut Answer) -> Result<ExitCode, String> {
     let mut checked = project::check(file)?;
     let programs: Vec<&Program> = checked.programs.iter().filter(|p| p.script.is_none()).collect();
     let of_all = passes::memory(programs.iter().copied(), &checked.catalog, &checked.sources, &mut checked.diagnostics);
-    project::print_diagnostics(&checked.diagnostics, &checked.sources);
+    answer.messages(&checked.diagnostics, &checked.sources);
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
-    if programs.is_empty() && format == Format::Text {
+    if programs.is_empty() && !answer.is_json() {
         project::print(&format!("`{}` has no graph whose parameters all have values", file.display()))?;
     }
     let measured = if programs.is_empty() { vec![] } else { measure(file, &programs, of_all)? };
-    match format {
-        Format::Text => measured.iter().try_for_each(|m| project::print(m.text().trim_end()))?,
-        Format::Json => {
-            let values: Vec<Value> = measured.iter().map(Measured::json).collect();
-            project::print(&serde_json::to_string_pretty(&values).map_err(|e| e.to_string())?)?;
-        }
+    if measured.is_empty() && !answer.is_json() {
+        return Ok(ExitCode::SUCCESS);
     }
+    let values = || measured.iter().map(Measured::json).collect::<Vec<Value>>();
+    answer.give(|| measured.iter().map(Measured::text).collect(), || json!({ "programs": values() }))?;
     Ok(ExitCode::SUCCESS)
 }
 

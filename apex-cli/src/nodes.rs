@@ -1,36 +1,63 @@
 //! `apex nodes`: the nodes that a package can use, with their ports and parameters.
 
-use crate::project::{self, Checker};
+use crate::{answer::Answer, project::Checker};
 use apex_dsl::{
-    catalog::{Signature, SignatureId, first_sentence, linkless},
+    catalog::{Catalog, Signature, SignatureId, first_sentence, linkless},
     ide::{NodeType, ParamFacts, PortFacts, View},
+    passes::Checked,
     report::nearest,
+    source::Sources,
     syntax::tree::PortKind,
 };
+use serde_json::{Value, json};
 use std::{collections::BTreeMap, fmt::Write as _, path::Path, process::ExitCode};
 
 /// Order of the ports in a list.
 const KINDS: [PortKind; 4] = [PortKind::Input, PortKind::Output, PortKind::Slot, PortKind::Event];
 
-/// Lists the nodes of the package in `folder` that match all `words`; describes a node with this exact name.
-pub fn run(folder: &Path, words: &[String], markdown: bool) -> Result<ExitCode, String> {
-    let text = folder.join("nodes.afg");
-    if project::package_of(&text).is_none() {
-        return Err(format!(
-            "`{}` is not in a cargo package, so there are no nodes to list; change to a package, or name its folder with `--package`",
-            folder.display()
-        ));
-    }
-    let mut checker = Checker::new(&text)?;
-    let (sources, _, checked) = checker.check(&text, "".into());
-    checker.save();
-    let package =
-        checker.workspace.as_ref().map_or_else(String::new, |workspace| workspace.binary().0.replace('-', "_"));
-    let view = View { texts: &checked.texts, links: &checked.links, sources: &sources, catalog: &checker.catalog };
-    let index = Index::new(view, &package);
-    let text = index.answer(words, markdown)?;
-    project::print(text.trim_end())?;
+/// Lists the nodes of the package in `folder`, or of the library outside of any package, that match all `words`;
+/// describes a node with this exact name.
+pub fn run(folder: &Path, words: &[String], markdown: bool, answer: &mut Answer) -> Result<ExitCode, String> {
+    let mut checker = Checker::new(&folder.join(NO_TEXT))?;
+    let package = checker.workspace.as_ref().map_or_else(String::new, |workspace| workspace.binary().0.to_owned());
+    let nodes = Nodes::of(folder, &package, &mut checker);
+    let index = nodes.index();
+    let found = index.find(words)?;
+    let text = || if markdown { page(&found) } else { text(&found, words) };
+    answer.give(text, || json!({ "nodes": found.iter().map(|entry| entry.json()).collect::<Vec<_>>() }))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Name of an empty source file, in which all nodes of its package can be used.
+const NO_TEXT: &str = "nodes.afg";
+
+/// Nodes that a package can use.
+pub struct Nodes<'a> {
+    package: String,
+    sources: Sources,
+    checked: Checked,
+    catalog: &'a Catalog,
+}
+
+impl<'a> Nodes<'a> {
+    /// Nodes that the package in `folder` can use.
+    pub fn of(folder: &Path, package: &str, checker: &'a mut Checker) -> Self {
+        let (sources, _, checked) = checker.check(&folder.join(NO_TEXT), "".into());
+        checker.save();
+        Self { package: package.replace('-', "_"), sources, checked, catalog: &checker.catalog }
+    }
+
+    fn index(&self) -> Index<'_> {
+        let Self { package, sources, checked, catalog } = self;
+        Index::new(View { texts: &checked.texts, links: &checked.links, sources, catalog }, package)
+    }
+
+    /// Interfaces of the package's own nodes, each in a line of Markdown.
+    pub fn own(&self) -> Vec<String> {
+        let index = self.index();
+        let is_own = |entry: &&Entry<'_>| entry.module.split("::").next() == Some(&self.package);
+        index.entries.iter().filter(is_own).map(Entry::line).collect()
+    }
 }
 
 /// A node of the index.
@@ -66,24 +93,10 @@ impl<'a> Index<'a> {
         Self { entries }
     }
 
-    /// Answer to a search. Fails if no node matches.
-    fn answer(&self, words: &[String], markdown: bool) -> Result<String, String> {
+    /// Nodes that match all `words`. Fails if there is none.
+    fn find(&self, words: &[String]) -> Result<Vec<&Entry<'a>>, String> {
         let found: Vec<&Entry<'a>> = self.entries.iter().filter(|entry| entry.matches(words)).collect();
-        if found.is_empty() {
-            return Err(self.nothing(words));
-        }
-        if markdown {
-            return Ok(page(&found));
-        }
-        let named: Vec<&Entry<'a>> = match words {
-            [word] => found.iter().copied().filter(|entry| entry.is_named(word)).collect(),
-            _ => vec![],
-        };
-        match (&named[..], &found[..]) {
-            ([], [only]) => Ok(only.text()),
-            ([], _) => Ok(list(&found)),
-            _ => Ok(named.iter().map(|entry| entry.text()).collect::<Vec<_>>().join("\n")),
-        }
+        if found.is_empty() { Err(self.nothing(words)) } else { Ok(found) }
     }
 
     fn nothing(&self, words: &[String]) -> String {
@@ -137,6 +150,54 @@ impl Entry<'_> {
         text
     }
 
+    /// Description for programs. Values are written as in a source file.
+    fn json(&self) -> Value {
+        let ports = KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind));
+        let port = |port: &PortFacts| {
+            json!({
+                "kind": port.kind.word(), "name": port.name, "type": port.type_text(), "optional": port.optional,
+                "any_number": port.any_number, "docs": port.docs.trim(),
+            })
+        };
+        let param = |param: &ParamFacts| {
+            json!({
+                "name": param.name, "type": param.ty, "unit": param.unit, "default": param.default,
+                "range": param.range, "docs": param.docs.trim(),
+            })
+        };
+        json!({
+            "name": self.signature.name,
+            "module": self.module,
+            "docs": self.signature.docs.trim(),
+            "file": self.signature.file,
+            "line": self.signature.line,
+            "ports": ports.map(port).collect::<Vec<_>>(),
+            "params": self.params.iter().map(param).collect::<Vec<_>>(),
+        })
+    }
+
+    /// Interface in one line, as in a source file, and the first sentence of the documentation.
+    fn line(&self) -> String {
+        let typed = |name: &str, ty: &str| if ty == "()" { name.to_owned() } else { format!("{name}: {ty}") };
+        let param = |param: &ParamFacts| {
+            let unit = param.unit.as_ref().map(|unit| format!("[{unit}]")).unwrap_or_default();
+            let default = param.default.as_ref().filter(|default| !default.contains('\n'));
+            let default = default.map(|default| format!(" = {default}")).unwrap_or_default();
+            let range = param.range.as_ref().map(|range| format!(" in {range}")).unwrap_or_default();
+            format!("{}: {}{unit}{default}{range}", param.name, param.ty)
+        };
+        let ports = KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind));
+        let port = |port: &PortFacts| {
+            let kind = if port.kind == PortKind::Input { "in" } else { port.kind.word() };
+            let kind = if port.kind == PortKind::Output { "out" } else { kind };
+            format!("{kind} {}", typed(&port.name, &port.type_text()))
+        };
+        let params: Vec<String> = self.params.iter().map(param).collect();
+        let ports: Vec<String> = ports.map(port).collect();
+        let (name, docs) = (&self.signature.name, linkless(&first_sentence(&self.signature.docs)));
+        format!("`{name}({})`: `{}`. {docs}", params.join(", "), ports.join("; "))
+    }
+
     /// Rows with the ports and parameters: kind, name, type with unit, default and range, documentation.
     fn rows(&self) -> Vec<[String; 4]> {
         let ports = KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind));
@@ -158,6 +219,19 @@ impl Entry<'_> {
             ["param".to_owned(), param.name.clone(), ty, plain(&first_sentence(&param.docs))]
         };
         ports.map(port).chain(self.params.iter().map(param)).collect()
+    }
+}
+
+/// Description of the node with the name that is searched for, or else a list of all nodes that match.
+fn text(found: &[&Entry<'_>], words: &[String]) -> String {
+    let named: Vec<&Entry<'_>> = match words {
+        [word] => found.iter().copied().filter(|entry| entry.is_named(word)).collect(),
+        _ => vec![],
+    };
+    match (&named[..], found) {
+        ([], [only]) => only.text(),
+        ([], _) => list(found),
+        _ => named.iter().map(|entry| entry.text()).collect::<Vec<_>>().join("\n"),
     }
 }
 

@@ -1,7 +1,7 @@
 //! A source file with its package, checked.
 
 use apex_dsl::{
-    catalog::{Catalog, Crates},
+    catalog::Catalog,
     claims::MAX_STATES,
     graph::Graph,
     machine::Machine,
@@ -10,8 +10,9 @@ use apex_dsl::{
     report::{Diagnostics, Severity, render},
     resolve::{Link, SourceSet},
     source::{Sources, World as _},
+    syntax::MAX_BYTES,
 };
-use apex_host::{Disk, Seen, Workspace};
+use apex_host::{Disk, Seen, Workspace, read_from};
 use std::{
     env,
     io::{self, ErrorKind, IsTerminal as _, Write as _},
@@ -43,10 +44,37 @@ pub fn package_of(file: &Path) -> Option<PathBuf> {
     absolute.ancestors().skip(1).find(|folder| folder.join("Cargo.toml").is_file()).map(Path::to_owned)
 }
 
-/// Reads and checks `file`. A source file outside of any package has no Rust nodes.
+/// Name of standard input on the command line.
+const INPUT: &str = "-";
+
+/// Returns `true` if `file` is standard input.
+pub fn is_input(file: &Path) -> bool {
+    file.as_os_str() == INPUT
+}
+
+/// Reads and checks `file`, or standard input as a file of the current folder. A source file outside of any package
+/// can use the nodes of the library.
+pub fn check_text(file: &Path) -> Result<Checked, String> {
+    if !is_input(file) {
+        return check(file);
+    }
+    check_as(Path::new("<stdin>"), |_| read_input().map(Into::into))
+}
+
+/// Reads and checks `file`.
 pub fn check(file: &Path) -> Result<Checked, String> {
+    check_as(file, |checker| checker.read(file))
+}
+
+/// Text on standard input.
+pub fn read_input() -> Result<String, String> {
+    read_from(io::stdin().lock(), MAX_BYTES).map_err(|reason| format!("cannot read standard input: {reason}"))
+}
+
+/// Checks the text that `read` returns as the content of `file`.
+fn check_as(file: &Path, read: impl FnOnce(&mut Checker) -> Result<Arc<str>, String>) -> Result<Checked, String> {
     let mut checker = Checker::new(file)?;
-    let text = checker.read(file)?;
+    let text = read(&mut checker)?;
     let (sources, diagnostics, checked) = checker.check(file, text);
     checker.save();
     let passes::Checked { texts, programs, parts, links } = checked;
@@ -67,10 +95,18 @@ impl Checker {
     pub fn new(file: &Path) -> Result<Self, String> {
         let folder = package_of(file);
         let workspace = folder.as_deref().map(Workspace::load).transpose()?;
-        let mut disk = Disk::new(workspace.as_ref().map(Workspace::cache_folder).as_deref());
-        let crates = workspace.as_ref().map_or_else(Crates::default, |w| w.crates(&Seen::Package));
+        let in_package =
+            |package: &Workspace| (package.crates(&Seen::Package), Disk::new(Some(&package.cache_folder())));
+        let (crates, mut disk) = workspace.as_ref().map_or_else(apex_library::lone, in_package);
         let catalog = Catalog::load(crates, &mut disk);
         Ok(Self { catalog, workspace, disk })
+    }
+
+    /// Checker for source files in a package for which cargo was not run, with this root file. It knows the library.
+    pub fn alone(package: &str, root: &Path) -> Self {
+        let (crates, mut disk) = apex_library::around(package, root);
+        let catalog = Catalog::load(crates, &mut disk);
+        Self { catalog, workspace: None, disk }
     }
 
     /// Content of `file`.
@@ -145,8 +181,13 @@ pub fn print(text: &str) -> Result<(), String> {
 
 /// Writes to standard output. A closed pipe is not an error.
 pub fn write(text: &str) -> Result<(), String> {
+    write_bytes(text.as_bytes())
+}
+
+/// Writes bytes to standard output. A closed pipe is not an error.
+pub fn write_bytes(bytes: &[u8]) -> Result<(), String> {
     let mut output = io::stdout().lock();
-    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+    match output.write_all(bytes).and_then(|()| output.flush()) {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(format!("cannot write to standard output: {e}")),
         _ => Ok(()),
     }

@@ -1,6 +1,7 @@
 //! `apex run`: runs the package's own program, or one that is made for the source file.
 
 use crate::{
+    answer::Answer,
     build::{self, Built, How, Turn},
     made::{self, Made},
     project,
@@ -14,13 +15,14 @@ use apex_dsl::{
     units,
 };
 use apex_host::{Workspace, read_text};
+use serde_json::Value;
 use std::{
     env,
     ffi::OsString,
     fs,
     io::{self, Read as _},
     path::{Path, PathBuf},
-    process::{Command, ExitCode, ExitStatus},
+    process::{self, Command, ExitCode, ExitStatus},
     time::Duration,
 };
 
@@ -75,6 +77,8 @@ const PROFILE: &str = "APEX_PROFILE";
 /// Environment variables with the recording that is made or repeated, for every program (`apex_rt::drive`).
 const RECORD: &str = "APEX_RECORD";
 const REPLAY: &str = "APEX_REPLAY";
+/// Environment variable with the file to which the report on a replay is written, as JSON.
+const REPORT: &str = "APEX_REPLAY_REPORT";
 /// Environment variables with the limits of the recording.
 const RECORD_LIMIT: &str = "APEX_RECORD_LIMIT";
 const RECORD_AGE: &str = "APEX_RECORD_AGE";
@@ -288,9 +292,9 @@ impl Wanted<'_> {
     }
 
     /// Checks the source file. Returns `None` if it has errors, which are printed.
-    pub fn check(&self) -> Result<Option<Vec<Program>>, String> {
+    pub fn check(&self, answer: &mut Answer) -> Result<Option<Vec<Program>>, String> {
         let checked = project::check(self.file)?;
-        checked.print_diagnostics();
+        answer.messages(&checked.diagnostics, &checked.sources);
         Ok((!checked.diagnostics.has_errors()).then_some(checked.programs))
     }
 
@@ -374,10 +378,14 @@ impl Wanted<'_> {
 }
 
 /// Checks, builds and runs.
-pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
-    let Some(programs) = wanted.check()? else { return Ok(ExitCode::from(1)) };
-    let Some(program) = wanted.build(&programs)? else { return Ok(ExitCode::from(2)) };
-    let command = wanted.command(&program);
+pub fn run(wanted: &Wanted<'_>, answer: &mut Answer) -> Result<ExitCode, String> {
+    let Some(programs) = wanted.check(answer)? else { return Ok(ExitCode::from(1)) };
+    let Some(program) = wanted.build(&programs)? else { return answer.not_built() };
+    let mut command = wanted.command(&program);
+    command.env_remove(REPORT);
+    if answer.is_json() {
+        return reported(command, program, answer);
+    }
     let Recording::Made(path) = wanted.recording else { return become_program(command, program) };
     let status = wait_for(command, program)?;
     if status.success() && !is_recorded(path) {
@@ -386,6 +394,19 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
             path.display()
         ));
     }
+    Ok(exit_code(status))
+}
+
+/// Repeats a run and gives its report, which the program writes to a file: its nodes may print, too.
+fn reported(mut command: Command, program: Found, answer: &mut Answer) -> Result<ExitCode, String> {
+    let file = env::temp_dir().join(format!("apex-replay-{}.json", process::id()));
+    command.env(REPORT, &file).stdout(io::stderr());
+    let status = wait_for(command, program)?;
+    let report = fs::read_to_string(&file);
+    let _ = fs::remove_file(&file);
+    let Ok(report) = report else { return Err(format!("the program has not reported on the replay: {status}")) };
+    let report: Value = serde_json::from_str(&report).map_err(|e| format!("the report cannot be read: {e}"))?;
+    answer.give(String::new, || report)?;
     Ok(exit_code(status))
 }
 

@@ -1,6 +1,9 @@
 //! `apex test`: the tests of a source file, as Rust tests.
 
+mod results;
+
 use crate::{
+    answer::Answer,
     build::{self, Built, How, Outcome, Turn},
     calls::{self, Call},
     made::{self, Made},
@@ -13,29 +16,78 @@ use apex_dsl::{
     script::{Script, Step},
 };
 use apex_host::Workspace;
-use std::{ffi::OsString, path::Path, process::ExitCode};
+use std::{
+    ffi::OsString,
+    io::{self, IsTerminal as _, Read},
+    path::Path,
+    process::{ExitCode, Stdio},
+};
 
 /// Checks, builds and runs the tests whose names contain `filter`.
-pub fn run(file: &Path, filter: Option<&str>, how: How) -> Result<ExitCode, String> {
+pub fn run(file: &Path, filter: Option<&str>, how: How, answer: &mut Answer) -> Result<ExitCode, String> {
     let checked = project::check(file)?;
-    checked.print_diagnostics();
+    answer.messages(&checked.diagnostics, &checked.sources);
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
     let scripts = checked.programs.iter().filter_map(|p| p.script.as_ref()).filter(|script| script.study.is_none());
     let scripts: Vec<&Script> = scripts.collect();
     if scripts.is_empty() {
-        project::print(&format!("`{}` has no `test`", file.display()))?;
+        answer.give(|| format!("`{}` has no `test`", file.display()), || results::json(&[]))?;
         return Ok(ExitCode::SUCCESS);
     }
     let names = chosen(&scripts, filter)?;
-    let Some(Found { built, names, turn }) = built(file, &checked, &names, how)? else { return Ok(ExitCode::from(2)) };
+    let Some(Found { built, names, turn }) = built(file, &checked, &names, how)? else { return answer.not_built() };
     let mut command = built.command();
-    command.args(["--quiet", "--exact"]).args(names).current_dir(run::package(file)?).env("RUST_BACKTRACE", "0");
-    let mut child = command.spawn().map_err(|e| built.not_started(&e))?;
+    command.arg("--exact").args(names).current_dir(run::package(file)?).env("RUST_BACKTRACE", "0");
+    if answer.is_json() {
+        let output = command.stderr(Stdio::inherit()).output().map_err(|e| built.not_started(&e))?;
+        let tests = results::read(&String::from_utf8_lossy(&output.stdout));
+        answer.give(String::new, || results::json(&tests))?;
+        return Ok(if output.status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) });
+    }
+    // Rust's tests would not colour what goes through this command.
+    command.args(io::stdout().is_terminal().then_some("--color=always"));
+    let mut child = command.arg("--quiet").stdout(Stdio::piped()).spawn().map_err(|e| built.not_started(&e))?;
     drop(turn);
+    let output = child.stdout.take().map_or(Ok(String::new()), passed_on)?;
     let status = child.wait().map_err(|e| format!("cannot wait for the tests: {e}"))?;
+    for line in results::failed(&output).iter().filter_map(|name| in_studio(file, &checked, name)) {
+        project::print(&line)?;
+    }
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+/// Prints the output of tests while they run, and returns it.
+fn passed_on(mut from: impl Read) -> Result<String, String> {
+    let (mut all, mut part) = (vec![], [0; 4096]);
+    loop {
+        match from.read(&mut part) {
+            Ok(0) => return Ok(String::from_utf8_lossy(&all).into_owned()),
+            Ok(length) => {
+                all.extend_from_slice(&part[..length]);
+                project::write_bytes(&part[..length])?;
+            }
+            Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+            Err(e) => return Err(format!("cannot read the output of the tests: {e}")),
+        }
+    }
+}
+
+/// Line with the command that shows the graph of a test in the studio: if it is a program, or else the only robot.
+fn in_studio(file: &Path, checked: &Checked, test: &str) -> Option<String> {
+    let tree = &checked.texts.files.first()?.1;
+    let path = &tree.tests.iter().find(|item| item.name.text == test)?.graph;
+    let graph = path.segments.last()?.text.as_str();
+    let programs = || checked.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
+    let robots: Vec<&str> = programs().filter(|graph| graph.robot).map(|graph| graph.name.as_str()).collect();
+    let (what, robot) = match robots.as_slice() {
+        _ if programs().any(|program| program.name == graph) => (format!("`{graph}`"), graph),
+        [robot] => (format!("`{robot}` instead of `{graph}`"), *robot),
+        _ => return None,
+    };
+    let file = file.display();
+    Some(format!("to see {what}, without the steps of `{test}`: apex studio --simulated --robot {robot} {file}"))
 }
 
 /// A program with tests.

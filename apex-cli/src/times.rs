@@ -1,6 +1,6 @@
 //! `apex explain --profile`: longest measured times of clusters and slots, and the load of each thread.
 
-use crate::{Format, project};
+use crate::{answer::Answer, project};
 use apex_dsl::{
     analyse::Analysis,
     graph::{Graph, MAIN_GROUP, NodeId},
@@ -28,10 +28,10 @@ struct Profile {
 }
 
 /// Prints the times in `profile` of the program in `file`.
-pub fn run(file: &Path, profile: &Path, format: Format) -> Result<ExitCode, String> {
+pub fn run(file: &Path, profile: &Path, answer: &mut Answer) -> Result<ExitCode, String> {
     let profile = read(profile).map_err(|reason| format!("cannot read `{}`: {reason}", profile.display()))?;
     let checked = project::check(file)?;
-    checked.print_diagnostics();
+    answer.messages(&checked.diagnostics, &checked.sources);
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
@@ -40,10 +40,7 @@ pub fn run(file: &Path, profile: &Path, format: Format) -> Result<ExitCode, Stri
         let names: Vec<&str> = checked.programs.iter().map(|p| p.graph.name.as_str()).collect();
         format!("the profile is of `{}`, but `{}` has {}", profile.program, file.display(), names.join(", "))
     })?;
-    match format {
-        Format::Text => project::print(&text(program, &profile))?,
-        Format::Json => project::print(&format!("{:#}", json_of(program, &profile)))?,
-    }
+    answer.give(|| text(program, &profile), || json_of(program, &profile))?;
     Ok(ExitCode::SUCCESS)
 }
 

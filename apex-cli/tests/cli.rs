@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::{Folder, apex, package, stderr};
-use serde_json::Value;
+use common::{Folder, answer, apex, package, stderr};
+use serde_json::json;
 use std::{
     collections::BTreeSet,
     fs,
@@ -22,7 +22,7 @@ fn a_right_text_says_nothing() {
     let output = check(&[], &folder.file("right.afg", "graph A { }\n"));
     assert_eq!((output.status.code(), output.stdout.len(), stderr(&output)), (Some(0), 0, String::new()));
     let output = check(&["--format", "json"], &folder.file("right.afg", "graph A { }\n"));
-    assert_eq!((output.status.code(), output.stdout.as_slice()), (Some(0), &b"[]\n"[..]));
+    assert_eq!((output.status.code(), &answer(&output, "check")["messages"]), (Some(0), &json!([])));
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn errors_as_text_and_as_json() {
 
     let output = check(&["--format", "json"], &file);
     assert_eq!((output.status.code(), output.stderr.len()), (Some(1), 0));
-    let messages: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let messages = answer(&output, "check")["messages"].take();
     let first = &messages[0];
     assert_eq!(first["file"], file.display().to_string());
     assert_eq!((first["line"].as_u64(), first["column"].as_u64()), (Some(2), Some(22)));
@@ -57,10 +57,10 @@ fn several_files_are_all_checked() {
     let (wrong, right) = (folder.file("wrong.afg", "graph A {\n"), folder.file("right.afg", "graph A { }\n"));
     let output = apex().args(["check", "--format", "json"]).args([&wrong, &right, &wrong]).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
-    let messages: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let messages = answer(&output, "check")["messages"].take();
     assert_eq!(messages.as_array().unwrap().len(), 2);
     let output = check(&["--format", "json"], &folder.0);
-    let messages: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let messages = answer(&output, "check")["messages"].take();
     assert_eq!((output.status.code(), messages.as_array().unwrap().len()), (Some(1), 1));
 }
 
@@ -76,7 +76,7 @@ fn what_cannot_be_read_is_two() {
     ] {
         for format in ["text", "json"] {
             let output = check(&["--format", format], &path);
-            assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{}", path.display());
+            assert_eq!((output.status.code(), output.stdout.is_empty()), (Some(2), format == "text"));
             let text = stderr(&output);
             assert!(text.starts_with("error: ") && text.contains(reason), "{text}");
         }
@@ -90,6 +90,75 @@ fn wrong_use_is_two() {
         assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{arguments:?}");
     }
     assert_eq!(apex().arg("--help").output().unwrap().status.code(), Some(0));
+}
+
+/// Runs a command in a folder with a text as its standard input.
+fn with_input(folder: &Path, arguments: &[&str], input: &[u8]) -> Output {
+    let mut command = apex();
+    command.args(arguments).current_dir(folder);
+    let command = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    // A command that does not read its input is found by its output.
+    let _ = child.stdin.take().unwrap().write_all(input);
+    child.wait_with_output().unwrap()
+}
+
+/// Text that needs nodes of the library and of the simulator.
+const LONE: &str = "\
+use apex_nodes::flow::Throttle;
+use apex_nodes::slam::GraphSlam;
+use apex_sim::LaserScanner;
+
+graph Alone {
+    in  raw: u8;
+    out value: u8;
+
+    raw -> Throttle(n = 5) -> value;
+}
+";
+
+/// Neither cargo nor a package is needed to check a text, whether it comes from a file or from standard input.
+#[test]
+fn a_text_without_a_package_knows_the_library() {
+    let folder = Folder::new("lone");
+    let file = folder.file("alone.afg", LONE);
+    let lone = |arguments: &[&str], input: &str| {
+        let output = with_input(&folder.0, arguments, input.as_bytes());
+        (output.status.code(), String::from_utf8(output.stdout.clone()).unwrap(), stderr(&output))
+    };
+    let unused = LONE.replace("use apex_nodes::slam::GraphSlam;\nuse apex_sim::LaserScanner;\n", "");
+    folder.file("used.afg", &unused);
+    assert_eq!(lone(&["check", "used.afg"], ""), (Some(0), String::new(), String::new()));
+    assert_eq!(lone(&["check", "-"], &unused), (Some(0), String::new(), String::new()));
+    let (code, _, warnings) = lone(&["check", "-"], LONE);
+    assert!(code == Some(0) && warnings.contains("<stdin>:2:") && warnings.contains("not-used"), "{warnings}");
+    let (code, _, errors) = lone(&["check", "-"], &unused.replace("Throttle", "Throtle"));
+    assert!(code == Some(1) && errors.contains("did you mean `Throttle`?"), "{errors}");
+    for (arguments, part) in [
+        (&["graph", "-"][..], "<svg"),
+        (&["explain", "-"], "Alone"),
+        (&["explain", "--program", "-"], "Alone"),
+        (&["expand", "-"], "pub struct Alone"),
+    ] {
+        let (code, text, errors) = lone(arguments, &unused);
+        assert!(code == Some(0) && text.contains(part), "{arguments:?} {errors}{text}");
+    }
+    for (arguments, reason) in
+        [(&["check", "--fix", "-"][..], "cannot be changed"), (&["test", "-"], "cannot read `-`")]
+    {
+        let (code, text, errors) = lone(arguments, &unused);
+        assert!(code == Some(2) && text.is_empty() && errors.contains(reason), "{arguments:?} {errors}");
+    }
+    // A text that names what its folder has.
+    let (code, _, errors) = lone(
+        &["check", "-"],
+        &unused
+            .replace("apex_nodes::flow::Throttle", "used::Alone")
+            .replace("Throttle(n = 5)", "Alone()")
+            .replace("graph Alone", "graph Other"),
+    );
+    assert_eq!(code, Some(0), "{errors}");
+    drop(file);
 }
 
 /// A source file sees the nodes of its package; the cache contains the same signatures as the first reading.

@@ -42,12 +42,21 @@ pub struct Disk {
     changed: bool,
     /// The files on which the answers since the last [`Disk::take_asked`] depend.
     asked: BTreeMap<PathBuf, Stamp>,
+    /// Items of Rust files that need not exist.
+    given: BTreeMap<PathBuf, Arc<[Item]>>,
 }
 
 impl Disk {
     /// Returns the file system with the cache in `folder`, or without a cache. A cache that cannot be read is replaced.
     pub fn new(folder: Option<&Path>) -> Self {
-        Self { file: folder.map(|f| f.join("catalog.json")), cache: None, changed: false, asked: BTreeMap::new() }
+        let file = folder.map(|f| f.join("catalog.json"));
+        Self { file, cache: None, changed: false, asked: BTreeMap::new(), given: BTreeMap::new() }
+    }
+
+    /// Adds the items of Rust files, which need not exist.
+    pub fn with_items(mut self, given: impl IntoIterator<Item = (PathBuf, Arc<[Item]>)>) -> Self {
+        self.given.extend(given);
+        self
     }
 
     fn cache(&mut self) -> &mut Cache {
@@ -130,12 +139,15 @@ impl World for Disk {
 
     fn exists(&mut self, path: &Path) -> bool {
         self.asked.insert(path.to_owned(), stamp(path));
-        path.is_file()
+        self.given.contains_key(path) || path.is_file()
     }
 }
 
 impl RustFiles for Disk {
     fn items(&mut self, path: &Path) -> Result<Arc<[Item]>, String> {
+        if let Some(items) = self.given.get(path) {
+            return Ok(items.clone());
+        }
         let stamp = stamp(path);
         self.asked.insert(path.to_owned(), stamp);
         if let (Some(entry), Some(stamp)) = (self.cache().files.get(path), stamp)

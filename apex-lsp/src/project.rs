@@ -1,10 +1,7 @@
 //! Package of a source file, with the nodes that it can use.
 
 use crate::documents::Document;
-use apex_dsl::{
-    catalog::{Catalog, Crates},
-    source::World,
-};
+use apex_dsl::{catalog::Catalog, source::World};
 use apex_host::{Disk, Seen, Workspace};
 use std::{
     collections::BTreeMap,
@@ -25,14 +22,15 @@ pub struct Project {
 }
 
 impl Project {
-    /// Reads the package in `folder`. Without a folder there are no nodes.
+    /// Reads the package in `folder`. Without a package there are the nodes of the library.
     pub fn load(folder: Option<&Path>) -> Self {
         let (workspace, failure) = match folder.map(Workspace::load).transpose() {
             Ok(workspace) => (workspace, None),
             Err(reason) => (None, Some(reason)),
         };
-        let mut disk = Disk::new(workspace.as_ref().map(Workspace::cache_folder).as_deref());
-        let crates = workspace.as_ref().map_or_else(Crates::default, |w| w.crates(&Seen::Package));
+        let in_package =
+            |package: &Workspace| (package.crates(&Seen::Package), Disk::new(Some(&package.cache_folder())));
+        let (crates, mut disk) = workspace.as_ref().map_or_else(apex_library::lone, in_package);
         let root = crates.root.clone();
         let catalog = Catalog::load(crates, &mut disk);
         disk.save();

@@ -444,10 +444,6 @@ impl<P: Program + Parameters + 'static> Test<P> {
     }
 
     fn fail(&self, what: &str, time: Time, place: &str) -> ! {
-        panic!(
-            "test `{}` failed at {time}: {what}\n  --> {place}\nwhat happened:\n{}",
-            self.name,
-            self.timeline.text().trim_end()
-        );
+        panic!("test `{}` failed at {time}: {what}\n  --> {place}\n{}", self.name, self.timeline.text().trim_end());
     }
 }

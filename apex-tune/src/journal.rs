@@ -58,8 +58,8 @@ impl Lock {
 pub enum JournalError {
     /// File that cannot be read or written.
     File(PathBuf, io::Error),
-    /// File of another study, or of the same study with other settings.
-    OtherStudy(PathBuf),
+    /// File of another study, or of the same study with other settings; and the differences.
+    OtherStudy(PathBuf, Vec<String>),
     /// Line that is not a run, by number.
     BadLine(PathBuf, usize),
     /// First line that does not describe a study, and the reason.
@@ -74,9 +74,12 @@ impl fmt::Display for JournalError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::File(path, error) => write!(f, "{}: {error}", path.display()),
-            Self::OtherStudy(path) => {
-                write!(f, "{}: the journal belongs to a study with other settings: use another file", path.display())
-            }
+            Self::OtherStudy(path, changes) => write!(
+                f,
+                "{}: the journal belongs to a study with other settings: {}; undo that, or begin a new study in another folder",
+                path.display(),
+                changes.join("; ")
+            ),
             Self::BadLine(path, line) => {
                 write!(f, "{}:{line}: not a run: expected `search,candidate,seed,values,checksum`", path.display())
             }
@@ -201,7 +204,10 @@ impl Reading {
                     Some(text) if text == study.description() => kept.extend_from_slice(whole),
                     // The program ended before it had written the first line.
                     None if bytes.len() == whole.len() => return Ok(kept),
-                    _ => return Err(JournalError::OtherStudy(path.to_owned())),
+                    _ => {
+                        let changes = study.changes_from(text.unwrap_or_default());
+                        return Err(JournalError::OtherStudy(path.to_owned(), changes));
+                    }
                 }
                 continue;
             }

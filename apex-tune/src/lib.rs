@@ -6,6 +6,7 @@
 //! merged. The [`Report`] scores the result on seeds that the study has not seen. A [`Follower`] reads a journal while
 //! it grows, and shows the candidates of the study.
 
+mod changes;
 mod course;
 mod description;
 mod follow;

@@ -1,9 +1,10 @@
 use crate::{
-    Found, Goal, Journal, Objective, Point, Study, StudyError,
+    Found, Goal, Journal, Objective, Parameter, Point, Study, StudyError,
     goal::{Fitness, add_to_front},
     picture,
 };
 use apex_optim::Best;
+use serde_json::{Value, json};
 use std::{fmt::Write, fs, io, path::Path};
 
 /// Costs by goal, on the seeds of the study and on those that it has not seen.
@@ -151,6 +152,38 @@ impl Report {
         text
     }
 
+    /// Result for programs. Values that are not finite, because runs have failed, are `null`.
+    pub fn json(&self) -> Value {
+        let goal = |(i, goal): (usize, &Goal)| {
+            let of = |costs: &[f64]| costs.get(i).map(|cost| goal.value(*cost));
+            json!({
+                "name": goal.name, "unit": goal.unit, "maximise": goal.maximise, "summary": goal.summary.to_string(),
+                "defaults": of(&self.defaults.training), "tuned": of(&self.tuned.training),
+                "defaults_held_out": of(&self.defaults.held_out), "tuned_held_out": of(&self.tuned.held_out),
+            })
+        };
+        let tuned = self.study.parameters.iter().zip(&self.best.values).zip(&self.importance);
+        let parameter = |((p, value), lost): ((&Parameter, &f64), &f64)| {
+            json!({
+                "name": p.name, "unit": p.unit, "targets": p.targets, "default": p.default, "tuned": value,
+                "low": p.axis.low(), "high": p.axis.high(), "lost_with_default": lost,
+            })
+        };
+        let point = |point: &Point| {
+            let goals = self.study.goals.iter().zip(&point.costs).map(|(goal, cost)| goal.value(*cost));
+            json!({ "goals": goals.collect::<Vec<_>>(), "values": point.values })
+        };
+        json!({
+            "study": self.study.name,
+            "better": self.is_better(),
+            "warning": self.warning(),
+            "goals": self.study.goals.iter().enumerate().map(goal).collect::<Vec<_>>(),
+            "parameters": tuned.map(parameter).collect::<Vec<_>>(),
+            "front": self.front.iter().map(point).collect::<Vec<_>>(),
+            "runs": self.found.iter().map(|found| found.runs).sum::<u64>(),
+        })
+    }
+
     /// Number of runs, as a sentence.
     pub fn cost(&self) -> String {
         let (runs, saved) = self.found.iter().fold((0, 0), |(runs, saved), f| (runs + f.runs, saved + f.saved));
@@ -182,16 +215,16 @@ fn in_brackets(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" [{unit}]") }
 }
 
-/// Number with six significant digits.
+/// Number with four significant digits: the others depend on the seeds.
 fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value.is_infinite() { "failed".to_owned() } else { value.to_string() };
     }
-    let digits = 5 - value.abs().log10().floor() as i32;
-    if !(0..=12).contains(&digits) {
-        return format!("{value:.5e}");
+    let digits = 3 - value.abs().log10().floor() as i32;
+    if !(-5..=12).contains(&digits) {
+        return format!("{value:.3e}");
     }
-    let text = format!("{value:.*}", digits as usize);
+    let text = format!("{value:.*}", digits.max(0) as usize);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
@@ -242,8 +275,8 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_six_digits() {
+    fn numbers_have_four_digits() {
         let shown = [0.0, 1.0, -2.5, 123_456.0, 0.000_123_456_789, 1e9, 1e-12, f64::INFINITY].map(number);
-        assert_eq!(shown, ["0", "1", "-2.5", "123456", "0.000123457", "1.00000e9", "1.00000e-12", "failed"]);
+        assert_eq!(shown, ["0", "1", "-2.5", "123456", "0.0001235", "1.000e9", "1.000e-12", "failed"]);
     }
 }

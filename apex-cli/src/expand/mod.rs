@@ -8,7 +8,7 @@ use std::{path::Path, process::ExitCode};
 
 /// Prints the generated Rust.
 pub fn run(file: &Path) -> Result<ExitCode, String> {
-    let mut checked = project::check(file)?;
+    let mut checked = project::check_text(file)?;
     let place = |_| proc_macro2::Span::call_site();
     let code = passes::generate(
         &checked.programs,

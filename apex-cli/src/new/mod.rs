@@ -2,7 +2,7 @@
 
 mod name;
 
-use crate::project;
+use crate::{agents, project};
 use clap::ValueEnum;
 use std::{
     fs,
@@ -20,6 +20,8 @@ pub enum Template {
     Node,
     /// A cart on a microcontroller: a graph without the standard library and heap, which runs on this computer, too.
     Firmware,
+    /// A mission whose drivers are another process, in Python here: a bridge over UDP, with a simulated base.
+    Bridge,
 }
 
 /// A file of a project and its content. The placeholders `{name}`, `{crate}`, `{checkout}` and those of the crates'
@@ -61,12 +63,24 @@ const FIRMWARE: [File; 8] = [
     ("src/main.rs", include_str!("template/firmware/src/main.rs.txt")),
 ];
 
+const BRIDGE: [File; 8] = [
+    ("Cargo.toml", include_str!("template/bridge/Cargo.toml.txt")),
+    ("README.md", include_str!("template/bridge/README.md")),
+    GITIGNORE,
+    RUSTFMT,
+    ("robot.afg", include_str!("template/bridge/robot.afg")),
+    ("drivers.py", include_str!("template/bridge/drivers.py")),
+    ("src/lib.rs", include_str!("template/bridge/src/lib.rs")),
+    ("src/main.rs", include_str!("template/bridge/src/main.rs")),
+];
+
 impl Template {
     fn files(self) -> &'static [File] {
         match self {
             Self::Robot => &ROBOT,
             Self::Node => &NODE,
             Self::Firmware => &FIRMWARE,
+            Self::Bridge => &BRIDGE,
         }
     }
 
@@ -76,6 +90,7 @@ impl Template {
             Self::Robot => &["apex check robot.afg", "apex test robot.afg", "cargo run"],
             Self::Node => &["apex check tests.afg", "apex test tests.afg"],
             Self::Firmware => &["apex check firmware.afg", "apex test firmware.afg", "cargo run"],
+            Self::Bridge => &["apex check robot.afg", "apex test robot.afg", "python3 drivers.py &", "cargo run"],
         }
     }
 }
@@ -102,6 +117,7 @@ pub fn run(folder: &Path, template: Template, checkout: Option<&Path>) -> Result
         let text = filled.iter().fold((*template).to_owned(), |text, (hole, word)| text.replace(hole, word));
         write(&folder.join(file), &text)?;
     }
+    agents::begin(folder, name, &checkout)?;
     let next: String = template.next().iter().map(|line| format!("\n  {line}")).collect();
     project::print(&format!("created `{name}`; next\n  cd {}{next}", shell_word(folder)))?;
     Ok(ExitCode::SUCCESS)

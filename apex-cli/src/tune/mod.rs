@@ -3,7 +3,7 @@
 mod result;
 mod worker;
 
-use crate::{build::How, project, replace, run, test};
+use crate::{Format, answer::Answer, build::How, project, replace, run, test};
 use apex_dsl::{
     report::nearest,
     script::{Script, Study as Stated, Varied},
@@ -69,6 +69,9 @@ pub struct Wanted {
     /// Build without optimisations, which takes less time: for a few short runs.
     #[arg(long)]
     debug: bool,
+    /// Format of the result.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
     /// Print only errors and the result.
     #[arg(short, long)]
     quiet: bool,
@@ -92,9 +95,9 @@ fn shard(text: &str) -> Result<(u64, u64), String> {
 }
 
 /// Checks, builds, searches and reports.
-pub fn run(wanted: &Wanted) -> Result<ExitCode, String> {
+pub fn run(wanted: &Wanted, answer: &mut Answer) -> Result<ExitCode, String> {
     let checked = project::check(&wanted.file)?;
-    checked.print_diagnostics();
+    answer.messages(&checked.diagnostics, &checked.sources);
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
@@ -112,7 +115,7 @@ pub fn run(wanted: &Wanted) -> Result<ExitCode, String> {
     }
     let how = How::new(!wanted.debug, wanted.quiet);
     let Some(test::Found { built, names, turn }) = test::built(&wanted.file, &checked, &[&script.name], how)? else {
-        return Ok(ExitCode::from(2));
+        return answer.not_built();
     };
     let goals = stated.goals.iter().map(|goal| goal.name.as_str()).collect();
     let test = names.into_iter().next().ok_or("the program has no such study")?;
@@ -121,9 +124,12 @@ pub fn run(wanted: &Wanted) -> Result<ExitCode, String> {
     let study = study(wanted, script, stated, &defaults, fingerprint(&checked.sources))?;
     let run = Run { wanted, script, study: &study, output, workers: &workers };
     let threads = wanted.jobs.unwrap_or(0) as usize;
-    let Some(report) = apex_tune::on_threads(threads, || run.report())?? else {
+    let Some(report) = apex_tune::on_threads(threads, || run.report(answer.is_json()))?? else {
         return Ok(if wanted.shard.is_some() { ExitCode::SUCCESS } else { ExitCode::from(1) });
     };
+    if answer.is_json() {
+        answer.give(String::new, || report.json())?;
+    }
     let is_better = report.is_better();
     if let Some(file) = &wanted.params {
         replace::write(file, &study.params(report.values()))?;
@@ -253,7 +259,7 @@ struct Run<'a> {
 
 impl Run<'_> {
     /// Searches, prints and writes the report; `None` for a part of a study, and if all candidates have failed.
-    fn report(&self) -> Result<Option<Report>, String> {
+    fn report(&self, is_json: bool) -> Result<Option<Report>, String> {
         let told = |error: StudyError| error.to_string();
         let ((k, n), searches) = (self.wanted.shard.unwrap_or((1, 1)), self.study.searches);
         if n > searches {
@@ -269,7 +275,9 @@ impl Run<'_> {
             let found = self.search(&timed, &mut journal, (k - 1, n)).map_err(told)?;
             if n > 1 {
                 let folder = self.output.display();
-                project::print(&format!("part {k} of {n}: {} searches are in `{folder}`", found.len()))?;
+                if !is_json {
+                    project::print(&format!("part {k} of {n}: {} searches are in `{folder}`", found.len()))?;
+                }
                 return Ok(None);
             }
             (found, journal)
@@ -286,9 +294,11 @@ impl Run<'_> {
             return Ok(None);
         };
         report.write(&self.output).map_err(|e| format!("cannot write in `{}`: {e}", self.output.display()))?;
-        project::print(report.tables().trim_end())?;
-        let (cost, time, file) = (report.cost(), timed.cost(), self.output.join("report.md"));
-        project::print(&format!("\n{cost}\n{time}\nreport: {}", file.display()))?;
+        if !is_json {
+            project::print(report.tables().trim_end())?;
+            let (cost, time, file) = (report.cost(), timed.cost(), self.output.join("report.md"));
+            project::print(&format!("\n{cost}\n{time}\nreport: {}", file.display()))?;
+        }
         if let Some(warning) = report.warning() {
             project::print_error(&format!("warning: {warning}"));
         }

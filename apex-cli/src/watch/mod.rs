@@ -4,6 +4,8 @@ pub mod files;
 pub mod program;
 
 use crate::{
+    Format,
+    answer::Answer,
     project::print_error,
     run::{self, Found, Wanted},
 };
@@ -62,7 +64,7 @@ pub fn run(wanted: &Wanted<'_>) -> Result<ExitCode, String> {
 
 /// Builds the program. Returns `None` after errors, which are printed.
 fn built(wanted: &Wanted<'_>) -> Result<Option<Found>, String> {
-    wanted.check()?.map_or(Ok(None), |programs| wanted.build(&programs))
+    wanted.check(&mut Answer::new("run", Format::Text))?.map_or(Ok(None), |programs| wanted.build(&programs))
 }
 
 /// Message about the time until the next change.

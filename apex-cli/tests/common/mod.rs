@@ -1,5 +1,6 @@
 //! The built command, and folders for it to work in.
 
+use serde_json::Value;
 use std::{
     ffi::OsStr,
     fs,
@@ -57,6 +58,16 @@ pub fn apex() -> Command {
 /// Standard error of a command.
 pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Answer of a command to `--format json`, in the form of docs/json.md.
+pub fn answer(output: &Output, command: &str) -> Value {
+    let answer: Value = serde_json::from_slice(&output.stdout).expect("there is one JSON value");
+    let fields: Vec<&str> = answer.as_object().unwrap().keys().map(String::as_str).collect();
+    assert_eq!(fields, ["apex", "command", "error", "form", "messages", "result"]);
+    assert_eq!((&answer["form"], &answer["command"]), (&Value::from(1), &Value::from(command)));
+    assert_eq!(answer["error"].is_null(), output.status.code() != Some(2));
+    answer
 }
 
 /// Makes a package with nodes and no program of its own. It has the name of the folder: cargo takes packages of one

@@ -8,6 +8,7 @@ use std::{
 #[path = "../common/mod.rs"]
 mod common;
 
+mod agents;
 mod completions;
 #[cfg(unix)]
 mod debugging;
@@ -17,6 +18,7 @@ mod explain;
 mod import;
 mod import_files;
 mod import_runs;
+mod json;
 mod memory;
 #[path = "../../../robots/moved.rs"]
 mod moved;

@@ -1,6 +1,6 @@
 use crate::{
     TARGET, builds,
-    common::{Folder, apex, package, stderr},
+    common::{Folder, answer, apex, package, stderr},
 };
 use std::{path::Path, process::Output};
 
@@ -77,7 +77,8 @@ fn sizes_are_those_of_rustc_and_add_up() {
     package(&folder, NODES);
     let output = explain(&folder.file("keeper.afg", TEXT), &["--format", "json"]);
     assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
-    let programs: Vec<serde_json::Value> = serde_json::from_slice(&output.stdout).unwrap();
+    let answer = answer(&output, "explain");
+    let programs = answer["result"]["programs"].as_array().unwrap();
     let names: Vec<&str> = programs.iter().map(|program| program["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["Keeper"], "the program of the test does not count");
     let keeper = &programs[0];

@@ -5,8 +5,11 @@ use crate::{
 };
 use std::{
     fs,
+    io::{BufRead as _, BufReader},
+    net::UdpSocket,
     path::Path,
-    process::{Command, Output},
+    process::{Child, Command, Output, Stdio},
+    time::Duration,
 };
 
 /// Runs a command in a folder, without network.
@@ -82,11 +85,98 @@ fn firmware_is_right_is_tested_and_runs_here() {
     fs::remove_dir_all(folder).unwrap();
 }
 
+/// A process that is killed at the end.
+struct Started(Child);
+
+impl Drop for Started {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Starts a command, with its standard output and standard error piped.
+fn started(mut command: Command) -> Started {
+    Started(command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap())
+}
+
+/// Position in m and speed in m/s that the drivers print: `x = 0.50 m, 0.20 m/s`.
+fn moved_to(line: &str) -> (f64, f64) {
+    let numbers: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    (numbers[0], numbers[1])
+}
+
+#[test]
+fn a_mission_and_its_drivers_talk_over_udp() {
+    let _guard = builds();
+    let folder = Folder::new("new-bridge");
+    let project = folder.0.join("my-bridge");
+    let tested = tried(&project, &["--template", "bridge"], "robot.afg");
+    assert!(tested.contains("robot_afg::stops_without_odometry ... ok"), "{tested}");
+    if Command::new("python3").arg("--version").output().is_err() {
+        eprintln!("skipped: there is no python3");
+        return;
+    }
+    // Other tests may use the addresses of the template.
+    let free = [0, 1].map(|_| UdpSocket::bind("127.0.0.1:0").unwrap());
+    let [mission, drivers] = free.map(|socket| socket.local_addr().unwrap());
+    for file in ["robot.afg", "drivers.py"] {
+        let text = fs::read_to_string(project.join(file)).unwrap();
+        let text = text.replace("7500", &mission.port().to_string()).replace("7501", &drivers.port().to_string());
+        fs::write(project.join(file), text).unwrap();
+    }
+    let (code, _, errors) = run_in(&project, &mut cargo(), &["build", "--quiet"]);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    let robot = || started(Command::new(format!("{TARGET}/debug/my-bridge")));
+    let mut python = Command::new("python3");
+    python.arg(project.join("drivers.py"));
+    let mut base = started(python);
+    let mut lines = BufReader::new(base.0.stdout.take().unwrap()).lines().map(|line| moved_to(&line.unwrap()));
+    // Waits for at most 20 s until the base says this.
+    let until = |lines: &mut dyn Iterator<Item = (f64, f64)>, is: fn(f64, f64) -> bool| {
+        lines.take(400).find(|(x, speed)| is(*x, *speed)).expect("the base moves as expected")
+    };
+
+    // There and back, within the distance of the mission.
+    let mut first = robot();
+    until(&mut lines, |x, speed| x > 0.2 && speed > 0.0);
+    until(&mut lines, |x, speed| x > 0.9 && x < 1.3 && speed < 0.0);
+
+    // What is not a datagram is counted and said.
+    let stranger = UdpSocket::bind("127.0.0.1:0").unwrap();
+    for datagram in [&b"odometry 1 2"[..], b"\xff\xfe", b""] {
+        stranger.send_to(datagram, mission).unwrap();
+    }
+    let said = BufReader::new(first.0.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let counted = said.take(10).find(|line| line.contains("bad datagrams, the last one: ")).unwrap();
+    assert!(["1", "2", "3"].contains(&counted.split(' ').next().unwrap()), "{counted}");
+
+    // A mission that is killed says nothing more: the drivers stop by themselves.
+    drop(first);
+    let (stopped, _) = until(&mut lines, |_, speed| speed == 0.0);
+    let (still, speed) = lines.nth(10).unwrap();
+    assert_eq!((still, speed), (stopped, 0.0));
+
+    // Drivers that are killed: the mission says that the base has to stop.
+    let second = robot();
+    until(&mut lines, |_, speed| speed > 0.0);
+    drop((base, lines));
+    let listener = UdpSocket::bind(drivers).unwrap();
+    listener.set_read_timeout(Some(Duration::from_secs(2))).unwrap();
+    let mut bytes = [0; 100];
+    let mut last = String::new();
+    while last != "twist 0 0 0" {
+        let length = listener.recv(&mut bytes).expect("a twist of zero comes before 2 s of silence");
+        last = String::from_utf8(bytes[..length].to_vec()).unwrap();
+    }
+    drop(second);
+}
+
 #[test]
 fn what_a_template_is_stands_in_the_help() {
     let output = apex().args(["new", "--help"]).output().unwrap();
     let help = String::from_utf8(output.stdout).unwrap();
-    for part in ["- robot:", "- node:", "- firmware:", "a base and a laser scanner", "[default: robot]"] {
+    for part in ["- robot:", "- node:", "- firmware:", "- bridge:", "a base and a laser scanner", "[default: robot]"] {
         assert!(help.contains(part), "{part}: {help}");
     }
 }

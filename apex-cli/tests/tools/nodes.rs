@@ -92,9 +92,14 @@ fn what_is_not_found_is_said_with_what_may_be_meant() {
     ] {
         assert_eq!(nodes(&folder.0, words), (Some(2), String::new(), format!("error: {message}\n")));
     }
-    let (code, _, errors) = nodes(&folder.0, &["--package", "/"]);
-    assert_eq!(code, Some(2));
-    assert!(errors.contains("`/` is not in a cargo package"), "{errors}");
+}
+
+#[test]
+fn outside_of_a_package_there_is_the_library() {
+    let folder = Folder::new("nodes-library");
+    let (code, list, errors) = nodes(&folder.0, &[]);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    assert!(list.starts_with("apex_nodes::cloud\n") && list.contains("\napex_sim\n"), "{list}");
 }
 
 const HEAD: &str = "\

@@ -1,4 +1,4 @@
-use crate::common::{Folder, apex, package, stderr};
+use crate::common::{Folder, answer, apex, package, stderr};
 use std::{path::Path, process::Output};
 
 const NODES: &str = r"//! Nodes.
@@ -59,8 +59,8 @@ fn worst_times_and_busy_threads_come_from_the_profile() {
     ] {
         assert!(said.lines().any(|l| l.trim() == line), "{line}: {said}");
     }
-    let json: serde_json::Value = serde_json::from_slice(&explain(&profile, &text, "json").stdout).unwrap();
-    assert_eq!(json["threads"][0]["clusters"][0]["worst_us"], 400.0);
+    let json = answer(&explain(&profile, &text, "json"), "explain");
+    assert_eq!(json["result"]["threads"][0]["clusters"][0]["worst_us"], 400.0);
 }
 
 #[test]

@@ -3,6 +3,9 @@
 mod build;
 mod characters;
 pub(crate) mod cst;
+#[rustfmt::skip]
+#[allow(missing_docs, dead_code)]
+mod grammar;
 pub mod keywords;
 mod mistakes;
 mod prescan;
@@ -22,14 +25,6 @@ pub use repair::repaired;
 
 use grammar::Grammar;
 pub(crate) use grammar::Rule;
-
-/// The parser that pest generates from the grammar, where the rules are documented.
-#[allow(missing_docs)]
-mod grammar {
-    #[derive(pest_derive::Parser)]
-    #[grammar = "syntax/afg.pest"]
-    pub struct Grammar;
-}
 
 /// Parses a source file. Always returns a tree; the parts that cannot be parsed are reported and left out.
 pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::File {

@@ -118,66 +118,30 @@ impl Report {
     }
 }
 
+impl Report {
+    /// Report as JSON, for programs. Times are in ns.
+    pub(super) fn json(&self) -> String {
+        let notes = format!("{}", Notes(self));
+        let notes: Vec<String> = notes.lines().map(quoted).collect();
+        let ports: Vec<String> = self.compared.iter().map(Compared::json).collect();
+        let last = self.last.map_or("null".to_owned(), |last| last.as_nanos().to_string());
+        format!(
+            "{{\"reactions\": {}, \"last_ns\": {last}, \"same\": {}, \"whole\": {}, \"notes\": [{}], \"ports\": [{}]}}\n",
+            self.reactions,
+            self.is_same(),
+            self.is_whole(),
+            notes.join(", "),
+            ports.join(", ")
+        )
+    }
+}
+
+/// The parts of a report that are not about the tokens of single ports.
+struct Notes<'a>(&'a Report);
+
 impl Display for Report {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        if self.file > 1 {
-            let number = self.file;
-            writeln!(f, "the recording begins with file {number} of a run: the program was in another state than now")?;
-        }
-        if let Some(cut) = &self.cut {
-            write!(f, "the recording is incomplete: {cut}; only the part before that is compared")?;
-            match self.last {
-                Some(last) => writeln!(f, ", up to the reaction at {last}")?,
-                None => writeln!(f)?,
-            }
-        }
-        if self.skipped > 0 && self.dropped.is_empty() {
-            writeln!(f, "{} reactions are missing in between: later tokens may differ", self.skipped)?;
-        }
-        for (channel, count) in &self.dropped {
-            writeln!(f, "{count} messages of `{channel}` were lost during the recording: later tokens may differ")?;
-        }
-        if !self.undescribed.is_empty() {
-            let names = self.undescribed.join("`, `");
-            writeln!(
-                f,
-                "warning: the recording does not describe the types of `{names}`: if one has changed, nothing tells"
-            )?;
-        }
-        for (channel, (count, reason)) in &self.unreadable {
-            writeln!(f, "{count} recorded tokens of `{channel}` are not values of its type: {reason}")?;
-        }
-        for change in &self.changed {
-            writeln!(f, "cannot compare: {change}")?;
-        }
-        if self.missed > 0 {
-            writeln!(f, "{} times a thread waited in vain for another one, unlike during the recording", self.missed)?;
-        }
-        if self.repeated > 0 {
-            let count = self.repeated;
-            writeln!(
-                f,
-                "{count} times a source was due that was not due during the recording, and sent its last token again"
-            )?;
-        }
-        for line in &self.params {
-            writeln!(f, "parameter {line}")?;
-        }
-        if !self.not_called.is_empty() {
-            let names = self.not_called.join("`, `");
-            writeln!(f, "the tokens of `{names}` come from the recording, whatever reaches the slots")?;
-        }
-        for (name, role) in &self.missing {
-            let why = match role {
-                Role::Source => "is not in the recording: its node runs as usual",
-                Role::Mailbox | Role::Event => "is not in the recording: it receives no tokens",
-                Role::Chosen | Role::Port => "is not in the recording: nothing to compare it with",
-            };
-            writeln!(f, "`{name}` {why}")?;
-        }
-        for name in &self.gone {
-            writeln!(f, "`{name}` is in the recording, but is not a recorded port of the program")?;
-        }
+        write!(f, "{}", Notes(self))?;
         for compared in &self.compared {
             write!(f, "{compared}")?;
         }
@@ -190,6 +154,103 @@ impl Display for Report {
             (false, false) => writeln!(f, "{reactions} reactions, with differences"),
         }
     }
+}
+
+impl Display for Notes<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self(report) = self;
+        if report.file > 1 {
+            let number = report.file;
+            writeln!(f, "the recording begins with file {number} of a run: the program was in another state than now")?;
+        }
+        if let Some(cut) = &report.cut {
+            write!(f, "the recording is incomplete: {cut}; only the part before that is compared")?;
+            match report.last {
+                Some(last) => writeln!(f, ", up to the reaction at {last}")?,
+                None => writeln!(f)?,
+            }
+        }
+        if report.skipped > 0 && report.dropped.is_empty() {
+            writeln!(f, "{} reactions are missing in between: later tokens may differ", report.skipped)?;
+        }
+        for (channel, count) in &report.dropped {
+            writeln!(f, "{count} messages of `{channel}` were lost during the recording: later tokens may differ")?;
+        }
+        if !report.undescribed.is_empty() {
+            let names = report.undescribed.join("`, `");
+            writeln!(
+                f,
+                "warning: the recording does not describe the types of `{names}`: if one has changed, nothing tells"
+            )?;
+        }
+        for (channel, (count, reason)) in &report.unreadable {
+            writeln!(f, "{count} recorded tokens of `{channel}` are not values of its type: {reason}")?;
+        }
+        for change in &report.changed {
+            writeln!(f, "cannot compare: {change}")?;
+        }
+        if report.missed > 0 {
+            writeln!(
+                f,
+                "{} times a thread waited in vain for another one, unlike during the recording",
+                report.missed
+            )?;
+        }
+        if report.repeated > 0 {
+            let count = report.repeated;
+            writeln!(
+                f,
+                "{count} times a source was due that was not due during the recording, and sent its last token again"
+            )?;
+        }
+        for line in &report.params {
+            writeln!(f, "parameter {line}")?;
+        }
+        if !report.not_called.is_empty() {
+            let names = report.not_called.join("`, `");
+            writeln!(f, "the tokens of `{names}` come from the recording, whatever reaches the slots")?;
+        }
+        for (name, role) in &report.missing {
+            let why = match role {
+                Role::Source => "is not in the recording: its node runs as usual",
+                Role::Mailbox | Role::Event => "is not in the recording: it receives no tokens",
+                Role::Chosen | Role::Port => "is not in the recording: nothing to compare it with",
+            };
+            writeln!(f, "`{name}` {why}")?;
+        }
+        for name in &report.gone {
+            writeln!(f, "`{name}` is in the recording, but is not a recorded port of the program")?;
+        }
+        Ok(())
+    }
+}
+
+impl Compared {
+    fn json(&self) -> String {
+        let token = |token: &Option<String>| token.as_deref().map_or("null".to_owned(), quoted);
+        let first = self.first.as_ref().map_or("null".to_owned(), |first| {
+            let (time, was, is) = (first.time.as_nanos(), token(&first.was), token(&first.is));
+            format!("{{\"index\": {}, \"time_ns\": {time}, \"recorded\": {was}, \"replayed\": {is}}}", first.index)
+        });
+        let name = quoted(self.name);
+        format!(
+            "{{\"name\": {name}, \"equal\": {}, \"different\": {}, \"first\": {first}}}",
+            self.equal, self.different
+        )
+    }
+}
+
+/// Text as a string of JSON.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if c < ' ' => quoted += &format!("\\u{:04x}", u32::from(c)),
+            c => quoted.push(c),
+        }
+    }
+    quoted + "\""
 }
 
 impl Display for Compared {

@@ -11,12 +11,14 @@ use crate::{
 };
 use core::time::Duration;
 use std::{
-    env, io,
+    env, fs, io,
     path::{Path, PathBuf},
 };
 
 /// Environment variable with the file to replay.
 const REPLAY: &str = "APEX_REPLAY";
+/// Environment variable with the file for the report on a replay.
+const REPORT: &str = "APEX_REPLAY_REPORT";
 /// Environment variable with the file to record to.
 const RECORD: &str = "APEX_RECORD";
 
@@ -64,13 +66,25 @@ pub(crate) fn drive<P: Program, C: Clock>(
         RunMode::Replay(path) => {
             match replay_with(&mut program, path, |group, tap| instruments::<P>(tap, streams, group)) {
                 Ok(report) => {
-                    print!("{report}");
+                    tell(&report);
                     u8::from(!report.is_same() || !report.is_whole())
                 }
                 Err(error) => {
                     eprintln!("error: {error}");
                     2
                 }
+            }
+        }
+    }
+}
+
+/// Prints the report on a replay, or writes it as JSON to the file that the `apex` command wants.
+fn tell(report: &Report) {
+    match env::var_os(REPORT).map(PathBuf::from) {
+        None => print!("{report}"),
+        Some(path) => {
+            if let Err(error) = fs::write(&path, report.json()) {
+                eprintln!("error: cannot write `{}`: {error}", path.display());
             }
         }
     }

@@ -2,9 +2,17 @@
 
 use crate::{Observer, Time};
 use core::fmt::{Debug, Display, Write as _};
+use std::collections::BTreeMap;
 
-/// Number of moments in the message of a failed test.
+/// Number of moments that the message of a failed test shows one by one. Of more, the last ones are shown, after a list
+/// of what has changed.
 const SHOWN: usize = 20;
+/// Number of last moments after that list.
+const LAST: usize = 5;
+/// Number of moments in that list.
+const CHANGES: usize = 100;
+/// Number of tokens from which on those of a port are counted instead of listed among the changes: those of a stream.
+const STREAM: usize = 20;
 /// Number of characters of a token in that message: a laser scan has thousands.
 const LONGEST: usize = 120;
 
@@ -27,7 +35,21 @@ pub struct Sighting {
 #[derive(Debug, Default, Clone, PartialEq)]
 struct Moment {
     fired: Vec<&'static str>,
-    notes: Vec<String>,
+    notes: Vec<Note>,
+}
+
+/// Something that happens besides the firing of nodes.
+#[derive(Debug, Clone, PartialEq)]
+struct Note {
+    /// Port of a token.
+    port: Option<String>,
+    text: String,
+}
+
+impl Note {
+    fn change(text: String) -> Self {
+        Self { port: None, text }
+    }
 }
 
 /// Events of a test until now, for the message of a failure.
@@ -106,10 +128,11 @@ impl Timeline {
 
     /// Adds a token at a place that the test observes.
     pub fn token(&mut self, port: &str, token: &str) {
-        match token.char_indices().nth(LONGEST) {
-            Some((end, _)) => self.now.notes.push(format!("{port}: {} …", &token[..end])),
-            None => self.now.notes.push(format!("{port}: {token}")),
-        }
+        let text = match token.char_indices().nth(LONGEST) {
+            Some((end, _)) => format!("{port}: {} …", &token[..end]),
+            None => format!("{port}: {token}"),
+        };
+        self.now.notes.push(Note { port: Some(port.to_owned()), text });
     }
 
     /// Ends the reaction, and returns its tokens that satisfy checks.
@@ -121,23 +144,65 @@ impl Timeline {
         core::mem::take(&mut self.sightings)
     }
 
-    /// The list of events.
+    /// The list of events: all moments, or if these are too many, all changes and the last moments.
     pub(super) fn text(&self) -> String {
-        let mut text = String::new();
-        let left_out = self.moments.len().saturating_sub(SHOWN);
-        if left_out > 0 {
-            let _ = writeln!(text, "  … {left_out} earlier moments");
+        if self.moments.is_empty() {
+            return "what happened:\n  nothing\n".to_owned();
         }
-        for (time, moment) in &self.moments[left_out..] {
-            let fired = match moment.fired.as_slice() {
-                [] => None,
-                names => Some(format!("{} fired", names.join(", "))),
-            };
-            let what: Vec<String> = fired.into_iter().chain(moment.notes.iter().cloned()).collect();
-            let _ = writeln!(text, "  {time}  {}", what.join("; "));
+        if self.moments.len() <= SHOWN {
+            return format!("what happened:\n{}", moments(&self.moments));
         }
-        if text.is_empty() { "  nothing\n".to_owned() } else { text }
+        let last = &self.moments[self.moments.len() - LAST..];
+        format!("what changed:\n{}the last moments:\n{}", self.changes(), moments(last))
     }
+
+    /// Changes of activity, problems, and tokens of ports that do not send all the time, with the numbers of the other
+    /// tokens.
+    fn changes(&self) -> String {
+        let notes = || self.moments.iter().flat_map(|(_, moment)| &moment.notes);
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        for port in notes().filter_map(|note| note.port.as_deref()) {
+            *counts.entry(port).or_default() += 1;
+        }
+        let is_change = |note: &&Note| note.port.as_deref().is_none_or(|port| counts[port] <= STREAM);
+        let lines = self.moments.iter().filter_map(|(time, moment)| {
+            let notes: Vec<&str> = moment.notes.iter().filter(is_change).map(|note| note.text.as_str()).collect();
+            (!notes.is_empty()).then(|| format!("  {time}  {}\n", notes.join("; ")))
+        });
+        let lines: Vec<String> = lines.collect();
+        let mut text = String::new();
+        let left_out = lines.len().saturating_sub(CHANGES);
+        if left_out > 0 {
+            let _ = writeln!(text, "  … {left_out} earlier changes");
+        }
+        lines[left_out..].iter().for_each(|line| text.push_str(line));
+        if lines.is_empty() {
+            text.push_str("  nothing\n");
+        }
+        let streams = counts.iter().filter(|(_, count)| **count > STREAM);
+        let streams: Vec<String> = streams.map(|(port, count)| format!("{port}: {count} tokens")).collect();
+        if !streams.is_empty() {
+            let _ = writeln!(text, "  all the time  {}", streams.join("; "));
+        }
+        text
+    }
+}
+
+/// Lines with moments. Nodes that are the same as in the moment before are not named again.
+fn moments(shown: &[(Time, Moment)]) -> String {
+    let mut text = String::new();
+    let mut before: &[&str] = &[];
+    for (time, moment) in shown {
+        let fired = match moment.fired.as_slice() {
+            [] => None,
+            names if names.len() > 2 && names == before => Some(format!("the same {} fired", names.len())),
+            names => Some(format!("{} fired", names.join(", "))),
+        };
+        before = &moment.fired;
+        let what = fired.as_deref().into_iter().chain(moment.notes.iter().map(|note| note.text.as_str()));
+        let _ = writeln!(text, "  {time}  {}", what.collect::<Vec<_>>().join("; "));
+    }
+    text
 }
 
 impl Observer for Timeline {
@@ -150,25 +215,25 @@ impl Observer for Timeline {
     fn activity(&mut self, node: usize, active: bool) {
         let name = self.names[node];
         if let Some(now) = self.listed() {
-            now.notes.push(format!("{name} is {}", if active { "active" } else { "no longer active" }));
+            now.notes.push(Note::change(format!("{name} is {}", if active { "active" } else { "no longer active" })));
         }
     }
     fn failed(&mut self, node: usize, error: &impl Display) {
         let name = self.names[node];
         if let Some(now) = self.listed() {
-            now.notes.push(format!("{name} failed: {error}"));
+            now.notes.push(Note::change(format!("{name} failed: {error}")));
         }
     }
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         let name = self.names[node];
         if let Some(now) = self.listed() {
-            now.notes.push(format!("{name} refused {value:?} for {parameter}"));
+            now.notes.push(Note::change(format!("{name} refused {value:?} for {parameter}")));
         }
     }
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
         let names = nodes.iter().zip(counts).filter(|(_, count)| **count > 0).map(|(node, _)| self.names[*node]);
         let names: Vec<&str> = names.collect();
-        self.now.notes.push(format!("endless cycle of {}", names.join(", ")));
+        self.now.notes.push(Note::change(format!("endless cycle of {}", names.join(", "))));
     }
 }
 
@@ -182,6 +247,51 @@ mod tests {
         timeline.token("name", &"é".repeat(LONGEST));
         timeline.token("scan", &"é".repeat(10_000));
         let shown = "é".repeat(LONGEST);
-        assert_eq!(timeline.now.notes, [format!("name: {shown}"), format!("scan: {shown} …")]);
+        let notes: Vec<&str> = timeline.now.notes.iter().map(|note| note.text.as_str()).collect();
+        assert_eq!(notes, [format!("name: {shown}"), format!("scan: {shown} …")]);
+    }
+
+    /// A program at 100 Hz, whose node `go` becomes active and says so.
+    fn long(moments: i64) -> String {
+        let mut timeline = Timeline::new(vec!["base", "laser", "go"]);
+        for number in 0..moments {
+            timeline.begin(Time::from_millis(10 * number), number as u64);
+            (0..3).for_each(|node| timeline.fired(node));
+            timeline.token("pose", &number.to_string());
+            if number == 3 {
+                timeline.activity(2, true);
+                timeline.token("says", "\"goes\"");
+            }
+            timeline.end();
+        }
+        timeline.text()
+    }
+
+    #[test]
+    fn a_short_test_is_shown_as_it_was() {
+        let expected = "what happened:\n  0.000000 s  base, laser, go fired; pose: 0\n\
+                        \x20 0.010000 s  the same 3 fired; pose: 1\n";
+        assert_eq!(long(2), expected);
+        assert_eq!(Timeline::new(vec![]).text(), "what happened:\n  nothing\n");
+    }
+
+    #[test]
+    fn a_long_test_begins_with_what_has_changed() {
+        let expected = "what changed:\n  0.030000 s  go is active; says: \"goes\"\n\
+                        \x20 all the time  pose: 1000 tokens\nthe last moments:\n\
+                        \x20 9.950000 s  base, laser, go fired; pose: 995\n  9.960000 s  the same 3 fired; pose: 996\n";
+        assert!(long(1000).starts_with(expected), "{}", long(1000));
+    }
+
+    #[test]
+    fn what_changes_all_the_time_is_cut() {
+        let mut timeline = Timeline::new(vec!["go"]);
+        for number in 0..1000 {
+            timeline.begin(Time::from_millis(10 * number), number as u64);
+            timeline.activity(0, number % 2 == 0);
+            timeline.end();
+        }
+        let text = timeline.text();
+        assert!(text.starts_with("what changed:\n  … 900 earlier changes\n  9.000000 s  go is active\n"), "{text}");
     }
 }

@@ -8,7 +8,9 @@ mod buffer;
 mod event;
 mod inbox;
 mod pace;
+mod priority;
 mod route;
+mod time;
 
 pub use activity::{Action, ActivityGate, Attempts, Deactivate, Wait};
 pub use batch::{Collect, Delay, MAX_BATCH};
@@ -16,4 +18,6 @@ pub use buffer::{Hold, Latch, Latest, constant};
 pub use event::{Await, Counter, Debounce, Relay, Signal, Toggle, either, emit, equals, tick};
 pub use inbox::{Inbox, MAX_JOBS};
 pub use pace::{Changed, Count, Edge, Throttle};
+pub use priority::PriorityInbox;
 pub use route::{Branches, gate, merge, select, switch};
+pub use time::{Silence, Stamp};

@@ -31,26 +31,3 @@ impl fmt::Display for ReadError {
 }
 
 impl std::error::Error for ReadError {}
-
-/// Error of a file that cannot be written.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct WriteError {
-    /// Path of the file.
-    pub path: PathBuf,
-    /// Description of the error.
-    pub message: String,
-}
-
-impl WriteError {
-    pub(super) fn new(path: &Path, message: impl fmt::Display) -> Self {
-        Self { path: path.into(), message: message.to_string() }
-    }
-}
-
-impl fmt::Display for WriteError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path.display(), self.message)
-    }
-}
-
-impl std::error::Error for WriteError {}

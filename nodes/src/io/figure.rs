@@ -1,7 +1,34 @@
-use super::WriteError;
 use crate::scan::{Container, Point2, Pose2, Scan, Segments};
 use plotters::{chart::ChartContext, coord::types::RangedCoordf32, drawing::DrawingAreaErrorKind, prelude::*};
-use std::{f32::consts::PI, ops::Range, path::Path};
+use std::{
+    f32::consts::PI,
+    fmt,
+    ops::Range,
+    path::{Path, PathBuf},
+};
+
+/// Error of a file that cannot be written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WriteError {
+    /// Path of the file.
+    pub path: PathBuf,
+    /// Description of the error.
+    pub message: String,
+}
+
+impl WriteError {
+    pub(super) fn new(path: &Path, message: impl fmt::Display) -> Self {
+        Self { path: path.into(), message: message.to_string() }
+    }
+}
+
+impl fmt::Display for WriteError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path.display(), self.message)
+    }
+}
+
+impl std::error::Error for WriteError {}
 
 /// Drawing of a scan: points, segments, wheel boxes and poses, seen from above, in the frame of the scanner.
 #[derive(Debug, Clone, Copy)]

@@ -1,5 +1,4 @@
 use super::ReadError;
-use flate2::read::MultiGzDecoder;
 use std::{
     fmt,
     fs::File,
@@ -119,10 +118,19 @@ fn is_wide(bytes: &[u8]) -> bool {
 /// Reader of a file, which is decompressed if its name ends in `.gz`.
 pub(super) fn reader(path: &Path) -> Result<Box<dyn Read + Send>, ReadError> {
     let file = File::open(path).map_err(|e| ReadError::open(path, e))?;
-    Ok(match Ending::of(path).is_packed {
-        true => Box::new(MultiGzDecoder::new(file)),
-        false => Box::new(file),
-    })
+    if Ending::of(path).is_packed { unpacked(path, file) } else { Ok(Box::new(file)) }
+}
+
+/// Reader of a compressed file.
+#[cfg(feature = "gzip")]
+fn unpacked(_path: &Path, file: File) -> Result<Box<dyn Read + Send>, ReadError> {
+    Ok(Box::new(flate2::read::MultiGzDecoder::new(file)))
+}
+
+/// Error for a compressed file, which only the feature `gzip` can read.
+#[cfg(not(feature = "gzip"))]
+fn unpacked(path: &Path, _file: File) -> Result<Box<dyn Read + Send>, ReadError> {
+    Err(ReadError::open(path, "compressed files need the feature `gzip` of `apex-nodes`"))
 }
 
 /// Ending of a file name, by which the format of the file is known. Cases do not matter.

@@ -1,4 +1,5 @@
-//! Readers of recorded data and of plans, and drawings of scans (feature `std`).
+//! Readers of recorded data and of plans (feature `std`), also of compressed files (feature `gzip`), and drawings of
+//! scans (feature `figure`).
 //!
 //! Readers of tables and logs stream: they hold one line in memory. Invalid data gives an error with file and line, and
 //! reading continues with the next line.
@@ -9,10 +10,12 @@ mod csv;
 #[cfg(feature = "dxf")]
 mod dxf;
 mod error;
+#[cfg(feature = "figure")]
 mod figure;
 mod lines;
 mod lzf;
 mod pcd;
+#[cfg(feature = "figure")]
 mod picture;
 mod pixels;
 mod plan;
@@ -23,11 +26,13 @@ mod spline;
 
 pub use bag::{Bag, BagMessage};
 pub use csv::{CsvLog, CsvReader};
-pub use error::{ReadError, WriteError};
-pub use figure::ScanFigure;
+pub use error::ReadError;
+#[cfg(feature = "figure")]
+pub use figure::{ScanFigure, WriteError};
 #[cfg(feature = "slam")]
 pub(crate) use lines::Lines;
 pub use pcd::{RecordedCloud, read_cloud};
+#[cfg(feature = "figure")]
 pub use picture::ScanPicture;
 pub use pixels::read_map;
 pub use plan::{Plan, PlanOptions, read_plan};

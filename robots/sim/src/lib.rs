@@ -2,14 +2,16 @@
 //! (feature `camera`), time-of-flight cameras (feature `tof`), buildings from plans (feature `building`), and people
 //! (feature `people`).
 //!
-//! Available as nodes: a [`DifferentialBase`], a [`TractorBase`] with trailer and lift, and a [`LaserScanner`] in a
-//! world drawn with characters ([`FloorPlan`]), and a [`LiveView`] of it. `apex new` creates a robot with such nodes.
+//! Available as nodes: a [`DifferentialBase`], a [`TractorBase`] with trailer and lift, a [`Battery`], and a
+//! [`LaserScanner`] in a world drawn with characters ([`FloorPlan`]), and a [`LiveView`] of it. `apex new` creates a
+//! robot with such nodes.
 //!
 //! Deterministic: the same seed gives the same scans on every platform. Much faster than real time.
 //!
 //! Units are SI, axes follow the ROS convention.
 
 mod base;
+mod battery;
 #[cfg(feature = "building")]
 mod building;
 #[cfg(feature = "camera")]
@@ -40,6 +42,7 @@ mod world;
 
 pub use apex_nodes::math::Random;
 pub use base::DifferentialBase;
+pub use battery::Battery;
 #[cfg(feature = "building")]
 pub use building::Building;
 #[cfg(feature = "camera")]

@@ -1,0 +1,3 @@
+//! `flow.afg`: the tests of the source file.
+
+apex_macros::graph!("flow.afg");

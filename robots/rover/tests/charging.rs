@@ -1,0 +1,3 @@
+//! The robot of `robot.afg`, with a battery that charges.
+
+apex_macros::graph!("charging.afg");
