@@ -11,15 +11,13 @@ pub struct ProgramTime {
     last: Time,
     /// Program's time less the time of the reactions, in ns.
     ahead: i64,
-    /// Number of times that the time has gone back.
-    set_backs: u32,
 }
 
 impl ProgramTime {
     /// Returns the time before the first reaction.
     #[allow(clippy::new_without_default, reason = "made by generated code alone, in constants")]
     pub const fn new() -> Self {
-        Self { last: Time::from_nanos(i64::MIN), ahead: 0, set_backs: 0 }
+        Self { last: Time::from_nanos(i64::MIN), ahead: 0 }
     }
 
     /// Returns the program's time of a reaction at `now`. Reports a time that has gone back.
@@ -33,7 +31,6 @@ impl ProgramTime {
     fn set_back<O: Observer>(&mut self, own: Time, observer: &mut O) -> Time {
         let by = self.last.since(own);
         self.ahead = self.ahead.saturating_add(crate::time::nanos(by));
-        self.set_backs = self.set_backs.wrapping_add(1);
         observer.set_back(by);
         self.last
     }
@@ -44,10 +41,10 @@ impl ProgramTime {
         self.last
     }
 
-    /// Returns how often the time has gone back.
+    /// Returns how far the program's time is ahead of that of the reactions, in ns: more whenever that goes back.
     #[inline(always)]
-    pub const fn set_backs(&self) -> u32 {
-        self.set_backs
+    pub const fn ahead(&self) -> i64 {
+        self.ahead
     }
 
     /// Begins the instant `at`.

@@ -6,7 +6,7 @@ use std::{collections::BTreeSet, fs, path::Path};
 
 /// Number of random programs that are looked at. Each word comes in some of a hundred, or in none.
 const PROGRAMS: u64 = 1000;
-/// What precedes the words on the page.
+/// Text before the words on the page.
 const HEAD: &str = "Random programs have none of these words of the language yet:";
 
 #[test]

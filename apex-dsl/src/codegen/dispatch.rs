@@ -60,7 +60,7 @@ impl Generator<'_> {
             field(&name, quote!(bool), quote!(false));
         }
         for node in view.graph.nodes.ids().filter(|node| matches!(view.graph.nodes[*node].kind, NodeKind::SetBack)) {
-            field(&Self::set_backs(node).to_string(), quote!(u32), quote!(0));
+            field(&Self::told_ahead(node).to_string(), quote!(i64), quote!(0));
         }
         fields
     }

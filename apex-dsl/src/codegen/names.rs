@@ -101,7 +101,7 @@ const OWN: [&str; 71] = [
 #[rustfmt::skip]
 const OWN_PREFIXES: [&str; 11] = [
     "param_", "token_", "claim_", "stamp_", "recorded_", "result_", "cell_", "holding_", "sender_", "receiver_",
-    "set_backs_",
+    "ahead_",
 ];
 
 /// The name of a local, which no name that the generated code itself uses hides.

@@ -245,15 +245,15 @@ impl Generator<'_> {
 
     /// The time has gone back since the event of `node` was last triggered.
     pub fn goes_back(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let (name, told) = (self.name(PortId { node, port: 0 }), Self::set_backs(node));
+        let (name, told) = (self.name(PortId { node, port: 0 }), Self::told_ahead(node));
         let sends = &view.links.sends[node];
         let free: Vec<usize> = sends.iter().filter_map(|c| view.wiring.bits.free(*c)).collect();
         let test = self.allows(view, &free);
         let (emit, serve) = (self.emit(view, node, false), self.deliver(view, sends));
         quote! {
-            if self.state.#told != self.state.time.set_backs() #test {
+            if self.state.#told != self.state.time.ahead() #test {
                 let Self { state, .. } = self;
-                state.#told = state.time.set_backs();
+                state.#told = state.time.ahead();
                 state.#name = Some(());
                 #emit
                 #serve
@@ -262,9 +262,9 @@ impl Generator<'_> {
         }
     }
 
-    /// Field with the number of times that the time had gone back when the event of `node` was triggered.
-    pub fn set_backs(node: NodeId) -> Ident {
-        format_ident!("set_backs_{}", node.index())
+    /// Field with how far the program's time was ahead when the event of `node` was last triggered.
+    pub fn told_ahead(node: NodeId) -> Ident {
+        format_ident!("ahead_{}", node.index())
     }
 
     /// When a program wants to be called because of its timers.
