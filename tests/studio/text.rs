@@ -4,6 +4,7 @@ use crate::{
     browser::Browser,
     page::{RUNNING, start, studio, wiring},
 };
+use std::{thread, time::Duration};
 
 const AREA: &str = "document.querySelector('#text-area textarea')";
 const SELECTED: &str = "document.querySelector('#text .is-selected')";
@@ -18,8 +19,20 @@ fn open(page: &mut Browser) {
 }
 
 /// The place of the first letter of words in the text, and that behind their last one, where the coloured rows show
-/// them.
+/// them as soon as the page stands still: what it is told meanwhile may still move the text.
 fn ends(page: &mut Browser, words: &str) -> [(f64, f64); 2] {
+    let mut last = ends_now(page, words);
+    loop {
+        thread::sleep(Duration::from_millis(50));
+        let now = ends_now(page, words);
+        if now == last {
+            return now;
+        }
+        last = now;
+    }
+}
+
+fn ends_now(page: &mut Browser, words: &str) -> [(f64, f64); 2] {
     let place = page.value(&format!(
         "(() => {{
             const at = {AREA}.value.indexOf('{words}');
@@ -41,11 +54,18 @@ fn ends(page: &mut Browser, words: &str) -> [(f64, f64); 2] {
     [0, 1].map(|end| (place[end][0].as_f64().expect(words), place[end][1].as_f64().expect(words)))
 }
 
-/// Replaces words of the text: they are marked with the mouse, and others are typed.
+/// Replaces words of the text: they are marked with the mouse, and others are typed. What is told to the page may move
+/// the text under the mouse, so that one looks at what is marked, and marks it again.
 fn replace(page: &mut Browser, old: &str, new: &str) {
-    let [from, to] = ends(page, old);
-    page.drag(from, to, false);
-    assert_eq!(page.value(&format!("{AREA}.value.slice({AREA}.selectionStart, {AREA}.selectionEnd)")), old);
+    let marked = format!("{AREA}.value.slice({AREA}.selectionStart, {AREA}.selectionEnd)");
+    for _ in 0..3 {
+        let [from, to] = ends(page, old);
+        page.drag(from, to, false);
+        if page.value(&marked) == old {
+            break;
+        }
+    }
+    assert_eq!(page.value(&marked), old);
     page.type_in(new);
     // What was typed may have opened a list of names.
     if page.value("document.querySelector('#text .menu').hidden") == false {
