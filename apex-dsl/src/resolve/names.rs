@@ -217,9 +217,10 @@ impl SourceSet {
         let machines = machines.map(|(item, signature)| (&item.name, Resolution::Machine(*signature)));
         for (name, meaning) in imports.into_iter().chain(graphs).chain(machines) {
             if let Some(first) = places.insert(name.text.clone(), name) {
-                let message = format!("`{}` is already deed here", name.text);
-                diagnostics
-                    .push(Diagnostic::error("duplicate-name", name.span, message).also(first.span, "first deed here"));
+                let message = format!("`{}` is already defined here", name.text);
+                diagnostics.push(
+                    Diagnostic::error("duplicate-name", name.span, message).also(first.span, "first defined here"),
+                );
                 unclear.insert(name.text.clone());
             }
             names.insert(name.text.clone(), meaning);
