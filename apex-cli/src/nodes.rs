@@ -150,9 +150,14 @@ impl Entry<'_> {
         text
     }
 
+    /// Ports in the order of a list.
+    fn ports(&self) -> impl Iterator<Item = &PortFacts> {
+        KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind))
+    }
+
     /// Description for programs. Values are written as in a source file.
     fn json(&self) -> Value {
-        let ports = KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind));
+        let ports = self.ports();
         let port = |port: &PortFacts| {
             json!({
                 "kind": port.kind.word(), "name": port.name, "type": port.type_text(), "optional": port.optional,
@@ -186,12 +191,8 @@ impl Entry<'_> {
             let range = param.range.as_ref().map(|range| format!(" in {range}")).unwrap_or_default();
             format!("{}: {}{unit}{default}{range}", param.name, param.ty)
         };
-        let ports = KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind));
-        let port = |port: &PortFacts| {
-            let kind = if port.kind == PortKind::Input { "in" } else { port.kind.word() };
-            let kind = if port.kind == PortKind::Output { "out" } else { kind };
-            format!("{kind} {}", typed(&port.name, &port.type_text()))
-        };
+        let ports = self.ports();
+        let port = |port: &PortFacts| format!("{} {}", port.kind.keyword(), typed(&port.name, &port.type_text()));
         let params: Vec<String> = self.params.iter().map(param).collect();
         let ports: Vec<String> = ports.map(port).collect();
         let (name, docs) = (&self.signature.name, linkless(&first_sentence(&self.signature.docs)));
@@ -200,7 +201,7 @@ impl Entry<'_> {
 
     /// Rows with the ports and parameters: kind, name, type with unit, default and range, documentation.
     fn rows(&self) -> Vec<[String; 4]> {
-        let ports = KINDS.iter().flat_map(|kind| self.ports.iter().filter(move |port| port.kind == *kind));
+        let ports = self.ports();
         let port = |port: &PortFacts| {
             let ty = if port.ty.is_unit() { String::new() } else { port.type_text() };
             let remarks: Vec<&str> = port.remarks().collect();

@@ -12,7 +12,7 @@ use apex_dsl::{
     source::{Sources, World as _},
     syntax::MAX_BYTES,
 };
-use apex_host::{Disk, Seen, Workspace, read_from};
+use apex_host::{Disk, Workspace, read_from};
 use std::{
     env,
     io::{self, ErrorKind, IsTerminal as _, Write as _},
@@ -95,9 +95,7 @@ impl Checker {
     pub fn new(file: &Path) -> Result<Self, String> {
         let folder = package_of(file);
         let workspace = folder.as_deref().map(Workspace::load).transpose()?;
-        let in_package =
-            |package: &Workspace| (package.crates(&Seen::Package), Disk::new(Some(&package.cache_folder())));
-        let (crates, mut disk) = workspace.as_ref().map_or_else(apex_library::lone, in_package);
+        let (crates, mut disk) = apex_library::crates_of(workspace.as_ref());
         let catalog = Catalog::load(crates, &mut disk);
         Ok(Self { catalog, workspace, disk })
     }

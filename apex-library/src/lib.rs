@@ -1,7 +1,7 @@
 //! Nodes of the library, for source files outside of any package: all features, as they were when this crate was built.
 
 use apex_dsl::catalog::{CrateSpec, Crates, Item};
-use apex_host::Disk;
+use apex_host::{Disk, Seen, Workspace};
 use serde::Deserialize;
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -26,6 +26,12 @@ struct Crate {
     root: PathBuf,
     features: BTreeSet<String>,
     dependencies: BTreeSet<String>,
+}
+
+/// Returns the crates that a source file can use, and a file system for them: those of its package, or the library
+/// outside of any package.
+pub fn crates_of(package: Option<&Workspace>) -> (Crates, Disk) {
+    package.map_or_else(lone, |package| (package.crates(&Seen::Package), Disk::new(Some(&package.cache_folder()))))
 }
 
 /// Returns the crates that a source file outside of any package can use, and a file system with their items.

@@ -2,7 +2,7 @@
 
 use crate::documents::Document;
 use apex_dsl::{catalog::Catalog, source::World};
-use apex_host::{Disk, Seen, Workspace};
+use apex_host::{Disk, Workspace};
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
@@ -28,9 +28,7 @@ impl Project {
             Ok(workspace) => (workspace, None),
             Err(reason) => (None, Some(reason)),
         };
-        let in_package =
-            |package: &Workspace| (package.crates(&Seen::Package), Disk::new(Some(&package.cache_folder())));
-        let (crates, mut disk) = workspace.as_ref().map_or_else(apex_library::lone, in_package);
+        let (crates, mut disk) = apex_library::crates_of(workspace.as_ref());
         let root = crates.root.clone();
         let catalog = Catalog::load(crates, &mut disk);
         disk.save();

@@ -498,22 +498,21 @@ fn check_named(ty: &Type) -> syn::Result<()> {
 /// The error type `E` of a function that returns `Result<T, E>`.
 pub fn error_type(output: &ReturnType) -> Option<&Type> {
     let ReturnType::Type(_, ty) = output else { return None };
-    let Type::Path(path) = &**ty else { return None };
-    let last = path.path.segments.last().filter(|last| last.ident == "Result")?;
-    let PathArguments::AngleBracketed(args) = &last.arguments else { return None };
-    match args.args.iter().nth(1)? {
-        GenericArgument::Type(error) => Some(error),
-        _ => None,
-    }
+    argument(ty, "Result", 1)
 }
 
 /// `T` of `Name<T, …>`.
 fn wrapped<'a>(ty: &'a Type, name: &str) -> Option<&'a Type> {
+    argument(ty, name, 0)
+}
+
+/// An argument of `Name<T, E, …>`, by its place.
+fn argument<'a>(ty: &'a Type, name: &str, place: usize) -> Option<&'a Type> {
     let Type::Path(path) = ty else { return None };
-    let last = path.path.segments.last()?;
+    let last = path.path.segments.last().filter(|last| last.ident == name)?;
     let PathArguments::AngleBracketed(args) = &last.arguments else { return None };
-    match args.args.first()? {
-        GenericArgument::Type(inner) if last.ident == name => Some(inner),
+    match args.args.iter().nth(place)? {
+        GenericArgument::Type(inner) => Some(inner),
         _ => None,
     }
 }

@@ -54,18 +54,11 @@ fn ends_now(page: &mut Browser, words: &str) -> [(f64, f64); 2] {
     [0, 1].map(|end| (place[end][0].as_f64().expect(words), place[end][1].as_f64().expect(words)))
 }
 
-/// Replaces words of the text: they are marked with the mouse, and others are typed. What is told to the page may move
-/// the text under the mouse, so that one looks at what is marked, and marks it again.
+/// Replaces words of the text: they are marked with the mouse, and others are typed.
 fn replace(page: &mut Browser, old: &str, new: &str) {
-    let marked = format!("{AREA}.value.slice({AREA}.selectionStart, {AREA}.selectionEnd)");
-    for _ in 0..3 {
-        let [from, to] = ends(page, old);
-        page.drag(from, to, false);
-        if page.value(&marked) == old {
-            break;
-        }
-    }
-    assert_eq!(page.value(&marked), old);
+    let [from, to] = ends(page, old);
+    page.drag(from, to, false);
+    assert_eq!(page.value(&format!("{AREA}.value.slice({AREA}.selectionStart, {AREA}.selectionEnd)")), old);
     page.type_in(new);
     // What was typed may have opened a list of names.
     if page.value("document.querySelector('#text .menu').hidden") == false {

@@ -21,7 +21,7 @@ pub fn read(output: &str) -> Vec<Tested> {
         if let Some((path, is)) = line.strip_prefix("test ").and_then(|line| line.split_once(" ... "))
             && of.is_none()
         {
-            let name = path.rsplit("::").next().unwrap_or(path).trim_start_matches("r#").to_owned();
+            let name = name_of(path).to_owned();
             tests.push((path.to_owned(), Tested { name, passed: is == "ok", output: String::new() }));
         } else if let Some(path) = line.strip_prefix("---- ").and_then(|line| line.strip_suffix(" stdout ----")) {
             of = tests.iter().position(|(known, _)| known == path);
@@ -40,8 +40,12 @@ pub fn read(output: &str) -> Vec<Tested> {
 /// Names of the failed tests in the output of a program with tests: the list at its end.
 pub fn failed(output: &str) -> Vec<&str> {
     let list = output.rsplit_once("\nfailures:\n").map_or("", |(_, list)| list);
-    let names = list.lines().take_while(|line| line.starts_with("    ")).map(str::trim);
-    names.map(|path| path.rsplit("::").next().unwrap_or(path).trim_start_matches("r#")).collect()
+    list.lines().take_while(|line| line.starts_with("    ")).map(|line| name_of(line.trim())).collect()
+}
+
+/// Name of a test in the source file, from its path in Rust.
+fn name_of(path: &str) -> &str {
+    path.rsplit("::").next().unwrap_or(path).trim_start_matches("r#")
 }
 
 /// Result of `apex test --format json`.

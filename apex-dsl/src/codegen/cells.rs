@@ -3,6 +3,7 @@
 use super::{
     Generator,
     activity::ProgramView,
+    dispatch::free_to_send,
     plan::is_buffer,
     wiring::{Entry, Flag},
 };
@@ -96,12 +97,11 @@ impl Generator<'_> {
     /// A token comes out of its cell, or all that it caused has finished.
     pub fn receive_far(&self, view: ProgramView<'_>, node: NodeId, far: CellEnd) -> TokenStream {
         let ProgramView { graph, analysis, links, wiring } = view;
-        let bits = &wiring.bits;
         let end = PortId { node, port: 0 };
         let (cell, holding, name, sender) =
             (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
         let told = sender.map(|sender| quote! { wake.wake(#sender); });
-        let free: Vec<usize> = links.sends[node].iter().filter_map(|c| bits.free(*c)).collect();
+        let free = free_to_send(view, node);
         let all_free = quote!(true #(&& self.state.dispatcher.has(#free))*);
         let test = self.allows(view, &[]);
         // Otherwise nothing but a token from the cell occupies the connections.

@@ -456,6 +456,11 @@ impl Generator<'_> {
     }
 }
 
+/// The conditions that all connections on which a node sends are free.
+pub fn free_to_send(view: ProgramView<'_>, node: NodeId) -> Vec<usize> {
+    view.links.sends[node].iter().filter_map(|c| view.wiring.bits.free(*c)).collect()
+}
+
 /// Returns `true` for a slot of the program whose tokens can go on.
 fn is_entered(view: ProgramView<'_>, node: NodeId) -> bool {
     matches!(view.graph.nodes[node].kind, NodeKind::Boundary(PortKind::Slot)) && !view.links.sends[node].is_empty()

@@ -4,6 +4,7 @@ use super::{
     Generator,
     activity::{Carries, ProgramView},
     clusters::inlined,
+    dispatch::free_to_send,
     plan::is_buffer,
     stamps,
     types::ident,
@@ -381,8 +382,7 @@ impl Generator<'_> {
     fn entering(&self, view: ProgramView<'_>, node: NodeId) -> (Ident, TokenStream, TokenStream) {
         let graph = view.graph;
         let (name, port) = (self.name(PortId { node, port: 0 }), ident(&graph.nodes[node].name));
-        let free: Vec<usize> = view.links.sends[node].iter().filter_map(|c| view.wiring.bits.free(*c)).collect();
-        let test = self.allows(view, &free);
+        let test = self.allows(view, &free_to_send(view, node));
         let emit = self.emit(view, node, false);
         let serve = self.deliver(view, &view.links.sends[node]);
         let goes_on = quote! {

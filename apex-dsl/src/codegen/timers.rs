@@ -4,6 +4,7 @@ use super::{
     Generator,
     activity::ProgramView,
     clusters::inlined,
+    dispatch::free_to_send,
     plan::is_buffer,
     stamps,
     state::{Kind, StateField},
@@ -247,8 +248,7 @@ impl Generator<'_> {
     pub fn goes_back(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         let (name, told) = (self.name(PortId { node, port: 0 }), Self::told_ahead(node));
         let sends = &view.links.sends[node];
-        let free: Vec<usize> = sends.iter().filter_map(|c| view.wiring.bits.free(*c)).collect();
-        let test = self.allows(view, &free);
+        let test = self.allows(view, &free_to_send(view, node));
         let (emit, serve) = (self.emit(view, node, false), self.deliver(view, sends));
         quote! {
             if self.state.#told != self.state.time.ahead() #test {

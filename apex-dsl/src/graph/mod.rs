@@ -308,11 +308,10 @@ impl Graph {
 
     /// The thread group of a node: its own, or that of the innermost nested graph with one.
     pub fn group(&self, node: NodeId) -> &str {
-        if matches!(self.nodes[node].kind, NodeKind::Watchdog) {
-            return WATCH_GROUP;
-        }
-        if matches!(self.nodes[node].kind, NodeKind::SetBack) {
-            return MAIN_GROUP;
+        match self.nodes[node].kind {
+            NodeKind::Watchdog => return WATCH_GROUP,
+            NodeKind::SetBack => return MAIN_GROUP,
+            _ => {}
         }
         let own = self.nodes[node].modifiers.group.as_deref();
         let around = || self.scopes_of(node).into_iter().find_map(|scope| self.scopes[scope].group.as_deref());

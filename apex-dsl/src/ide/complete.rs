@@ -9,7 +9,7 @@ use super::{
 use crate::{
     catalog::{Match, Type},
     graph::Standard,
-    resolve::{GraphId, Resolution},
+    resolve::{GraphId, Resolution, is_own_event},
     source::Span,
     syntax::{
         keywords::{KeywordPosition, words_at},
@@ -175,8 +175,7 @@ impl Completer<'_> {
         for (i, node) in item.nodes.iter().enumerate() {
             found.extend(self.node(id, i, &node.name.text, named, types.as_deref()));
         }
-        let slots = words_at(KeywordPosition::Node)
-            .filter(|w| matches!(w.text, "start" | "hung" | "set_back") == (named == Named::Sends));
+        let slots = words_at(KeywordPosition::Node).filter(|w| is_own_event(w.text) == (named == Named::Sends));
         let own =
             slots.filter(|_| named != Named::Node).map(|w| Completion::new(w.text, CompletionKind::Name, "", w.docs));
         found.into_iter().chain(own).collect()

@@ -37,7 +37,7 @@ pub fn describe(view: &View<'_>, definition: Definition) -> String {
             page(&port(facts), &format!("{}\n\n{kind} of `{}`.{optional}{number}", facts.docs, view.name_of(node)))
         }
         Definition::Standard(standard) => {
-            let declaration = format!("{} {}: {}", word_of(standard.kind()), standard.name(), standard.ty());
+            let declaration = format!("{} {}: {}", standard.kind().keyword(), standard.name(), standard.ty());
             page(&declaration, &format!("{}\n\nEvery node has this port.", standard_docs(standard)))
         }
         Definition::State(id, i) => {
@@ -139,16 +139,7 @@ pub fn param(param: &ParamFacts) -> String {
 
 /// `in  scan: Scan`
 pub fn port(port: &PortFacts) -> String {
-    format!("{:5} {}: {}", word_of(port.kind), port.name, port.type_text())
-}
-
-fn word_of(kind: PortKind) -> &'static str {
-    match kind {
-        PortKind::Input => "in",
-        PortKind::Output => "out",
-        PortKind::Slot => "slot",
-        PortKind::Event => "event",
-    }
+    format!("{:5} {}: {}", port.kind.keyword(), port.name, port.type_text())
 }
 
 fn kind_in_words(kind: PortKind) -> &'static str {

@@ -245,12 +245,15 @@ impl SourceSet {
                 !catalog.nodes(&words).is_empty() || !catalog.types(&words).is_empty() || catalog.is_refused(&words);
             if !is_there && !is_constant() {
                 let error = unknown_import(&words, last, catalog);
-                return Err(Some(Box::new(match (first.text.as_str(), self.stem_of(file, last, sources)) {
-                    ("crate", Some(Some(stem))) => {
-                        error.note(format!("a graph is imported by its file: `use {stem}::{};`", last.text))
+                let is_there = |other: &usize| first.text == "crate" && self.item(*other, last).is_some();
+                return Err(Some(Box::new(match (0..self.files.len()).find(is_there) {
+                    Some(own) if own == file => error.note("the graphs of this file need no import"),
+                    Some(other) => {
+                        let stem = sources.get(self.files[other].0).path.file_stem().unwrap_or_default();
+                        let import = format!("use {}::{};", stem.to_string_lossy(), last.text);
+                        error.note(format!("a graph is imported by its file: `{import}`"))
                     }
-                    ("crate", Some(None)) => error.note("the graphs of this file need no import"),
-                    _ => error,
+                    None => error,
                 })));
             }
             return Ok(Resolution::Rust(words));
@@ -268,27 +271,22 @@ impl SourceSet {
         self.import_item(other, first, last)
     }
 
-    /// The file, by the name that an import has for it, with a graph or state machine `name`; `Some(None)` for `file`
-    /// itself.
-    fn stem_of(&self, file: usize, name: &Ident, sources: &Sources) -> Option<Option<String>> {
-        let has_item = |tree: &File| {
-            let machines = tree.machines.iter().map(|machine| machine.name.text.clone());
-            tree.graphs.iter().map(|graph| graph.name.text.clone()).chain(machines).any(|item| item == name.text)
-        };
-        let found = self.files.iter().position(|(_, tree)| has_item(tree))?;
-        let stem = sources.get(self.files[found].0).path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        Some(stem.filter(|_| found != file))
+    /// The graph or state machine `name` of source file `file`.
+    fn item(&self, file: usize, name: &Ident) -> Option<Resolution> {
+        let tree = &self.files[file].1;
+        if let Some(machine) = tree.machines.iter().position(|m| m.name.text == name.text) {
+            return Some(Resolution::Machine(self.machine_nodes[file][machine]));
+        }
+        let graph = tree.graphs.iter().position(|g| g.name.text == name.text)?;
+        Some(Resolution::Graph(GraphId { file, graph }))
     }
 
     /// The graph or state machine `name` of source file `other`, which is imported as `module`.
     fn import_item(&self, other: usize, module: &Ident, name: &Ident) -> Result<Resolution, Option<Box<Diagnostic>>> {
+        if let Some(item) = self.item(other, name) {
+            return Ok(item);
+        }
         let tree = &self.files[other].1;
-        if let Some(machine) = tree.machines.iter().position(|m| m.name.text == name.text) {
-            return Ok(Resolution::Machine(self.machine_nodes[other][machine]));
-        }
-        if let Some(graph) = tree.graphs.iter().position(|g| g.name.text == name.text) {
-            return Ok(Resolution::Graph(GraphId { file: other, graph }));
-        }
         if tree.broken {
             return Err(None);
         }

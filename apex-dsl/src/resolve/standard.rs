@@ -24,6 +24,11 @@ pub fn own_node(name: &str) -> Option<NodeKind> {
     }
 }
 
+/// Returns `true` if a predefined name is that of an event.
+pub fn is_own_event(name: &str) -> bool {
+    own_node(name).is_some_and(|kind| sends(&kind))
+}
+
 fn own(kind: &NodeKind) -> bool {
     sends(kind) || matches!(kind, NodeKind::Reset | NodeKind::Exit(_))
 }

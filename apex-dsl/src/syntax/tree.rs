@@ -153,6 +153,16 @@ impl PortKind {
         if self == Self::Slot { "a" } else { "an" }
     }
 
+    /// Keyword of its declaration.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Self::Input => "in",
+            Self::Output => "out",
+            Self::Slot => "slot",
+            Self::Event => "event",
+        }
+    }
+
     /// Name of the kind.
     pub fn word(self) -> &'static str {
         match self {

@@ -5,8 +5,8 @@ use heapless::Vec;
 /// Keeps jobs of three priorities until it is active, and passes them on one by one: the most important one first, of
 /// equal ones the oldest. Activity comes in at `next` and leaves with the job; without a job it stays until one comes.
 ///
-/// A job for which there is no room takes the place of the last one that is less important. If there is none, it is
-/// lost itself; the lost one triggers `lost`. For jobs of one priority, use [`Inbox`](super::Inbox).
+/// A full inbox gives up its last job for a more important one, and refuses all others. The job that is lost triggers
+/// `lost`. For jobs of one priority, use [`Inbox`](super::Inbox).
 #[node]
 #[derive(Debug, Clone)]
 pub struct PriorityInbox<T> {
@@ -38,7 +38,7 @@ impl<T: Clone> PriorityInbox<T> {
         self.put(value, Priority::Normal, ctx, job, lost);
     }
 
-    /// Takes a job that is done when there is no other.
+    /// Takes a job that comes after all others.
     #[slot]
     fn low(&mut self, value: &T, ctx: &Ctx, job: Event<T>, #[failure] lost: Event<T>) {
         self.put(value, Priority::Low, ctx, job, lost);
@@ -75,7 +75,7 @@ impl<T: Clone> PriorityInbox<T> {
         }
     }
 
-    /// Keeps a job in its place. Returns the one for which there is no room.
+    /// Inserts a job by its priority. Returns the job that is lost, if the inbox is full.
     fn keep(&mut self, priority: Priority, job: T) -> Option<T> {
         let is_full = self.kept.len() >= self.capacity.clamp(1, MAX_JOBS);
         if is_full && self.kept.last().is_none_or(|(last, _)| *last >= priority) {
