@@ -39,10 +39,10 @@ pub fn run(file: &Path, filter: Option<&str>, how: How, answer: &mut Answer) -> 
     let names = chosen(&scripts, filter)?;
     let Some(Found { built, names, turn }) = built(file, &checked, &names, how)? else { return answer.not_built() };
     let mut command = built.command();
-    command.arg("--exact").args(names).current_dir(run::package(file)?).env("RUST_BACKTRACE", "0");
+    command.arg("--exact").args(&names).current_dir(run::package(file)?).env("RUST_BACKTRACE", "0");
     if answer.is_json() {
         let output = command.stderr(Stdio::inherit()).output().map_err(|e| built.not_started(&e))?;
-        let tests = results::read(&String::from_utf8_lossy(&output.stdout));
+        let tests = results::read(&String::from_utf8_lossy(&output.stdout), &names);
         answer.give(String::new, || results::json(&tests))?;
         return Ok(if output.status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) });
     }

@@ -12,8 +12,8 @@ pub struct Tested {
     output: String,
 }
 
-/// Results in the output of a program with tests.
-pub fn read(output: &str) -> Vec<Tested> {
+/// Results in the output of a program with tests, in the order of `names`: tests end in any order.
+pub fn read(output: &str, names: &[String]) -> Vec<Tested> {
     let mut tests: Vec<(String, Tested)> = vec![];
     // Number of the test whose output is being read.
     let mut of = None;
@@ -32,6 +32,7 @@ pub fn read(output: &str) -> Vec<Tested> {
             tests[number].1.output.push('\n');
         }
     }
+    tests.sort_by_key(|(path, _)| names.iter().position(|name| name == path));
     let mut tests: Vec<Tested> = tests.into_iter().map(|(_, test)| test).collect();
     tests.iter_mut().for_each(|test| test.output = test.output.trim().to_owned());
     tests
@@ -63,11 +64,12 @@ mod tests {
 
     #[test]
     fn results_have_the_output_of_their_tests() {
-        let output = "\nrunning 2 tests\ntest robot::a ... ok\ntest robot::r#b ... FAILED\n\nfailures:\n\n\
+        let output = "\nrunning 2 tests\ntest robot::r#b ... FAILED\ntest robot::a ... ok\n\nfailures:\n\n\
                       ---- robot::r#b stdout ----\ntest b at 1 s\ntest x ... ok\n\n\n\
                       failures:\n    robot::r#b\n\ntest result: FAILED. 1 passed\n";
         let test = |name: &str, passed, output: &str| Tested { name: name.into(), passed, output: output.into() };
         assert_eq!(failed(output), ["b"]);
-        assert_eq!(read(output), [test("a", true, ""), test("b", false, "test b at 1 s\ntest x ... ok")]);
+        let names = ["robot::a", "robot::r#b"].map(str::to_owned);
+        assert_eq!(read(output, &names), [test("a", true, ""), test("b", false, "test b at 1 s\ntest x ... ok")]);
     }
 }
