@@ -53,6 +53,7 @@ fn time(reaction: i64) -> Time {
 fn observe<P: Program>(new: fn() -> P, how: &str) {
     match how {
         "again" => repeat(new),
+        "late" => hurry(new),
         _ => observe_once(new(), how == "threads"),
     }
 }
@@ -93,11 +94,31 @@ fn repeat<P: Program>(new: fn() -> P) {
         Ok(_) => {}
         Err(error) => println!("it cannot be replayed: {error}"),
     }
-    if first != second {
-        let same = first.iter().zip(&second).take_while(|(a, b)| a == b).count();
-        println!("step {same} of {}: {:?} was {:?}", first.len(), second.get(same), first.get(same));
+    compare(&first, &second);
+    println!("# end");
+}
+
+/// Runs a program in time, and with reactions that are late.
+#[allow(dead_code, reason = "a part may have no graph")]
+fn hurry<P: Program>(new: fn() -> P) {
+    let steps = |reactions: &[i64]| {
+        let mut program = new();
+        reactions.iter().for_each(|reaction| drop(program.react_with(time(*reaction), &mut Notes)));
+        take_notes().lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let in_time = steps(&(0..REACTIONS).collect::<Vec<_>>());
+    for late in [&[0, REACTIONS - 1][..], &[0, 2, 3, 7, REACTIONS - 1]] {
+        compare(&in_time, &steps(late));
     }
     println!("# end");
+}
+
+/// Says where a second run differs from a first one.
+fn compare(first: &[String], second: &[String]) {
+    if first != second {
+        let same = first.iter().zip(second).take_while(|(a, b)| a == b).count();
+        println!("step {same} of {}: {:?} was {:?}", first.len(), second.get(same), first.get(same));
+    }
 }
 
 fn main() {
@@ -118,6 +139,8 @@ pub enum How {
     OnThreads,
     /// The groups in sequence, recorded and replayed. The record is the difference between both runs.
     Again,
+    /// In time, and with late reactions. The record is the difference between the runs.
+    Late,
 }
 
 /// Programs that are compiled together.
@@ -184,6 +207,7 @@ impl Part<'_> {
             How::InTurn => None,
             How::OnThreads => Some("threads"),
             How::Again => Some("again"),
+            How::Late => Some("late"),
         });
         let ran = command.output().map_err(|e| format!("cannot run the program: {e}"))?;
         let text = String::from_utf8_lossy(&ran.stdout);

@@ -2,12 +2,13 @@
 
 use apex_tests::{
     Dice,
-    oracle::{Case, Checked, Checker, Record, generate, walk},
+    oracle::{Case, Checked, Checker, Record, generate, walk, with_timeouts},
 };
 
 /// The random graph of a seed, or `None` if it is not legal.
 fn checked(checker: &Checker, seed: u64) -> Option<(Case, Checked)> {
     let case = generate(seed, true);
+    let case = if seed % 2 == 0 { case } else { with_timeouts(case) };
     let checked = checker.check(&case.text("Random")).ok()?;
     Some((case, checked))
 }

@@ -5,7 +5,7 @@
 
 use crate::compile::{How, Program, run};
 use apex_dsl::graph::NodeId;
-use apex_tests::oracle::{Case, Checker, Failure, generate, on_threads, read};
+use apex_tests::oracle::{Case, Checker, Failure, generate, on_threads, paced, read, with_timeouts};
 use std::{collections::BTreeMap, env};
 
 /// Seeds of graphs with errors in the past, which are always tested.
@@ -55,7 +55,7 @@ fn wrong(checker: &Checker, program: &Program, ways: &[How], records: &[Vec<Stri
     let mut all = ways.iter().zip(records);
     all.find_map(|(how, records)| {
         let why = match how {
-            How::Again => Some(records[at].clone()).filter(|difference| !difference.is_empty()),
+            How::Again | How::Late => Some(records[at].clone()).filter(|difference| !difference.is_empty()),
             How::InTurn | How::OnThreads => wrong_record(checker, program, &records[at]),
         };
         why.map(|why| format!("{why}\n  ({how:?})"))
@@ -152,10 +152,24 @@ fn compiled_programs_run_as_their_nets_may() {
     try_all("oracle", &[How::InTurn], 1, |seed| generate(seed, true));
 }
 
+#[test]
+fn timeouts_come_as_in_their_nets() {
+    try_all("oracle-timeouts", &[How::InTurn], 2, |seed| with_timeouts(generate(seed, true)));
+}
+
+/// The result of a late reaction is that of reactions in time.
+#[test]
+fn late_programs_run_as_in_time() {
+    try_all("oracle-late", &[How::Late], 4, |seed| paced(with_timeouts(generate(seed, true))));
+}
+
 /// In sequence and on threads, compiled once.
 #[test]
 fn thread_groups_run_as_their_nets_may() {
-    try_all("oracle-threads", &[How::InTurn, How::OnThreads], 4, |seed| on_threads(generate(seed, true)));
+    try_all("oracle-threads", &[How::InTurn, How::OnThreads], 4, |seed| match seed % 2 {
+        0 => on_threads(generate(seed, true)),
+        _ => on_threads(with_timeouts(generate(seed, true))),
+    });
 }
 
 /// Also with several groups, which run in sequence here.

@@ -1,7 +1,7 @@
 //! The words of the language that no random program has, which docs/compiler.md lists.
 
 use apex_dsl::syntax::keywords::KEYWORDS;
-use apex_tests::oracle::{generate, on_threads};
+use apex_tests::oracle::{generate, on_threads, with_timeouts};
 use std::{collections::BTreeSet, fs, path::Path};
 
 /// Number of random programs that are looked at. Each word comes in some of a hundred, or in none.
@@ -12,7 +12,8 @@ const HEAD: &str = "Random programs have none of these words of the language yet
 #[test]
 fn what_random_programs_lack_is_listed() {
     let texts = (0..PROGRAMS).flat_map(|seed| {
-        [generate(seed, false), generate(seed, true), on_threads(generate(seed, true))].map(|case| case.text("Random"))
+        let case = || generate(seed, true);
+        [generate(seed, false), case(), with_timeouts(case()), on_threads(case())].map(|case| case.text("Random"))
     });
     let mut written = BTreeSet::new();
     for text in texts {

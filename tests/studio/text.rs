@@ -48,8 +48,11 @@ fn ends_now(page: &mut Browser, words: &str) -> [(f64, f64); 2] {
                     return [box.left + 0.5, box.top + box.height / 2];
                 }}
             }};
-            const column = before.at(-1).length;
-            return [point(column), point(column + '{words}'.length)]; }})()"
+            const column = before.at(-1).length, ends = () => [point(column), point(column + '{words}'.length)];
+            // In the middle, since the browser scrolls while the mouse marks something near an edge.
+            const [from, to] = ends(), area = document.getElementById('text-area'), box = area.getBoundingClientRect();
+            area.scrollLeft += (from[0] + to[0]) / 2 - (box.left + box.width / 2);
+            return ends(); }})()"
     ));
     [0, 1].map(|end| (place[end][0].as_f64().expect(words), place[end][1].as_f64().expect(words)))
 }

@@ -236,6 +236,11 @@ pub fn clusters(
             block: Block::default(),
         });
     }
+    debug_assert_eq!(
+        clusters.iter().map(|cluster| cluster.own_guards.len()).sum::<usize>(),
+        clusters.iter().flat_map(|cluster| &cluster.own_guards).collect::<BTreeSet<_>>().len(),
+        "a guard that one cluster takes is missed by another one"
+    );
     join(graph, &cluster_of, &mut clusters);
     (guards, clusters, cluster_of)
 }
@@ -315,7 +320,8 @@ impl View<'_> {
 ///
 /// The two kinds depend on each other. A new guard also reaches the consumers downstream, so that those of a pulled
 /// group may no longer have guards in common. The group is dropped then, its sources get guards of their own, and the
-/// next round begins. As groups are only dropped, the rounds end.
+/// next round begins. The same holds for nodes that share a new guard, of which another one reaches only some: a loop
+/// of delays may feed another one. They are parted then. As groups are only dropped and parted, the rounds end.
 fn add_react_guards(
     view: &View<'_>,
     guards: &mut Vec<Guard>,
@@ -325,14 +331,17 @@ fn add_react_guards(
     let plain = without_pace(view, guards, own);
     let holding = holding(view, &above);
     let mut demand_driven = demand_driven(view, &above);
+    let mut parts: BTreeMap<NodeId, usize> = plain.iter().map(|node| (*node, 0)).collect();
     loop {
         let (mut all, mut with_react) = (guards.clone(), own.clone());
         let is_pulled = |node: &NodeId| demand_driven.iter().any(|p| p.nodes.contains(node));
         // A shared guard is taken by one firing, so all nodes that share it must end up in one cluster. That depends on
         // their other guards, too.
-        let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<HeldBack>), usize> = BTreeMap::new();
-        for &node in plain.iter().filter(|node| !is_pulled(node)) {
-            let guard = *shared.entry((view.regions[node], &above[node], &holding[node])).or_insert_with(|| {
+        let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<HeldBack>, usize), usize> = BTreeMap::new();
+        let sharing: Vec<NodeId> = plain.iter().copied().filter(|node| !is_pulled(node)).collect();
+        for &node in &sharing {
+            let key = (view.regions[node], &above[node], &holding[node], parts[&node]);
+            let guard = *shared.entry(key).or_insert_with(|| {
                 all.push(Guard::React);
                 all.len() - 1
             });
@@ -344,7 +353,13 @@ fn add_react_guards(
             let set = p.guards(&all, &accumulated);
             set.inspect(|set| p.nodes.iter().for_each(|node| accumulated[*node].clone_from(set))).is_some()
         });
-        if demand_driven.len() == count {
+        let mut found: BTreeMap<(&[usize], &BTreeSet<usize>), usize> = BTreeMap::new();
+        for &node in &sharing {
+            let number = found.len();
+            let number = *found.entry((&with_react[node], &accumulated[node])).or_insert(number);
+            parts.insert(node, number);
+        }
+        if demand_driven.len() == count && found.len() == shared.len() {
             (*guards, *own) = (all, with_react);
             return accumulated;
         }

@@ -1,7 +1,7 @@
 //! Translation of a graph into a net: one component for each node, connection and boundary of a nested graph.
 
 use super::{
-    Net, NoNet, Place, PlaceId, Transition, TransitionKind, connection_name,
+    Net, NoNet, Place, PlaceId, Transition, TransitionKind, clocks, connection_name,
     route::{self, Loop, Segment, SegmentEnd},
     side_name,
 };
@@ -197,6 +197,29 @@ impl<'a> Builder<'a> {
             self.process(node, &name, lock, &ports);
         }
         self.slots(node, &name, lock, &ports);
+        self.time_out(node, &name, lock);
+    }
+
+    /// Adds the transition that triggers the `timeout` of a node. Like a slot it needs the legs of all its events.
+    fn time_out(&mut self, node: NodeId, name: &str, lock: PlaceId) {
+        let Some(port) = clocks::port(self.graph, node) else { return };
+        let (sent, kept): (Vec<usize>, Vec<usize>) = self
+            .legs_of_events(node)
+            .into_iter()
+            .partition(|leg| self.graph.connections[self.segments[*leg].connection].from.port == port);
+        let (mut takes, mut gives) = (vec![lock], vec![lock]);
+        takes.extend(self.free(&sent));
+        takes.extend(self.free(&kept));
+        gives.extend(self.sent(&sent));
+        gives.extend(self.free(&kept));
+        self.transition(format!("{name} is timed out"), TransitionKind::TimeOut(node), takes, gives);
+    }
+
+    /// Legs of the events of a node.
+    fn legs_of_events(&self, node: NodeId) -> Vec<usize> {
+        let mut legs = self.legs_from(SegmentEnd::Node(node));
+        legs.retain(|leg| route::from_event(self.graph, self.segments[*leg].connection));
+        legs
     }
 
     /// Places of the ports that send only values, marked while it is undecided if the port sends one. Adds the
@@ -271,9 +294,7 @@ impl<'a> Builder<'a> {
         if incoming.is_empty() {
             return;
         }
-        let events = self.legs_from(SegmentEnd::Node(node));
-        let events: Vec<usize> =
-            events.into_iter().filter(|l| route::from_event(self.graph, self.segments[*l].connection)).collect();
+        let events = self.legs_of_events(node);
         let called = self.place(format!("{name} is in a slot"), 0);
         for segment in incoming {
             let connection = self.segments[segment].connection;

@@ -10,6 +10,7 @@
 
 mod build;
 mod bypass;
+mod clocks;
 mod demand_driven;
 mod pnml;
 mod replay;
@@ -99,6 +100,8 @@ pub enum TransitionKind {
     Return(usize),
     /// `start` begins the activity of the program.
     Start(NodeId),
+    /// The time of a node's `timeout` is over: its event is triggered, with the activity of the node.
+    TimeOut(NodeId),
 }
 
 /// Reason why a graph has no net.

@@ -123,6 +123,7 @@ impl<'a> Replay<'a> {
     pub fn begin(&mut self, now: Duration) {
         self.step += 1;
         self.now = now;
+        self.state.set_time(now);
         for (node, (_, fired)) in &mut self.sources {
             // An iteration that is still under way counts as the one of this reaction.
             let notify = self.by_kind.get(&TransitionKind::Notify(*node)).filter(|_| self.hesitant.contains(node));
@@ -231,6 +232,12 @@ impl<'a> Replay<'a> {
                 return Ok(());
             }
         }
+        // A timeout takes the activity of its node along.
+        while self.time_out(|t| t.kind == TransitionKind::TimeOut(node)) {
+            if self.matches_expected(node, active) {
+                return Ok(());
+            }
+        }
         self.bypass.push((node, active));
         Ok(())
     }
@@ -243,20 +250,14 @@ impl<'a> Replay<'a> {
         self.step += 1;
         let what = "the reaction ends";
         self.flush_deferred();
+        while self.time_out(|_| true) {}
         self.check_debts(what)?;
         self.check_early(what, |_| false)?;
         for (transition, t) in self.net.transitions.iter_enumerated() {
             if !self.state.is_enabled(transition) {
                 continue;
             }
-            // Sources may remain enabled if they are not due, or if they fire on demand.
-            let open = match t.kind {
-                TransitionKind::Take(node) | TransitionKind::Release(node) => {
-                    self.is_due(node) && !self.demand_driven.contains(&node)
-                }
-                _ => true,
-            };
-            if open {
+            if self.is_open(t.kind) {
                 return Err(self.wrong(what, format!("`{}` could still occur", t.name)));
             }
         }
@@ -268,6 +269,32 @@ impl<'a> Replay<'a> {
         }
         self.expected.clear();
         Ok(())
+    }
+
+    /// Returns `true` if an enabled transition has to occur before the reaction ends: sources may remain enabled if
+    /// they are not due, or if they fire on demand.
+    fn is_open(&self, kind: TransitionKind) -> bool {
+        match kind {
+            TransitionKind::Take(node) | TransitionKind::Release(node) => {
+                self.is_due(node) && !self.demand_driven.contains(&node)
+            }
+            _ => true,
+        }
+    }
+
+    /// Lets the first timeout occur if nothing else is left to do. With several thread groups, each group waits for its
+    /// own nodes alone: the first timeout that `serves`. Returns `false` if none occurs.
+    fn time_out(&mut self, serves: impl Fn(&Transition) -> bool) -> bool {
+        let enabled = self.net.transitions.iter_enumerated().filter(|(id, _)| self.state.is_enabled(*id));
+        let (due, others): (Vec<_>, Vec<_>) = enabled.partition(|(_, t)| matches!(t.kind, TransitionKind::TimeOut(_)));
+        let first = match self.has_groups {
+            true => due.into_iter().find(|(_, t)| serves(t)),
+            false => due.into_iter().next().filter(|_| !others.iter().any(|(_, t)| self.is_open(t.kind))),
+        };
+        let Some((id, _)) = first else { return false };
+        self.run(id);
+        self.settle();
+        true
     }
 
     /// Returns `true` if `node` is active now.
@@ -297,12 +324,17 @@ impl<'a> Replay<'a> {
 
     /// Enables `transition` by unrecorded transitions, if that is possible.
     fn prepare(&mut self, transition: TransitionId, what: &str) -> Result<(), Wrong> {
+        // If nothing else is left to do, it waits for a timeout.
+        while !self.has_groups && !self.state.is_enabled(transition) && self.time_out(|_| true) {}
         if !self.state.is_enabled(transition) {
             self.bring_all(transition, &mut BTreeSet::new());
         }
         // A deferred transition may be the one that blocks it.
         if !self.state.is_enabled(transition) {
             self.flush_for(transition);
+        }
+        while !self.state.is_enabled(transition) && self.time_out(|_| true) {
+            self.bring_all(transition, &mut BTreeSet::new());
         }
         if self.state.is_enabled(transition) {
             return Ok(());
@@ -458,7 +490,7 @@ impl<'a> Replay<'a> {
                     && self.is_due(node)
             }
             TransitionKind::Release(node) => !self.hesitant.contains(&node) && self.is_due(node),
-            TransitionKind::Handle(_) => false,
+            TransitionKind::Handle(_) | TransitionKind::TimeOut(_) => false,
             _ => true,
         }
     }

@@ -4,6 +4,7 @@ use super::{
     Net, PlaceId, TransitionId, TransitionKind,
     build::has_process,
     bypass::Bypass,
+    clocks::{self, Clocks},
     route::{self, SegmentEnd},
     token_on,
 };
@@ -13,7 +14,10 @@ use crate::{
     index::IdVec,
     syntax::tree::PortKind,
 };
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::{
+    collections::{BTreeMap, BTreeSet, VecDeque},
+    time::Duration,
+};
 
 /// Origin of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -96,6 +100,7 @@ pub struct State<'a> {
     /// The delays of each loop, by the first one.
     loops: BTreeMap<NodeId, Vec<NodeId>>,
     bypass: Bypass,
+    clocks: Clocks,
 }
 
 /// A leg with its token place.
@@ -113,7 +118,7 @@ pub fn unsupported(graph: &Graph) -> Option<String> {
             return Some(format!("`{}` is a port of the program", node.name));
         }
         for port in &node.ports {
-            if port.standard.is_some_and(|s| s != Standard::Processed) {
+            if port.standard.is_some_and(|s| !matches!(s, Standard::Processed | Standard::Timeout)) {
                 return Some(format!("`{}.{}` is used", graph.path(id), port.name));
             }
         }
@@ -166,10 +171,16 @@ impl<'a> State<'a> {
             into,
             from,
             consumers,
+            clocks: Clocks::new(graph, &sources),
             sources,
             bypass: Bypass::new(&segments, &loops, net),
             loops: loops.into_iter().map(|on_loop| (on_loop.delays[0], on_loop.delays)).collect(),
         }
+    }
+
+    /// The time of a reaction, which may be the end of that of a `timeout`.
+    pub fn set_time(&mut self, now: Duration) {
+        self.clocks.set(now);
     }
 
     /// Nodes that fire on their own: nodes without connected inputs, and the first delays of loops without entries.
@@ -233,6 +244,7 @@ impl<'a> State<'a> {
                 // The call has already decided if the port sends: only one of the two transitions is enabled.
                 TransitionKind::Trigger(end) => decided(end),
                 TransitionKind::Suppress(end) => !decided(end),
+                TransitionKind::TimeOut(node) => self.clocks.is_due(self.graph, node),
                 _ => true,
             }
     }
@@ -302,6 +314,7 @@ impl<'a> State<'a> {
                 t.gives.last().map(|p| (*p, token)).into_iter().collect()
             }
             TransitionKind::Start(node) => self.start(node),
+            TransitionKind::TimeOut(node) => self.time_out(node),
             TransitionKind::Notify(_) | TransitionKind::NotifySide(_) | TransitionKind::Return(_) => BTreeMap::new(),
         };
         for place in &t.gives {
@@ -312,6 +325,7 @@ impl<'a> State<'a> {
     fn set_active(&mut self, node: NodeId, active: bool) {
         if self.active[node] != active {
             self.active[node] = active;
+            self.clocks.turned(node, active);
             self.changes.push((node, active));
         }
     }
@@ -406,6 +420,9 @@ impl<'a> State<'a> {
                 links.iter().copied().filter(|l| self.graph.connections[l.connection].from == end).collect();
             let interrupts = self.graph.nodes[node].interrupts().is_some();
             let value = taken.runs && (interrupts || self.sends(call, port));
+            if value && !links.is_empty() && taken.slot.is_none() && p.standard.is_none() {
+                self.clocks.sent(node);
+            }
             let has_active = links.iter().any(|l| self.graph.connections[l.connection].active);
             // A node that deactivates others sends −1 with its events. Any other node gives its own activity away.
             let modifier = match value && has_active {
@@ -447,9 +464,33 @@ impl<'a> State<'a> {
     fn sends(&self, call: Call, port: usize) -> bool {
         match self.graph.nodes[call.node].kind {
             NodeKind::Each(_) => true,
-            _ if self.graph.nodes[call.node].ports[port].standard == Some(Standard::Processed) => call.slot.is_none(),
-            _ => (self.script)(call, port),
+            _ => match self.graph.nodes[call.node].ports[port].standard {
+                Some(Standard::Processed) => call.slot.is_none(),
+                Some(Standard::Timeout) => false,
+                _ => (self.script)(call, port),
+            },
         }
+    }
+
+    /// Tokens of the event `timeout`, with the activity of the node.
+    fn time_out(&mut self, node: NodeId) -> BTreeMap<PlaceId, Token> {
+        self.clocks.expire(node);
+        let port = clocks::port(self.graph, node);
+        let links = self.from.get(&SegmentEnd::Node(node)).cloned().unwrap_or_default();
+        let connection = |link: &Link| &self.graph.connections[link.connection];
+        let links: Vec<Link> = links.into_iter().filter(|link| Some(connection(link).from.port) == port).collect();
+        let deactivates = self.deactivates[node];
+        let passes = self.active[node] && !deactivates && links.iter().any(|link| connection(link).active);
+        let effect = if deactivates { -1 } else { i8::from(passes) };
+        let token = |link: &Link| {
+            let modifier = if connection(link).active { effect } else { 0 };
+            (link.token, Token { origin: None, value: true, modifier })
+        };
+        let colours = links.iter().map(token).collect();
+        if passes {
+            self.set_active(node, false);
+        }
+        colours
     }
 
     fn decide(&mut self, end: PortId) -> BTreeMap<PlaceId, Token> {

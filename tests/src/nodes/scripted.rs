@@ -352,6 +352,27 @@ impl ScKick {
     }
 }
 
+/// An input without a value.
+#[node]
+pub struct ScTock {
+    /// Identifier of the node.
+    #[param]
+    id: i64,
+    /// Seed, mode and limit.
+    #[param]
+    script: [i64; 3],
+    calls: i64,
+}
+
+#[node]
+impl ScTock {
+    fn process(&mut self, _x: &(), e: Event<i64>) -> Option<i64> {
+        let now = call(self.id, self.script, &mut self.calls, &[Some(7)]);
+        now.event("e", e);
+        now.value("out")
+    }
+}
+
 /// Sends lists.
 #[node]
 pub struct ScList {

@@ -1,5 +1,8 @@
 //! A random graph before it is written as a source file.
 
+/// The event of a node with a `timeout`.
+pub const TIMEOUT: &str = "timeout";
+
 /// A type of scripted node with its ports. A `?` marks an optional input.
 #[derive(Debug, PartialEq, Eq)]
 pub struct NodeType {
@@ -42,6 +45,7 @@ pub const NODE_TYPES: &[NodeType] = &[
     ty("ScHandler", &[], &[], &["s", "t"], &["e", "f"]),
     ty("ScStop", &[], &[], &["s"], &["e"]),
     ty("ScKick", &[], &[], &["s"], &["e"]),
+    ty("ScTock", &["x"], &["out"], &[], &["e"]),
     ty("ScList", &["x"], &["out"], &[], &[]),
     ty("pass", &["x"], &["out"], &[], &[]),
     ty("ScListSink", &["x"], &[], &[], &[]),
@@ -67,6 +71,8 @@ pub struct Instance {
     pub delay: usize,
     /// Periods of `every` and `after` in ms, for sources.
     pub every: Option<(usize, usize)>,
+    /// Time of `timeout` in ms.
+    pub timeout: Option<usize>,
     /// `true` for `start => …`.
     pub starts: bool,
     /// Thread; 0 is the main one.
@@ -123,6 +129,8 @@ pub struct Case {
     pub groups: Vec<usize>,
     /// Connections that cancel and resume.
     pub cancels: Vec<Cancel>,
+    /// `true` if no source makes up for what it has missed, which makes a difference in late reactions.
+    pub skips: bool,
 }
 
 impl Case {
@@ -187,6 +195,14 @@ impl Case {
             }
             if self.nodes[n].starts {
                 add(&|c| c.nodes[n].starts = false);
+            }
+            if self.nodes[n].timeout.is_some() {
+                add(&|c| {
+                    c.nodes[n].timeout = None;
+                    let id = c.nodes[n].id;
+                    c.links.retain(|link| link.from != (id, TIMEOUT));
+                    c.cancels.retain(|cancel| cancel.by.0 != (id, TIMEOUT));
+                });
             }
             if self.nodes[n].every.is_some() {
                 add(&|c| c.nodes[n].every = None);

@@ -2,7 +2,7 @@
 
 use super::{
     ALWAYS,
-    case::{Cancel, Case, Instance, Link, NODE_TYPES, NodeType, Target, node_type},
+    case::{Cancel, Case, Instance, Link, NODE_TYPES, NodeType, TIMEOUT, Target, node_type},
 };
 use crate::Dice;
 
@@ -41,7 +41,15 @@ pub fn generate(seed: u64, asynchronous: bool) -> Case {
         delays: dice.one_in(3),
     };
     let limit = if dice.one_in(3) { 3 } else { 1 + dice.below(25) };
-    let mut case = Case { seed, limit, nodes: vec![], links: vec![], groups: vec![0], cancels: vec![] };
+    let mut case = Case {
+        seed,
+        limit,
+        nodes: vec![],
+        links: vec![],
+        groups: vec![0],
+        cancels: vec![],
+        skips: (seed / 2).is_multiple_of(6),
+    };
     nodes(&mut dice, &mut case, size, &flavour);
     if flavour.nested {
         nest(&mut dice, &mut case);
@@ -82,6 +90,65 @@ pub fn on_threads(mut case: Case) -> Case {
         }
     }
     case
+}
+
+/// Gives all sources a period, so that nothing depends on the number of reactions. Loops of delays that nothing feeds
+/// do; the graph has no delays.
+pub fn paced(mut case: Case) -> Case {
+    let mut dice = Dice(case.seed.wrapping_mul(0xe703_7ed1_a0b4_28db) | 1);
+    case.skips = false;
+    for node in &mut case.nodes {
+        node.delay = 0;
+        let is_source = node.ty.name.starts_with("ScSource") || node.ty.name == "ScTicker";
+        node.every = node.every.or_else(|| is_source.then(|| (1 + dice.below(3), dice.below(2))));
+    }
+    case
+}
+
+/// Gives some nodes of a graph a `timeout`, which is told to a slot or an input, or cancels something.
+pub fn with_timeouts(mut case: Case) -> Case {
+    let mut dice = Dice(case.seed.wrapping_mul(0xa076_1d64_78bd_642f) | 1);
+    for _ in 0..1 + dice.below(4) {
+        let id = dice.of(&case.nodes).id;
+        time_out(&mut dice, &mut case, id);
+    }
+    let Case { nodes, cancels, .. } = &mut case;
+    for cancel in cancels {
+        // All that cancels is in the body of the same nested graph.
+        let group = nodes.iter().find(|node| node.id == cancel.by.0.0).map(|node| node.group);
+        let timed = nodes.iter().find(|node| node.timeout.is_some() && Some(node.group) == group);
+        if let Some(timed) = timed.filter(|_| dice.one_in(2)) {
+            cancel.by.0 = (timed.id, TIMEOUT);
+        }
+    }
+    case
+}
+
+/// Gives a node a `timeout`, and a node that is told of it.
+fn time_out(dice: &mut Dice, case: &mut Case, id: usize) {
+    let Some(node) = case.nodes.iter_mut().find(|node| node.id == id) else { return };
+    if node.timeout.is_some() || matches!(node.ty.name, "pass" | "ScList") {
+        return;
+    }
+    node.timeout = Some(1 + dice.below(5));
+    let (mut told, group) = (node.clone(), node.group);
+    let port;
+    (told.ty, port) = if dice.one_in(3) { (node_type("ScTock"), "x") } else { (node_type("ScKick"), "s") };
+    told.id = 1 + case.nodes.iter().map(|node| node.id).max().unwrap_or_default();
+    told.group = if dice.one_in(2) { group } else { 0 };
+    (told.delay, told.every, told.timeout, told.starts) = (0, None, None, false);
+    case.links.push(Link {
+        from: (id, TIMEOUT),
+        to: (told.id, port),
+        active: !dice.one_in(3),
+        relayed: dice.one_in(4),
+    });
+    let to = dice.of(&case.nodes);
+    if let Some(slot) = to.ty.slots.first().filter(|_| to.ty.name != "ScKick") {
+        let (active, relayed) = (dice.one_in(2), dice.one_in(4));
+        case.links.push(Link { from: (told.id, "e"), to: (to.id, slot), active, relayed });
+    }
+    case.nodes.push(told);
 }
 
 fn nodes(dice: &mut Dice, case: &mut Case, size: usize, flavour: &Flavour) {
@@ -125,6 +192,7 @@ fn push(dice: &mut Dice, case: &mut Case, ty: &'static NodeType, flavour: &Flavo
         group: 0,
         delay: if delayed { 1 + dice.below(2) } else { 0 },
         every: (is_source && flavour.paced && dice.one_in(2)).then(|| (1 + dice.below(4), dice.below(3))),
+        timeout: None,
         starts: false,
         thread: 0,
     });
@@ -275,7 +343,7 @@ fn beside(dice: &mut Dice, case: &Case, group: usize) -> Option<(usize, &'static
 fn activate(dice: &mut Dice, case: &mut Case) {
     for _ in 0..1 + dice.below(3) {
         let n = dice.below(case.nodes.len());
-        if case.nodes[n].ty.name != "pass" && case.nodes[n].ty.name != "ScKick" {
+        if !matches!(case.nodes[n].ty.name, "pass" | "ScKick" | "ScTock") {
             case.nodes[n].starts = true;
         }
     }

@@ -1,6 +1,6 @@
 //! Writes a random graph as a source file.
 
-use super::case::{Cancel, Case, Instance, Link, Target, around};
+use super::case::{Cancel, Case, Instance, Link, TIMEOUT, Target, around};
 use std::{collections::BTreeMap, fmt::Write as _};
 
 impl Case {
@@ -84,10 +84,12 @@ impl Case {
             if after > 0 {
                 let _ = write!(text, " after {after}ms");
             }
-            // No reaction of these programs is late.
-            if self.in_form(6) {
+            if self.skips {
                 text.push_str(" skip");
             }
+        }
+        if let Some(timeout) = node.timeout {
+            let _ = write!(text, " timeout {timeout}ms");
         }
         if node.delay > 0 {
             let _ = write!(text, " delay {:?}", vec![7; node.delay]);
@@ -174,7 +176,11 @@ impl Bodies<'_> {
             if link.relayed { "_r" } else { "" },
             if link.active { "_a" } else { "" }
         );
-        let ty = if from.ty.name == "ScList" || from.ty.name == "pass" { "Vec<i64>" } else { "i64" };
+        let ty = match from.ty.name {
+            _ if link.from.1 == TIMEOUT => "()",
+            "ScList" | "pass" => "Vec<i64>",
+            _ => "i64",
+        };
         let (words_in, words_out) = if link.relayed { ("slot", "event") } else { ("in", "out") };
         let mut at = format!("n{}.{}", link.from.0, link.from.1);
         let mut body = from.group;

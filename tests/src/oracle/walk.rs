@@ -28,6 +28,7 @@ pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u6
     let mut records = vec![];
     for reaction in 0..reactions {
         let now = Duration::from_millis(reaction);
+        state.set_time(now);
         records.push(Record::Begin(now.as_nanos() as u64));
         let mut plain: Vec<NodeId> = vec![];
         loop {
@@ -49,10 +50,14 @@ pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u6
                     _ => true,
                 })
                 .collect();
-            if ready.is_empty() {
-                break;
-            }
-            let transition = *dice.of(&ready);
+            // A timeout comes only if nothing else is left to do, the first one.
+            let is_time_out = |t: &TransitionId| matches!(net.transitions[*t].kind, TransitionKind::TimeOut(_));
+            let (due, others): (Vec<_>, Vec<_>) = ready.into_iter().partition(is_time_out);
+            let transition = match (others.is_empty(), due.first()) {
+                (false, _) => *dice.of(&others),
+                (true, Some(first)) => *first,
+                (true, None) => break,
+            };
             let kind = net.transitions[transition].kind;
             if let TransitionKind::Take(node) | TransitionKind::Release(node) = kind {
                 *fired.entry(node).or_default() += 1;
