@@ -51,6 +51,20 @@ fn decided_claims_cost_nothing() {
     assert!(apex_tests::expand(text).contains("claim_failed"));
 }
 
+/// Pairs of nodes that pass an activity to each other, and claims about some of them.
+#[test]
+fn what_happens_elsewhere_does_not_multiply_the_states_of_a_claim() {
+    let pair = |n: usize| {
+        format!("node a{n} = Pass();\nnode b{n} = Pass();\nstart => a{n};\na{n}.e => b{n}.s;\nb{n}.e => a{n}.s;\n")
+    };
+    let pairs: String = (0..18).map(pair).collect();
+    let claims = "claim exclusive(a0, b0);\nclaim exclusive(a1, b1);\nclaim reaches(a2, b2);\nclaim conserved;\n";
+    let text = format!("use apex_tests::nodes::Pass;\ngraph Pairs {{\n{pairs}{claims}}}\n");
+    assert!(!apex_tests::expand(&text).contains("claim_"));
+    let wrong = text.replace("b1)", "b2)");
+    assert!(std::panic::catch_unwind(|| apex_tests::expand(&wrong)).is_err(), "both can be active");
+}
+
 fn index<P: Program>(node: &str) -> usize {
     P::INFO.nodes.iter().position(|n| n.name == node).expect("there is such a node")
 }

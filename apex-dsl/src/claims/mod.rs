@@ -3,6 +3,7 @@
 mod model;
 mod properties;
 mod search;
+mod slices;
 mod trace;
 
 use crate::{
@@ -14,6 +15,7 @@ use crate::{
 pub use model::{Arrival, Emission, Model, Move, Place, PlaceId, State};
 pub use properties::{Checks, FROM, NEARER, scopes_of};
 pub use search::{MAX_STATES, Outcome, search};
+pub use slices::{Slice, slices};
 
 /// Verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,17 +68,26 @@ pub fn decide(graph: &Graph, catalog: &Catalog, bound: usize, diagnostics: &mut 
     }
     let model = Model::new(graph, catalog);
     let checks = Checks::new(graph, &model);
-    let outcome = search(&model, &checks, bound);
-    let mut decided = Decided { states: outcome.states, verdicts: vec![] };
-    for (number, (claim, run)) in graph.claims.iter().zip(&outcome.runs).enumerate() {
+    let mut decided = Decided::default();
+    let mut found: Vec<(Option<Vec<Move>>, bool)> = vec![(None, true); graph.claims.len()];
+    for slice in slices(&model, &checks) {
+        let mut outcome = search(&model, &checks, &slice, bound.saturating_sub(decided.states));
+        decided.states += outcome.states;
+        for claim in slice.claims {
+            let (run, complete) = &mut found[claim];
+            *run = run.take().or(outcome.runs[claim].take());
+            *complete &= outcome.complete;
+        }
+    }
+    for (number, (claim, (run, complete))) in graph.claims.iter().zip(&found).enumerate() {
         decided.verdicts.push(match run {
             Some(run) => {
                 diagnostics.push_once(failure(graph, &model, claim, run));
                 Verdict::Fails
             }
-            None if outcome.complete || checks.is_certain(&model, number, claim.of.len() as u32) => Verdict::Holds,
+            None if *complete || checks.is_certain(&model, number, claim.of.len() as u32) => Verdict::Holds,
             None => {
-                diagnostics.push_once(open(graph, claim, outcome.states));
+                diagnostics.push_once(open(graph, claim, decided.states));
                 Verdict::Undecided
             }
         });

@@ -350,6 +350,12 @@ impl Interrupt {
         made
     }
 
+    /// All places that a `cancel` or `resume` has to do with.
+    pub fn places(&self) -> impl Iterator<Item = PlaceId> + '_ {
+        let remembered = self.gives.iter().flat_map(|(remembered, node)| [*remembered, *node]);
+        self.takes.iter().chain(&self.sends).copied().chain(remembered)
+    }
+
     /// The state after a `cancel`; `None` while a connection of `cancelled` is occupied. `brought` is `true` if the
     /// token carried activity itself.
     fn cancel(&self, state: &State, brought: bool) -> Option<State> {

@@ -66,6 +66,17 @@ impl Checks {
         self.kinds.len()
     }
 
+    /// Kind of a claim.
+    pub fn kind(&self, claim: usize) -> ClaimKind {
+        self.kinds[claim]
+    }
+
+    /// The places that a claim is about.
+    pub fn about(&self, claim: usize) -> impl Iterator<Item = PlaceId> + '_ {
+        let is_about = move |groups: &[(u32, u32)]| groups.iter().any(|(other, _)| *other == claim as u32);
+        (0..).zip(&self.groups).filter(move |(_, groups)| is_about(groups)).map(|(place, _)| place)
+    }
+
     /// The places that belong to a subject of a claim.
     pub fn places(&self, claim: usize, group: u32) -> Vec<PlaceId> {
         let meant = (claim as u32, group);
@@ -93,8 +104,8 @@ impl Checks {
         state.iter().any(|place| self.goals[&claim].contains(place))
     }
 
-    /// The claims that do not hold in a state, whatever follows.
-    pub fn broken(&self, model: &Model, state: &State) -> Vec<usize> {
+    /// The claims that do not hold in a state, whatever follows. `given` is the amount of activity at the beginning.
+    pub fn broken(&self, model: &Model, state: &State, given: usize) -> Vec<usize> {
         // For each claim the first subject that is active, and `true` if the claim is known to fail.
         let mut found: Vec<(Option<u32>, bool)> = vec![(None, false); self.kinds.len()];
         for (claim, group) in state.iter().flat_map(|place| &self.groups[*place as usize]) {
@@ -108,7 +119,7 @@ impl Checks {
             }
         }
         let is_broken = |claim: &usize| match (self.kinds[*claim], found[*claim]) {
-            (ClaimKind::Conserved, _) => state.iter().filter(|place| model.is_active(**place)).count() != model.given,
+            (ClaimKind::Conserved, _) => state.iter().filter(|place| model.is_active(**place)).count() != given,
             (ClaimKind::Reaches, (nearer, from)) => from && nearer.is_none(),
             (ClaimKind::Exclusive, (_, both)) => both,
         };

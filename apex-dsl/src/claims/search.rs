@@ -3,6 +3,7 @@
 use super::{
     model::{Model, Move, State},
     properties::Checks,
+    slices::Slice,
 };
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -28,24 +29,26 @@ struct Visited {
     by: Move,
 }
 
-/// Searches at most `bound` states for violations of the claims.
-pub fn search(model: &Model, checks: &Checks, bound: usize) -> Outcome {
-    let initial = Arc::new(model.initial.clone());
+/// Searches at most `bound` states of a slice for violations of its claims.
+pub fn search(model: &Model, checks: &Checks, slice: &Slice, bound: usize) -> Outcome {
+    let initial: State = model.initial.iter().copied().filter(|place| slice.places[*place as usize]).collect();
+    let (given, initial) = (initial.len(), Arc::new(initial));
     let mut known = BTreeMap::from([(initial.clone(), 0)]);
     let mut visited = vec![Visited { state: initial, before: 0, by: Move::Start }];
     let mut runs: Vec<Option<Vec<Move>>> = vec![None; checks.count()];
     let (mut at, mut work, mut complete) = (0, 0, true);
     // Each state with one before it, if a claim asks for ways.
-    let (mut ways, keeps_ways) = (vec![], checks.about_ways().next().is_some());
+    let about_ways: Vec<usize> = checks.about_ways().filter(|claim| slice.claims.contains(claim)).collect();
+    let (mut ways, keeps_ways) = (vec![], !about_ways.is_empty());
     while at < visited.len() {
         let state = visited[at].state.clone();
-        for claim in checks.broken(model, &state) {
-            if runs[claim].is_none() {
+        for claim in checks.broken(model, &state, given) {
+            if runs[claim].is_none() && slice.claims.contains(&claim) {
                 runs[claim] = Some(run(&visited, at));
             }
         }
         // Nothing is left to be found if each claim is known to fail.
-        if work > MAX_WORK || runs.iter().all(Option::is_some) {
+        if work > MAX_WORK || slice.claims.iter().all(|claim| runs[*claim].is_some()) {
             complete = false;
             at += 1;
             break;
@@ -74,7 +77,7 @@ pub fn search(model: &Model, checks: &Checks, bound: usize) -> Outcome {
     }
     if complete {
         ways.sort_unstable();
-        for claim in checks.about_ways().filter(|claim| runs[*claim].is_none()).collect::<Vec<_>>() {
+        for claim in about_ways.into_iter().filter(|claim| runs[*claim].is_none()).collect::<Vec<_>>() {
             let lost = first_lost(checks, claim, &visited, &ways);
             runs[claim] = lost.map(|lost| run(&visited, lost));
         }

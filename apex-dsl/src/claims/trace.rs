@@ -6,6 +6,9 @@ use crate::graph::{Connection, Graph};
 /// Largest number of steps of a run that are shown.
 const MAX_STEPS: usize = 40;
 
+/// Largest number of places with initial activity that are shown.
+const MAX_STARTS: usize = 6;
+
 /// Steps in one line of the compact form.
 const STEPS_IN_LINE: usize = 10;
 
@@ -38,11 +41,11 @@ pub fn run(graph: &Graph, model: &Model, moves: &[Move]) -> Vec<String> {
 fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
     match by {
         Move::Start => {
-            let given: Vec<String> = before.iter().map(|place| given(graph, model, *place)).collect();
-            if given.is_empty() {
-                "`start` creates no activity".to_owned()
-            } else {
-                format!("`start`: {}", given.join(", "))
+            let given: Vec<String> = before.iter().take(MAX_STARTS).map(|place| given(graph, model, *place)).collect();
+            match before.len() {
+                0 => "`start` creates no activity".to_owned(),
+                count @ ..=MAX_STARTS => format!("`start`: {}", given[..count].join(", ")),
+                count => format!("`start`: {}, and {} more", given.join(", "), count - MAX_STARTS),
             }
         }
         Move::Emit(place, number) => {
