@@ -3,7 +3,7 @@
 use crate::{
     analyse::{active_nodes, active_nodes_within, successors},
     catalog::Catalog,
-    graph::{Connection, ConnectionId, Graph, NodeId, NodeKind, WireEnd},
+    graph::{ClaimKind, Connection, ConnectionId, Flow, Graph, NodeId, NodeKind, Standard, Subject, WireEnd},
     index::IdVec,
     report::{Diagnostic, Diagnostics},
     source::Span,
@@ -22,6 +22,14 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
     // A robot is never nested, whereas another graph may receive activity from the graph around it.
     let reached = if graph.robot { active_nodes(graph) } else { active_nodes_within(graph) };
     let (waiting, stuck) = (waiting(graph, catalog, &reached), stuck(graph, &reached));
+    // What follows from another mistake is no mistake of its own.
+    if waiting.is_empty() {
+        let idle = waits_in_vain(graph, catalog, &reached);
+        idle.iter().for_each(|node| diagnostics.push(never_timed_out(graph, *node)));
+        if idle.is_empty() {
+            check_claims(graph, &reached, diagnostics);
+        }
+    }
     let mut check = Check { graph, reached, waiting, stuck, next: successors(graph) };
     check.report_gaps(diagnostics);
     check.report_waiting(diagnostics);
@@ -32,6 +40,48 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
             .also(graph.connections[first].span, "for example this one")
             .note("write `=>` where activity should continue");
         diagnostics.push(warning.inside(graph.scope_path(graph.nodes[node].scope)));
+    }
+}
+
+/// Nodes whose `timeout` never comes although it leads somewhere: activity never reaches them, and they send nothing on
+/// their own.
+fn waits_in_vain(graph: &Graph, catalog: &Catalog, reached: &BTreeSet<NodeId>) -> Vec<NodeId> {
+    let is_source = |node: NodeId| match &graph.nodes[node].kind {
+        NodeKind::Library(library) => {
+            let is_input = |c: &Connection| c.to.node == node && graph.flow(c) != Flow::ToSlot;
+            let signature = &catalog.signatures[library.signature];
+            (signature.is_function || signature.process.is_some()) && !graph.connections.iter().any(is_input)
+        }
+        _ => false,
+    };
+    let waits = |node: NodeId| {
+        let n = &graph.nodes[node];
+        n.modifiers.timeout.is_some() && n.standard(Standard::Timeout).is_some()
+    };
+    graph.nodes.ids().filter(|node| waits(*node) && !reached.contains(node) && !is_source(*node)).collect()
+}
+
+fn never_timed_out(graph: &Graph, node: NodeId) -> Diagnostic {
+    let (name, n) = (graph.path(node), &graph.nodes[node]);
+    let message = format!("`{name}` is never activated: its `timeout` never comes");
+    let note = format!("write `start => {};`, or connect an active node to it by `=>`", n.name);
+    Diagnostic::warning("never-activated", n.span, message).note(note).inside(graph.scope_path(n.scope))
+}
+
+/// Reports claims that hold because what they are about is never active.
+fn check_claims(graph: &Graph, reached: &BTreeSet<NodeId>, diagnostics: &mut Diagnostics) {
+    let is_reached = |subject: Subject| graph.nodes_of(subject).iter().any(|node| reached.contains(node));
+    for claim in &graph.claims {
+        // A `reaches` whose end is never active is wrong.
+        let meant = match claim.kind {
+            ClaimKind::Reaches => &claim.of[..1],
+            ClaimKind::Exclusive | ClaimKind::Conserved => &claim.of,
+        };
+        let Some(idle) = meant.iter().find(|subject| !is_reached(**subject)) else { continue };
+        let (claimed, name) = (graph.claim_text(claim), graph.subject_name(*idle));
+        let message = format!("`{claimed}` says nothing about `{name}`, which is never activated");
+        let note = format!("write `start => {name};`, or connect an active node to it by `=>`");
+        diagnostics.push_once(Diagnostic::warning("never-activated", claim.span, message).note(note));
     }
 }
 

@@ -30,7 +30,7 @@ impl<'t> Words<'t> {
     }
 }
 
-/// Warns of imports, parameters and ports that nothing uses.
+/// Warns of imports, graphs, parameters and ports that nothing uses.
 pub fn check_unused(id: FileId, file: &File, sources: &Sources, diagnostics: &mut Diagnostics) {
     if file.broken || file.broken_items {
         return;
@@ -47,6 +47,7 @@ pub fn check_unused(id: FileId, file: &File, sources: &Sources, diagnostics: &mu
             diagnostics.push(Diagnostic::warning("not-used", last.span, message).note("remove it from the import"));
         }
     }
+    check_graphs(file, &words, diagnostics);
     // A variant may connect what its base leaves open.
     let bases = file.graphs.iter().filter_map(|graph| Some(graph.base.as_ref()?.segments.last()?.text.as_str()));
     let bases: BTreeSet<&str> = bases.collect();
@@ -60,6 +61,22 @@ pub fn check_unused(id: FileId, file: &File, sources: &Sources, diagnostics: &mu
         if !graph.chains.iter().any(has_wildcard) {
             check_ports(graph, &words, diagnostics);
         }
+    }
+}
+
+/// Beside a robot, a graph or state machine is there for others, and is not run by itself.
+fn check_graphs(file: &File, words: &Words<'_>, diagnostics: &mut Diagnostics) {
+    if !file.graphs.iter().any(|graph| graph.robot) {
+        return;
+    }
+    let graphs = file.graphs.iter().filter(|graph| !graph.robot && !graph.is_public);
+    let graphs = graphs.map(|graph| ("graph", &graph.name, "write `pub graph` if Rust uses it"));
+    let machines = file.machines.iter().map(|machine| ("state machine", &machine.name, "use it as a node"));
+    let everywhere = |name: &Ident| Span { start: 0, end: u32::MAX, ..name.span };
+    for (kind, name, how) in graphs.chain(machines).filter(|(_, name, _)| !words.is_used(name, everywhere(name))) {
+        let message = format!("nothing uses the {kind} `{}`", name.text);
+        let note = format!("{how}, or remove it");
+        diagnostics.push(Diagnostic::warning("not-used", name.span, message).note(note));
     }
 }
 
