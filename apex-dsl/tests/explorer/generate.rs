@@ -80,6 +80,9 @@ impl<'a> Maker<'a> {
             self.start();
         }
         self.borders();
+        if self.dice.one_in(2) {
+            self.interrupt();
+        }
         for _ in 0..2 * self.part.nodes.len() + self.dice.below(4) {
             let from = self.sender();
             let to = self.taker();
@@ -100,7 +103,7 @@ impl<'a> Maker<'a> {
     fn ports(&mut self, is_program: bool) {
         let mut ports = vec![("slot", "s"), ("event", "l")];
         let more = [("slot", "t"), ("event", "r"), ("in", "x"), ("in", "w"), ("out", "y"), ("out", "z")];
-        ports.extend(more.into_iter().filter(|_| self.dice.one_in(3)));
+        ports.extend(more.into_iter().filter(|_| self.dice.below(5) < 2));
         if is_program {
             ports.retain(|_| self.dice.one_in(3));
         }
@@ -111,6 +114,7 @@ impl<'a> Maker<'a> {
         let nested = self.dice.below(self.before.len() + 1).checked_sub(1).filter(|_| self.dice.below(3) > 0);
         let (ty, is_graph) = match nested {
             Some(graph) => (self.before[graph].name.clone(), true),
+            None if self.dice.one_in(12) => ("Stop".to_owned(), false),
             None => {
                 let most = 1 + self.dice.below(KINDS.len());
                 (KINDS[self.dice.below(most)].name.to_owned(), false)
@@ -119,7 +123,7 @@ impl<'a> Maker<'a> {
         let name = format!("{}{number}", if is_graph { "g" } else { "n" });
         let times_out = !is_graph && (ty == "Rest" && !self.dice.one_in(4) || self.dice.one_in(5));
         let delay = match ty.as_str() {
-            "pass" | "Mixed" if self.dice.one_in(4) => 1 + self.dice.below(2),
+            "pass" | "Mixed" if self.dice.one_in(3) => 1 + self.dice.below(2),
             _ => 0,
         };
         self.part.nodes.push(Item { name, ty, times_out, delay });
@@ -227,6 +231,19 @@ impl<'a> Maker<'a> {
         if !self.part.wires.iter().any(|other| other.to == to) {
             self.part.wires.push(Wire { from: End::new("", "start"), active, to });
         }
+    }
+
+    /// Connects a node so that it can be cancelled, and another one that can give it its activity back.
+    fn interrupt(&mut self) {
+        let (item, other) = (self.item(), self.item());
+        let from = self.sender();
+        self.wire(from, Some(End::new(&item.name, "cancel")));
+        let slots = self.ports_of(&other, "slot");
+        let to = self.dice.of(&slots).map(|slot| End::new(&other.name, slot));
+        self.wire(Some(End::new(&item.name, "cancelled")), to);
+        let events = self.ports_of(&other, "event");
+        let back = if other.times_out { Some(&"timeout") } else { self.dice.of(&events) };
+        self.wire(back.map(|port| End::new(&other.name, port)), Some(End::new(&item.name, "resume")));
     }
 
     /// Connects each port of the graph to a node.

@@ -2,27 +2,26 @@
 //!
 //! The steps come from these sentences of `docs/language.md` (L) and `docs/model.md` (M):
 //!
-//! 1. "The search ignores time and values: an active node may pass its activity on at any port with a `=>`, at any time,
-//!    and a node that takes activity away may do so at any time." (L, claims) So each node may send, or not send, on each
-//!    of its ports in each call.
+//! 1. "The search ignores time and values: an active node may pass its activity on at any port with a `=>`, at any
+//!    time, and a node that takes activity away may do so at any time." (L, claims) So each node may send, or not
+//!    send, on each of its ports in each call.
 //! 2. "A node takes tokens. If one of them carries activity, the node becomes active. If none does, but one takes
 //!    activity away, the node becomes inactive." (M, A1) A firing takes "one from each" input together (M, flow in
 //!    step), a slot "is called with each token that comes to it" (M, events and slots).
-//! 3. "If an active node sends a value on a port with `=>`, the tokens on these connections carry activity, and the node
-//!    becomes inactive. Several `=>` from one port multiply the activity." (M, A2)
+//! 3. "If an active node sends a value on a port with `=>`, the tokens on these connections carry activity, and the
+//!    node becomes inactive. Several `=>` from one port multiply the activity." (M, A2)
 //! 4. "It waits only as long as activity waits on a connection that has to be free for that. Tokens are taken at any
-//!    time" (L, claims). A node sends an event only while its events are free, and an output only while its outputs are
-//!    free, too (M, nothing is lost).
+//!    time" (L, claims). A node sends an event only while its events are free, and an output only while its outputs
+//!    are free, too (M, nothing is lost).
 //! 5. "Only special nodes take activity away" (M, A5): the values that they send over `=>` do. They keep their own.
 //! 6. "A token to `reset` removes all activity and starts again." (M, A8)
-//! 7. "A token to `x.cancel` removes the activity of `x`, or of all nodes in the nested graph `x`, and of the tokens on
-//!    their way to them. If there was any, or if the token brought some, `x.cancelled` is triggered and takes it along."
-//!    (M, A9) "Otherwise nothing happens." (L)
+//! 7. "A token to `x.cancel` removes the activity of `x`, or of all nodes in the nested graph `x`, and of the tokens
+//!    on their way to them. If there was any, or if the token brought some, `x.cancelled` is triggered and takes it
+//!    along." (M, A9) "Otherwise nothing happens." (L)
 //! 8. "A token to `x.resume` over `->`, or one with activity over `=>`, gives the nodes activity from which the last
-//!    `cancel` with an effect took it, or to which it was on its way. This happens once." (M, A10) "Activity that waited
-//!    in a `delay` does not come back." (L)
-//!    "If nothing was taken, its activity is lost. […] A `cancel` that finds no activity changes nothing of what comes
-//!    back" (L).
+//!    `cancel` with an effect took it, or to which it was on its way. This happens once." (M, A10) "Activity that
+//!    waited in a `delay` does not come back." (L) "If nothing was taken, its activity is lost. […] A `cancel` that
+//!    finds no activity changes nothing of what comes back" (L).
 //! 9. "`exit` is a slot that ends the program" (L): there is no state after it, and no node waits for its token.
 //!
 //! A token without activity has no place: it may come at any time over each connection, except over `=>` from `start`.
