@@ -379,12 +379,10 @@ impl<'a> Net<'a> {
         for node in &memory.interrupt.takes {
             let tokens = self.tokens(|c| c.to.node == *node);
             taken |= state & (self.holds(*node) | tokens);
-            if state & self.holds(*node) != 0 {
-                kept |= memory.of.get(node).copied().unwrap_or(0);
-            }
-            if state & tokens != 0 {
+            // Activity in a relay, which is not in the source file, is on its way to the nodes behind it.
+            if state & (self.holds(*node) | tokens) != 0 {
                 let nodes = self.graph.receivers(*node);
-                kept |= nodes.iter().filter_map(|node| memory.of.get(node)).sum::<State>();
+                kept |= nodes.iter().filter_map(|node| memory.of.get(node)).fold(0, |all, bit| all | bit);
             }
         }
         let state = match (taken, brought) {
