@@ -337,7 +337,7 @@ fn add_react_guards(
         let is_pulled = |node: &NodeId| demand_driven.iter().any(|p| p.nodes.contains(node));
         // A shared guard is taken by one firing, so all nodes that share it must end up in one cluster. That depends on
         // their other guards, too.
-        let mut shared: BTreeMap<(usize, &BTreeSet<usize>, &BTreeSet<HeldBack>, usize), usize> = BTreeMap::new();
+        let mut shared: BTreeMap<Alike<'_>, usize> = BTreeMap::new();
         let sharing: Vec<NodeId> = plain.iter().copied().filter(|node| !is_pulled(node)).collect();
         for &node in &sharing {
             let key = (view.regions[node], &above[node], &holding[node], parts[&node]);
@@ -365,6 +365,10 @@ fn add_react_guards(
         }
     }
 }
+
+/// What nodes that share a guard have in common: their region, their other guards, what holds them back, and the part
+/// that they are in.
+type Alike<'a> = (usize, &'a BTreeSet<usize>, &'a BTreeSet<HeldBack>, usize);
 
 /// Reason for which a source cannot fire again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

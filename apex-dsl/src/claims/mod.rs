@@ -12,7 +12,7 @@ use crate::{
     report::{Diagnostic, Diagnostics},
 };
 
-pub use model::{Arrival, Emission, Model, Move, Place, PlaceId, State};
+pub use model::{Arrival, Delay, Emission, Model, Move, Place, PlaceId, State};
 pub use properties::{Checks, FROM, NEARER, scopes_of};
 pub use search::{MAX_STATES, Outcome, search};
 pub use slices::{Slice, slices};

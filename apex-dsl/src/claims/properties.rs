@@ -142,7 +142,7 @@ impl Checks {
 /// The nested graphs around a place. A connection is inside a graph if both its ends are.
 pub fn scopes_of(graph: &Graph, place: Place) -> Vec<ScopeId> {
     match place {
-        Place::Node(node) => graph.scopes_of(node),
+        Place::Node(node) | Place::Delayed(node, _) => graph.scopes_of(node),
         Place::Remembered(..) => vec![],
         Place::Connection(c) => {
             let c = &graph.connections[c];

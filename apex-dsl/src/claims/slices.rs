@@ -58,11 +58,15 @@ fn parts(model: &Model) -> Vec<PlaceId> {
             }
             // The whole program begins again.
             Some(Arrival::Restarts) => (0..model.places.len() as PlaceId).for_each(|other| join(place, other)),
-            Some(Arrival::Leaves | Arrival::Ends) | None => {}
+            // A delay belongs together, with what comes to it.
+            Some(Arrival::Waits | Arrival::Leaves | Arrival::Ends) | None => {}
         }
     }
     for interrupt in &model.interrupts {
         interrupt.places().zip(interrupt.places().skip(1)).for_each(|(a, b)| join(a, b));
+    }
+    for delay in &model.delays {
+        delay.places().zip(delay.places().skip(1)).for_each(|(a, b)| join(a, b));
     }
     (0..model.places.len() as PlaceId).map(|place| find(&mut first, place)).collect()
 }

@@ -57,6 +57,12 @@ fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
             format!("`{}` passes its activity on over {}", name(graph, model, place), over.join(" and "))
         }
         Move::Take(place) => match model.arrivals[place as usize] {
+            Some(Arrival::Node(node)) if is_joined(model, before, place) => {
+                format!(
+                    "`{}` takes it and the activity at its other inputs: together they become one",
+                    name(graph, model, node)
+                )
+            }
             Some(Arrival::Node(node)) if before.binary_search(&node).is_ok() => {
                 format!("`{}` takes it, but is already active: two become one", name(graph, model, node))
             }
@@ -68,6 +74,7 @@ fn sentence(graph: &Graph, model: &Model, before: &State, by: Move) -> String {
         },
         Move::Cancel(number) => cancels(graph, model, number),
         Move::Resume(number) => resumes(graph, model, number),
+        Move::Shift(number) => shifts(graph, model, before, number),
         Move::Away(remover, place) => {
             let c = &graph.connections[remover];
             format!("`{}` takes the activity of `{}` away", graph.path(c.from.node), name(graph, model, place))
@@ -88,9 +95,26 @@ fn resumes(graph: &Graph, model: &Model, number: usize) -> String {
     format!("`{}.resume` gives activity back", subject(graph, model, number))
 }
 
+/// Returns `true` if more activity is taken with a token at an input.
+fn is_joined(model: &Model, before: &State, place: PlaceId) -> bool {
+    model.together[place as usize].iter().any(|other| before.binary_search(other).is_ok())
+}
+
+fn shifts(graph: &Graph, model: &Model, before: &State, number: usize) -> String {
+    let delay = &model.delays[number];
+    let name = graph.path(delay.node);
+    match (delay.sends_next(before), delay.sends.is_empty()) {
+        (true, true) => format!("`{name}` sends the token with activity, which no `=>` passes on"),
+        (true, false) => format!("`{name}` sends the token with activity"),
+        (false, _) => format!("`{name}` takes a token and sends the one before"),
+    }
+}
+
 fn given(graph: &Graph, model: &Model, place: PlaceId) -> String {
     match model.places[place as usize] {
-        Place::Node(node) | Place::Remembered(_, node) => format!("`{}` becomes active", graph.path(node)),
+        Place::Node(node) | Place::Delayed(node, _) | Place::Remembered(_, node) => {
+            format!("`{}` becomes active", graph.path(node))
+        }
         Place::Connection(c) => {
             format!("activity is on its way to `{}`", graph.end_name(graph.connections[c].to))
         }
@@ -104,6 +128,7 @@ fn word(graph: &Graph, model: &Model, by: Move) -> String {
         Move::Take(place) => format!("take {}", connection(graph, model, place)),
         Move::Cancel(number) => format!("cancel {}", subject(graph, model, number)),
         Move::Resume(number) => format!("resume {}", subject(graph, model, number)),
+        Move::Shift(number) => format!("shift {}", graph.path(model.delays[number].node)),
         Move::Away(remover, _) => format!("away {}", arrow(graph, &graph.connections[remover])),
     }
 }
@@ -111,7 +136,7 @@ fn word(graph: &Graph, model: &Model, by: Move) -> String {
 /// The node or connection at a place.
 fn name(graph: &Graph, model: &Model, place: PlaceId) -> String {
     match model.places[place as usize] {
-        Place::Node(node) | Place::Remembered(_, node) => graph.path(node),
+        Place::Node(node) | Place::Delayed(node, _) | Place::Remembered(_, node) => graph.path(node),
         Place::Connection(c) => arrow(graph, &graph.connections[c]),
     }
 }

@@ -117,7 +117,7 @@ impl Generator<'_> {
         let mut flags: BTreeMap<String, Flagged> = BTreeMap::new();
         for (place, what) in (0..).zip(&model.places) {
             let flag = match *what {
-                Place::Node(node) => self.is_active_now(view, node),
+                Place::Node(node) | Place::Delayed(node, _) => self.is_active_now(view, node),
                 Place::Remembered(..) => continue,
                 // Nothing is kept for connections that never carry a token.
                 Place::Connection(c) if !view.analysis.asynchronous.live[c] => continue,
