@@ -37,6 +37,16 @@ fn act_07_only_over_active_connections() {
 }
 
 #[test]
+fn act_08_it_takes_activity_away_through_a_nested_graph() {
+    let mut program = DampenedFromFar::new();
+    let mut log = Log::of(&program);
+    for _ in 0..3 {
+        program.react_with(Time::ZERO, &mut log);
+    }
+    assert_eq!(log.activity, [("b", true), ("b", false)]);
+}
+
+#[test]
 fn act_08_dampen_takes_activity_away() {
     let mut program = Dampened::new();
     let mut log = Log::of(&program);

@@ -73,7 +73,9 @@ fn spoiled(run: &[Record], way: usize, dice: &mut Dice) -> Option<Vec<Record>> {
         2 | 3 => {
             let at = pick(&values, dice)?;
             let Record::Took(tokens) = &mut run[at] else { return None };
-            let token = tokens.iter_mut().find(|t| t.is_some())?;
+            // The net knows no origin of initial tokens and timeouts, which are sevens here: other numbers are as good.
+            let is_known = |token: &&mut Option<i64>| token.is_some_and(|value| way == 2 || value != 7);
+            let token = tokens.iter_mut().find(is_known)?;
             *token = if way == 2 { None } else { token.map(|value| value + 1) };
         }
         // Unrecorded activity, and activity without a cause.

@@ -99,7 +99,7 @@ robot Apart {{
     }}
 }}
 
-graph Other {{
+pub graph Other {{
     node noise = noise() every 5ms;
     node print = Sum();
     noise -> print;

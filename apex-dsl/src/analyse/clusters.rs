@@ -366,8 +366,8 @@ fn add_react_guards(
     }
 }
 
-/// What nodes that share a guard have in common: their region, their other guards, what holds them back, and the part
-/// that they are in.
+/// Properties that nodes with a common guard share: their region, their other guards, what holds them back, and the
+/// part that they are in.
 type Alike<'a> = (usize, &'a BTreeSet<usize>, &'a BTreeSet<HeldBack>, usize);
 
 /// Reason for which a source cannot fire again.

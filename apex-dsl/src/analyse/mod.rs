@@ -269,10 +269,14 @@ fn refuses(signature: &crate::catalog::Signature, node: &crate::graph::Node) -> 
             .any(|p| p.parameter.is_some_and(|i| signature.params[i].range.is_some()))
 }
 
-/// Returns `true` if the tokens of a node take activity away.
+/// Returns `true` if the tokens of a node take activity away: its own, or those that it passes on over `=>`.
 pub fn takes_activity(graph: &Graph, catalog: &Catalog, node: NodeId) -> bool {
     match &graph.nodes[node].kind {
         NodeKind::Library(library) => catalog.signatures[library.signature].deactivates,
+        NodeKind::Relay => {
+            let mut into = graph.connections.iter().filter(|c| c.active && c.to.node == node);
+            into.any(|c| takes_activity(graph, catalog, c.from.node))
+        }
         NodeKind::Receiver(far) => far.takes_activity,
         _ => false,
     }

@@ -424,9 +424,9 @@ impl<'a> State<'a> {
                 self.clocks.sent(node);
             }
             let has_active = links.iter().any(|l| self.graph.connections[l.connection].active);
-            // A node that deactivates others sends −1 with its events. Any other node gives its own activity away.
+            // A node that deactivates others sends −1 with its values. Any other node gives its own activity away.
             let modifier = match value && has_active {
-                true if self.deactivates[node] && p.kind == PortKind::Event => -1,
+                true if self.deactivates[node] => -1,
                 // It passes on what it has just taken.
                 true if interrupts => 1,
                 true if self.active[node] => {
@@ -505,7 +505,8 @@ impl<'a> State<'a> {
         let tokens = BTreeMap::from([(to.port, token)]);
         match self.graph.nodes[to.node].kind {
             NodeKind::Reset => {
-                // A reset restores the initial activity of all nodes.
+                // A reset restores the initial activity of all nodes, and nothing is remembered.
+                self.remembered.clear();
                 for node in self.graph.nodes.ids() {
                     self.set_active(node, self.graph.nodes[node].starts_active);
                 }
