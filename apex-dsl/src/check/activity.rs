@@ -1,7 +1,7 @@
 //! Activity that never arrives, or never leaves.
 
 use crate::{
-    analyse::{active_nodes, active_nodes_within, successors},
+    analyse::{active_nodes, active_nodes_within, successors, takes_activity},
     catalog::Catalog,
     graph::{ClaimKind, Connection, ConnectionId, Flow, Graph, NodeId, NodeKind, Standard, Subject, WireEnd},
     index::IdVec,
@@ -91,8 +91,7 @@ fn waiting(graph: &Graph, catalog: &Catalog, reached: &BTreeSet<NodeId>) -> BTre
     for (index, c) in graph.connections.iter_enumerated() {
         let node = c.from.node;
         // A node that deactivates others needs no activity of its own for that.
-        let takes_away =
-            matches!(&graph.nodes[node].kind, NodeKind::Library(l) if catalog.signatures[l.signature].deactivates);
+        let takes_away = takes_activity(graph, catalog, node);
         // Activity enters a delay only to go on from there: the delay itself is checked instead.
         let counts = c.active && !graph.nodes[c.to.node].is_delay() && !takes_away;
         if counts && graph.can_hold_activity(node) && !reached.contains(&node) {

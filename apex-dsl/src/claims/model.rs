@@ -261,7 +261,8 @@ impl Model {
 
     fn add_removers(&mut self, graph: &Graph, catalog: &Catalog, number: &BTreeMap<Place, PlaceId>) {
         for (index, c) in graph.connections.iter_enumerated().filter(|(_, c)| c.active) {
-            if takes_activity(graph, catalog, c.from.node) && can_fire(graph, catalog, c.from.node) {
+            let passes_on = matches!(graph.nodes[c.from.node].kind, NodeKind::Relay);
+            if takes_activity(graph, catalog, c.from.node) && can_fire(graph, catalog, c.from.node) && !passes_on {
                 let places = behind(graph, c.to.node).into_iter().filter_map(|node| number.get(&Place::Node(node)));
                 places.for_each(|place| self.removers[*place as usize].push(index));
             }
