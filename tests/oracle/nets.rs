@@ -8,7 +8,7 @@ use apex_tests::{
 /// The random graph of a seed, or `None` if it is not legal.
 fn checked(checker: &Checker, seed: u64) -> Option<(Case, Checked)> {
     let case = generate(seed, true);
-    let case = if seed % 2 == 0 { case } else { with_timeouts(case) };
+    let case = if seed.is_multiple_of(2) { case } else { with_timeouts(case) };
     let checked = checker.check(&case.text("Random")).ok()?;
     Some((case, checked))
 }
