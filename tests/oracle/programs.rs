@@ -9,7 +9,8 @@ use apex_tests::oracle::{Case, Checker, Failure, generate, on_threads, paced, re
 use std::{collections::BTreeMap, env};
 
 /// Seeds of graphs with errors in the past, which are always tested.
-const KNOWN: [u64; 12] = [91, 328, 1105, 1680, 5166, 5239, 91_076, 920_020, 920_399, 930_221, 980_026, 980_087];
+const KNOWN: [u64; 13] =
+    [91, 328, 1105, 1680, 5166, 5239, 91_076, 120_041, 920_020, 920_399, 930_221, 980_026, 980_087];
 /// Number of programs that are compiled together.
 const BATCH: usize = 120;
 /// Maximum number of failures that are reduced and shown.

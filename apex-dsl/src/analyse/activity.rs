@@ -34,7 +34,11 @@ fn spread(graph: &Graph, enters: impl Fn(&NodeKind) -> bool) -> BTreeSet<NodeId>
     let next = successors(graph);
     let begins = |n: &NodeId| {
         let node = &graph.nodes[*n];
-        let is_source = matches!(node.kind, NodeKind::Start | NodeKind::Receiver(_)) || enters(&node.kind);
+        let is_source = match &node.kind {
+            NodeKind::Start => true,
+            NodeKind::Receiver(far) => far.carries_activity,
+            kind => enters(kind),
+        };
         node.starts_active || is_source && !next[*n].is_empty()
     };
     let mut found: BTreeSet<NodeId> = BTreeSet::new();

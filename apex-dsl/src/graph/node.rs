@@ -69,6 +69,8 @@ pub enum NodeKind {
 pub struct CellEnd {
     /// Number of the cell.
     pub cell: usize,
+    /// `true` if the tokens may carry activity.
+    pub carries_activity: bool,
     /// `true` if the tokens take activity away.
     pub takes_activity: bool,
     /// `true` if the receiving group needs the time at which the source of a token fired.

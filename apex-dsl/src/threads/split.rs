@@ -195,6 +195,7 @@ impl Splitter<'_> {
         self.cells.push(Cell { from: first.from, sender, receiver });
         let far = CellEnd {
             cell,
+            carries_activity: self.carries_activity(first.from.node),
             takes_activity: analyse::takes_activity(self.whole, self.catalog, first.from.node),
             stamped: shared.iter().any(|c| self.is_stamped(*c)),
         };
@@ -220,6 +221,11 @@ impl Splitter<'_> {
         // `relayed` makes the connection to the cell asynchronous even if it comes from an output.
         draft.connect(Connection { to: to_cell, crossings: vec![], relayed: true, ..connection }, None);
         giver
+    }
+
+    /// Returns `true` if the tokens of a node may carry activity. In its part the receiver does not know it.
+    fn carries_activity(&self, node: NodeId) -> bool {
+        matches!(self.whole.nodes[node].kind, NodeKind::Start) || self.analysis.active.contains(&node)
     }
 
     /// Returns `true` if a node at the end of a connection, or downstream of it, needs stamps.
