@@ -22,7 +22,7 @@ pub fn check_activity(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagno
     // A robot is never nested, whereas another graph may receive activity from the graph around it.
     let reached = if graph.robot { active_nodes(graph) } else { active_nodes_within(graph) };
     let (waiting, stuck) = (waiting(graph, catalog, &reached), stuck(graph, &reached));
-    // What follows from another mistake is no mistake of its own.
+    // A missing arrow makes timeouts and claims behind it idle, too: it is reported alone.
     if waiting.is_empty() {
         let idle = waits_in_vain(graph, catalog, &reached);
         idle.iter().for_each(|node| diagnostics.push(never_timed_out(graph, *node)));

@@ -67,11 +67,8 @@ fn reached_by_activity(graph: &Graph) -> BTreeSet<NodeId> {
     let mut found: BTreeSet<NodeId> = graph.nodes.ids().filter(is_origin).collect();
     loop {
         let over = graph.connections.iter().filter(|c| c.active && found.contains(&c.from.node)).map(|c| c.to.node);
-        let interrupts = graph.nodes.iter_enumerated().filter_map(|(node, n)| match n.kind {
-            NodeKind::Interrupt(subject) => Some((node, graph.nodes_of(subject))),
-            _ => None,
-        });
-        let cancelled = interrupts.filter(|(_, of)| of.iter().any(|node| found.contains(node))).map(|(node, _)| node);
+        let interrupts = graph.interrupts().filter(|interrupt| interrupt.takes.iter().any(|n| found.contains(n)));
+        let cancelled = interrupts.map(|interrupt| interrupt.node);
         let new: Vec<NodeId> = over.chain(cancelled).filter(|node| !found.contains(node)).collect();
         if new.is_empty() {
             return found;
