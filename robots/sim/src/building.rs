@@ -1,4 +1,4 @@
-use crate::{Random, World};
+use crate::{OfficePlan, Random, World};
 use apex_nodes::{
     io::{PlanOptions, ReadError, read_plan},
     map::{Cell, DistanceTransform, Grid, Occupancy, Raster, VectorMap},
@@ -12,9 +12,8 @@ use std::{
     sync::atomic::{AtomicU32, Ordering},
 };
 
-/// Plan of an office floor (DXF), drawn by the example `draw_building`. It is a part of the program, which may run
-/// where the repository is not.
-const OFFICE: &str = include_str!("../building.dxf");
+/// Seed of the office floor.
+const OFFICE: u64 = 1;
 /// Layers of a plan that do not stop a robot or its scanner: arcs that doors move along, marks, and areas.
 const WALLS: [&str; 2] = ["walls", "windows"];
 /// Side of a cell of the map of free places, in m.
@@ -43,8 +42,8 @@ impl Building {
         Ok(Self { plan, world })
     }
 
-    /// Writes the plan of the office floor that is a part of the program to `path`, where nodes can read it, too, and
-    /// reads it. A file with this plan is left as it is.
+    /// Writes the plan of an office floor to `path`, where nodes can read it, too, and reads it: with doors if the name
+    /// ends in `.dxf`, else a table of walls. A file with this plan is left as it is.
     ///
     /// # Errors
     /// If it cannot be written or read.
@@ -160,13 +159,15 @@ fn regions(map: &Grid<Occupancy>) -> Grid<u32> {
 /// Writes the plan of the office floor, unless it is there. Several programs may do so at the same time.
 fn write_office(path: &Path) -> io::Result<()> {
     static COUNT: AtomicU32 = AtomicU32::new(0);
-    if fs::read(path).is_ok_and(|text| text == OFFICE.as_bytes()) {
+    let plan = OfficePlan::new(OFFICE);
+    let plan = if path.extension().is_some_and(|ending| ending == "dxf") { plan.dxf() } else { plan.table() };
+    if fs::read(path).is_ok_and(|text| text == plan.as_bytes()) {
         return Ok(());
     }
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     let number = COUNT.fetch_add(1, Ordering::Relaxed);
     let part = path.with_extension(format!("{}-{number}.part", process::id()));
-    fs::write(&part, OFFICE)?;
+    fs::write(&part, plan)?;
     fs::rename(&part, path)
 }
 
@@ -175,7 +176,7 @@ fn write_office(path: &Path) -> io::Result<()> {
 pub(crate) fn office_file() -> &'static str {
     static FILE: std::sync::OnceLock<String> = std::sync::OnceLock::new();
     FILE.get_or_init(|| {
-        let path = std::env::temp_dir().join(format!("apex-sim-{}.dxf", process::id()));
+        let path = std::env::temp_dir().join(format!("apex-sim-{}.csv", process::id()));
         write_office(&path).expect("room for a file");
         path.to_str().expect("a name").to_owned()
     })
@@ -186,8 +187,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_plan_is_the_drawn_one() {
-        assert_eq!(OFFICE, crate::OfficePlan::new(1).dxf(), "`draw_building` writes it again");
+    fn the_drawing_and_the_table_have_the_same_walls() {
+        let folder = std::env::temp_dir().join(format!("apex-walls-{}", process::id()));
+        let read = |name| Building::office(folder.join(name)).expect("room for a file").plan;
+        let (drawing, table) = (read("plan.dxf"), read("plan.csv"));
+        assert!(drawing.segments().len() > 100);
+        assert_eq!(drawing, table);
+        fs::remove_dir_all(&folder).expect("it is ours");
     }
 
     #[test]

@@ -111,6 +111,12 @@ impl OfficePlan {
         }
         text + "0\nENDSEC\n0\nEOF\n"
     }
+
+    /// Walls as the text of a table: `x1,y1,x2,y2` in metres.
+    pub fn table(&self) -> String {
+        let row = |(a, b): &(Point2, Point2)| format!("{:.3},{:.3},{:.3},{:.3}\n", a.x, a.y, b.x, b.y);
+        self.walls().iter().map(row).collect()
+    }
 }
 
 fn line(text: &mut String, layer: &str, a: Point2, b: Point2) {

@@ -7,7 +7,7 @@ use apex_sim::{Building, Footprint, Random, World, tof::Pit};
 use core::f32::consts::PI;
 
 /// File with the plan of the building, below the folder in which the program runs: the program writes it there.
-pub const PLAN: &str = "out/patsy/building.dxf";
+pub const PLAN: &str = "out/patsy/building.csv";
 
 /// Place where the vehicle begins, on the plan.
 pub const DOCK: Pose2 = Pose2::new(2.0, 18.6, -0.5 * PI);
