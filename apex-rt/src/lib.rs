@@ -75,7 +75,7 @@ pub use info::{ConnectionInfo, GroupInfo, Info, KindInfo, NodeInfo, Place, PortI
 pub use list::List;
 pub use mailbox::Mailbox;
 #[doc(hidden)]
-pub use mailbox::{Arrival, first_arrival};
+pub use mailbox::{Arrival, first_arrival, untaken};
 #[doc(hidden)]
 pub use node::construct;
 pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, Trigger};

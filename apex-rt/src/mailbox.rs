@@ -45,6 +45,12 @@ pub fn first_arrival(arrivals: &[Option<Arrival>]) -> Option<usize> {
     waiting.reduce(|first, next| if next.1.is_before(first.1) { next } else { first }).map(|(place, _)| place)
 }
 
+/// Returns the event whose token was put in first, and the number of the token.
+pub fn untaken(events: &[(&'static str, Option<Arrival>)]) -> Option<(&'static str, Arrival)> {
+    let waiting = events.iter().filter_map(|(event, arrival)| Some((*event, (*arrival)?)));
+    waiting.reduce(|first, next| if next.1.is_before(first.1) { next } else { first })
+}
+
 impl<T> Mailbox<T> {
     /// Returns an empty mailbox.
     pub const fn new() -> Self {

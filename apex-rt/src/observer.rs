@@ -95,6 +95,12 @@ pub trait Observer {
         let _ = (behind, reaction);
     }
 
+    /// Called when the token of the program's event `event` has not been taken for `waits`: what triggers it is held
+    /// back meanwhile. The next call comes for another event.
+    fn untaken(&mut self, event: &'static str, waits: Duration) {
+        let _ = (event, waits);
+    }
+
     /// Returns `true` if a late reaction ends after the first of the instants that have passed, so that other things
     /// are served between them; `false` if it makes up for all of them.
     #[inline(always)]
@@ -210,6 +216,9 @@ macro_rules! pass_on_others {
         }
         fn behind(&mut $self, behind: Duration, reaction: Duration) {
             $($to.behind(behind, reaction);)+
+        }
+        fn untaken(&mut $self, event: &'static str, waits: Duration) {
+            $($to.untaken(event, waits);)+
         }
         #[inline(always)]
         fn ends_early(&mut $self) -> bool {
@@ -327,6 +336,12 @@ impl Observer for StdErr {
     fn set_back(&mut self, by: Duration) {
         eprintln!(
             "{}: the time was set back by {by:.1?}; the program's own time goes on from where it was",
+            self.0.name
+        );
+    }
+    fn untaken(&mut self, event: &'static str, waits: Duration) {
+        eprintln!(
+            "{}: nobody takes the event `{event}`: its token has waited for {waits:.1?}, and what triggers it is held back; receive it with `Ports::event`, or connect nothing to it",
             self.0.name
         );
     }

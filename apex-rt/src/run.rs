@@ -1,5 +1,5 @@
 use crate::{
-    Clock, Info, Observer, Parameters, Time,
+    Arrival, Clock, Info, Observer, Parameters, Time,
     threads::{SingleGroup, Spawn, Wake},
 };
 #[cfg(feature = "std")]
@@ -62,6 +62,12 @@ pub trait Program: Parameters {
     /// Returns the mailboxes, for use between two reactions.
     fn mailboxes(&mut self) -> (&mut Self::Inputs, &mut Self::Events);
 
+    /// Returns the event of the program whose token has been waiting the longest, by its name, and the number of the
+    /// token.
+    fn untaken(&self) -> Option<(&'static str, Arrival)> {
+        None
+    }
+
     /// File for recordings of the program, from its `record` statement.
     #[cfg(feature = "record")]
     const RECORD: Option<&'static str> = None;
@@ -118,6 +124,10 @@ impl<P: Program> Program for &mut P {
 
     fn mailboxes(&mut self) -> (&mut Self::Inputs, &mut Self::Events) {
         (**self).mailboxes()
+    }
+
+    fn untaken(&self) -> Option<(&'static str, Arrival)> {
+        (**self).untaken()
     }
 
     fn on_threads<'a, W, S>(&'a mut self, wake: W, spawn: &mut S)
@@ -215,6 +225,38 @@ impl Lateness {
             }
             _ => self.is_told = false,
         }
+    }
+}
+
+/// Watch over the events of a program: what triggers an event is held back until its token was taken, so that a program
+/// whose events nobody takes comes to a standstill.
+#[derive(Debug, Default)]
+pub(crate) struct Untaken {
+    /// The token that waits, and since when.
+    waits: Option<(Arrival, Time)>,
+    /// The event that was reported last.
+    told: Option<&'static str>,
+}
+
+/// Time from which on an event that nobody takes is reported.
+const UNTAKEN_FROM: Duration = Duration::from_secs(1);
+
+impl Untaken {
+    /// Looks at the events after a reaction at `now`. Returns when to look again, at the latest.
+    #[inline]
+    pub fn look<P: Program, O: Observer>(&mut self, program: &P, now: Time, observer: &mut O) -> Option<Time> {
+        let Some((event, token)) = program.untaken().filter(|(event, _)| self.told != Some(*event)) else {
+            self.waits = None;
+            return None;
+        };
+        let since = self.waits.filter(|(waits, _)| *waits == token).map_or(now, |(_, since)| since);
+        self.waits = Some((token, since));
+        if now.since(since) < UNTAKEN_FROM {
+            return Some(since + UNTAKEN_FROM);
+        }
+        self.told = Some(event);
+        observer.untaken(event, now.since(since));
+        None
     }
 }
 
@@ -395,7 +437,7 @@ fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
 ) -> u8 {
     let mut driven = Driven::new(program, !C::SIMULATED);
     outside.exchange(&mut driven.program);
-    let mut lateness = Lateness::default();
+    let (mut lateness, mut untaken) = (Lateness::default(), Untaken::default());
     loop {
         let now = clock.now();
         let next = driven.react(now, observer, &mut || clock.now().since(now));
@@ -403,18 +445,19 @@ fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
         lateness.look(next, now, observer, || clock.now().since(now));
         outside.serve(program);
         let came = outside.exchange(program);
+        let looks = untaken.look(program, now, observer);
         let until = match next {
             Next::Exit(code) => return code,
             _ if came && !is_asked() => continue,
             // The time of a simulated clock does not pass while a program makes up for what is late.
             Next::At(time) if C::SIMULATED && time <= now && !is_asked() => continue,
             Next::Now => Some(now),
-            Next::At(time) => Some(time),
+            Next::At(time) => Some(looks.map_or(time, |looks| looks.min(time))),
             Next::Input if C::SIMULATED || !outside.is_open() => {
                 program.waiting(|connection| observer.waits(connection));
                 return 0;
             }
-            Next::Input => None,
+            Next::Input => looks,
         };
         if !outside.wait(&mut clock, until) || is_asked() {
             return 0;

@@ -6,4 +6,5 @@ mod process;
 mod real;
 mod remote;
 mod signals;
+mod untaken;
 mod waits;

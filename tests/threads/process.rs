@@ -3,8 +3,8 @@
 
 use std::{
     env,
-    io::{BufRead as _, BufReader, Lines, Result},
-    process::{Child, ChildStdout, Command, Stdio},
+    io::{self, BufRead as _, BufReader, Lines, PipeReader, Result},
+    process::{Child, Command},
 };
 
 /// A process that is killed when the value is dropped.
@@ -17,18 +17,17 @@ impl Drop for Killed {
     }
 }
 
-/// Starts this test again, to run the ignored test `name` only. Returns the process and the lines that it writes.
-pub fn again(name: &str, variables: &[(&str, &str)]) -> (Killed, Lines<BufReader<ChildStdout>>) {
+/// Starts this test again, to run the ignored test `name` only. Returns the process and the lines that it writes, errors too.
+pub fn again(name: &str, variables: &[(&str, &str)]) -> (Killed, Lines<BufReader<PipeReader>>) {
     let own = env::current_exe().expect("the test runs");
+    let (reads, writes) = io::pipe().expect("there is a pipe");
     let child = Command::new(own)
         .args(["--ignored", "--exact", name, "--nocapture", "--test-threads=1"])
         .envs(variables.iter().copied())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
+        .stdout(writes.try_clone().expect("it has two ends"))
+        .stderr(writes)
         .spawn();
-    let mut child = Killed(child.expect("the test runs again"));
-    let lines = BufReader::new(child.0.stdout.take().expect("it is piped")).lines();
-    (child, lines)
+    (Killed(child.expect("the test runs again")), BufReader::new(reads).lines())
 }
 
 /// Reads lines until one `is_it`.

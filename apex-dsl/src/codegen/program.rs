@@ -13,15 +13,6 @@ use quote::quote;
 use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
 
-/// The mailboxes of a program, which are kept at `place`.
-pub fn mailboxes(inputs: &TokenStream, events: &TokenStream, place: &TokenStream) -> TokenStream {
-    quote! {
-        type Inputs = #inputs;
-        type Events = #events;
-        fn mailboxes(&mut self) -> (&mut #inputs, &mut #events) { (&mut #place.inputs, &mut #place.events) }
-    }
-}
-
 /// One of the structs that a program consists of: `Nodes`, `State`, `Inputs`, `Outputs`, `Events`. Without fields it
 /// is `()`.
 pub struct Struct {
@@ -93,8 +84,7 @@ impl Generator<'_> {
         let groups: Vec<TokenStream> = graph.threads.iter().map(|thread| group_info(graph, &thread.group)).collect();
         let info = self.info(graph, analysis, &clusters, &groups);
         let parameters = self.parameters(graph, analysis).implementation(&name, &|_| quote!(self.nodes));
-        let [inputs, _, events] = self.port_structs(graph);
-        let mailboxes = mailboxes(&inputs.ty, &events.ty, &quote!(self));
+        let mailboxes = self.port_mailboxes(graph, &quote!(self));
         quote! {
             #items
             impl #name {
@@ -212,6 +202,27 @@ impl Generator<'_> {
             Struct::new(&self.item(graph, "Outputs"), "The tokens that came out last; `None` is ⊥.", &outputs),
             Struct::new(&self.item(graph, "Events"), held_back, &events),
         ]
+    }
+
+    /// Items of `Program` for the mailboxes of the ports, which are kept at `place`.
+    pub fn port_mailboxes(&self, graph: &Graph, place: &TokenStream) -> TokenStream {
+        let [Struct { ty: inputs, .. }, _, Struct { ty: events, .. }] = self.port_structs(graph);
+        let names = boundaries(graph, |kind| kind == PortKind::Event).into_iter().map(|n| graph.nodes[n].name.as_str());
+        let names: Vec<&str> = names.collect();
+        let fields = names.iter().map(|name| ident(name));
+        let untaken = (!names.is_empty()).then(|| {
+            quote! {
+                fn untaken(&self) -> ::core::option::Option<(&'static str, ::apex_rt::Arrival)> {
+                    ::apex_rt::untaken(&[#((#names, #place.events.#fields.arrival())),*])
+                }
+            }
+        });
+        quote! {
+            type Inputs = #inputs;
+            type Events = #events;
+            fn mailboxes(&mut self) -> (&mut #inputs, &mut #events) { (&mut #place.inputs, &mut #place.events) }
+            #untaken
+        }
     }
 
     /// The struct of the nodes that are made in Rust, and its name; `None` if there are none.

@@ -6,7 +6,7 @@ use super::{
     activity::ProgramView,
     cells::cell_name,
     params::ParamRows,
-    program::{Field, around_text, mailboxes, node_structs, port_accessors},
+    program::{Field, around_text, node_structs, port_accessors},
     types::{duration, ident},
     wiring::Wiring,
 };
@@ -125,8 +125,7 @@ impl Program<'_> {
         let [ends, handle] = self.handle_structs(number);
         let call = quote!(self.part.react_part(now, true, &mut self.ends, &self.wake, observer));
         let ports = quote!(self.part);
-        let [inputs, _, events] = self.parts[number].port_structs(&part.graph);
-        let mailboxes = mailboxes(&inputs.ty, &events.ty, &ports);
+        let mailboxes = self.parts[number].port_mailboxes(&part.graph, &ports);
         let react = self.generator.recorded_react(self.graph, (number == 0).then_some(&ports), &call);
         let stop = self.parts[number].stop(&part.graph, &part.analysis, &quote!(self.part));
         let visit = params.visit(&|node| (self.graph.group(node) == part.group).then(|| quote!(self.part.nodes)));
@@ -279,8 +278,7 @@ impl Program<'_> {
                 }
         };
         let main = part_name(&parts[0]);
-        let [inputs, _, events] = self.parts[0].port_structs(&parts[0].graph);
-        let mailboxes = mailboxes(&inputs.ty, &events.ty, &quote!(self.#main));
+        let mailboxes = self.parts[0].port_mailboxes(&parts[0].graph, &quote!(self.#main));
         let (own_react, react) = self.generator.around(self.graph, react, &quote!(self.#main));
         let recording = self.generator.recording(self.graph);
         let endless = parts.iter().filter(|p| p.analysis.asynchronous.endless).map(part_name);

@@ -11,7 +11,7 @@ use crate::{
     end::{Driven, is_asked},
     ports::Ways,
     requests::ServedRequests,
-    run::Lateness,
+    run::{Lateness, Untaken},
 };
 use std::{
     panic::resume_unwind,
@@ -257,7 +257,7 @@ impl Run {
         mut observer: O,
     ) {
         let (mut clock, mut short) = (member.pace.clock, false);
-        let (is_watched, mut lateness) = (self.is_watched(), Lateness::default());
+        let (is_watched, mut lateness, mut untaken) = (self.is_watched(), Lateness::default(), Untaken::default());
         member.exchange(&mut driven.program, &self.sleep);
         while !self.is_over(member.pace) {
             self.sleep.begin(member.group);
@@ -270,7 +270,8 @@ impl Run {
             lateness.look(next, now, &mut observer, || clock.now().since(now));
             member.requests.serve(part);
             let came = member.exchange(part, &self.sleep);
-            match next {
+            let looks = untaken.look(part, now, &mut observer);
+            match next.or(looks.map_or(Next::Input, Next::At)) {
                 Next::Exit(code) => self.end(code),
                 _ if came => {}
                 Next::Now => {}

@@ -138,6 +138,10 @@ impl<P: Program> Program for SingleGroup<'_, P> {
     fn mailboxes(&mut self) -> (&mut P::Inputs, &mut P::Events) {
         self.0.mailboxes()
     }
+
+    fn untaken(&self) -> Option<(&'static str, crate::Arrival)> {
+        self.0.untaken()
+    }
 }
 
 impl<P: Program> Group for SingleGroup<'_, P> {
