@@ -121,7 +121,8 @@ fn program(
         None => generator.program(graph, &program.analysis),
     };
     let formats = channels.map(record::Channels::formats);
-    let code = quote! { #code #formats };
+    let recorded = generator.recorded_tokens(graph);
+    let code = quote! { #code #formats #recorded };
     let code = match &program.script {
         Some(script) => generator.test(graph, script, code),
         None => code,

@@ -13,6 +13,7 @@ use crate::{
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
+use std::collections::BTreeMap;
 use syn::Ident;
 
 /// The message of rustc if the answer is no.
@@ -294,6 +295,34 @@ impl Generator<'_> {
         quote! { #items #function }
     }
 
+    /// Asks whether the tokens that the `record` statement of the program writes can be written.
+    pub fn recorded_tokens(&self, graph: &Graph) -> TokenStream {
+        let (Some(channels), Some(record)) = (self.channels, &graph.record) else { return quote!() };
+        let ends = channels.recorded().filter(|end| !matches!(graph.port(*end).ty, Type::Primitive(_)));
+        let mut of_types: BTreeMap<String, (TokenStream, &Type, Vec<String>)> = BTreeMap::new();
+        for end in ends {
+            let ty = self.token_type(graph, end);
+            let (.., names) = of_types.entry(ty.to_string()).or_insert_with(|| (ty, &graph.port(end).ty, vec![]));
+            names.push(graph.end_name(end));
+        }
+        let (mut items, mut asked) = (quote!(), quote!());
+        for (number, (ty, written, names)) in of_types.values().enumerate() {
+            let name = format_ident!("Recorded{number}");
+            let message = self.message(&Message {
+                text: format!("{} cannot be recorded: `{written}` is neither read and written by serde nor a message", list(names)),
+                place: record.span,
+                note: Some(
+                    "derive `serde::Serialize` and `serde::Deserialize` for it, or implement `apex_rt::record::Message`"
+                        .to_owned(),
+                ),
+            });
+            items.extend(quote! { #message trait #name {} impl #name for ::apex_rt::record::Recordable {} });
+            asked.extend(quote! {{ fn is<T: #name>(_: T) {} is(::apex_rt::__recordable!(#ty)); }});
+        }
+        let function = (!asked.is_empty()).then(|| quote! { fn asked_of_recording() { #asked } });
+        quote! { #items #function }
+    }
+
     /// A trait without methods for all types that have `bound`.
     fn question(&self, name: &Ident, bound: &TokenStream, message: &Message) -> TokenStream {
         let (message, silent) = (self.message(message), self.silent());
@@ -356,6 +385,6 @@ fn is_whole(library: &Library) -> bool {
 }
 
 /// `` `T: Add`, `U: Copy` ``
-fn list(bounds: &[String]) -> String {
-    bounds.iter().map(|bound| format!("`{bound}`")).collect::<Vec<_>>().join(", ")
+fn list(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }

@@ -88,8 +88,19 @@ impl<T> Kind<T> {
     pub const NEW: Self = Self(PhantomData);
 }
 
+/// Answer of a [`Kind`] whose tokens can be recorded.
+pub struct Recordable;
+
+/// Answer of a [`Kind`] whose tokens cannot be recorded.
+pub struct NotRecordable<T>(PhantomData<T>);
+
 /// References, which cannot be read back from a file.
 pub trait ByReference<T> {
+    /// Returns that they cannot be recorded.
+    fn is_recordable(&self) -> NotRecordable<T> {
+        NotRecordable(PhantomData)
+    }
+
     /// Returns `None`. Without this, serde would be asked whether it reads references of every lifetime.
     fn codec(&self) -> Option<Codec<T>> {
         None
@@ -100,6 +111,11 @@ impl<U: ?Sized> ByReference<&'static U> for &&&Kind<&'static U> {}
 
 /// Codec of types that are messages.
 pub trait ByMessage<T> {
+    /// Returns that they can be recorded.
+    fn is_recordable(&self) -> Recordable {
+        Recordable
+    }
+
     /// Returns the codec.
     fn codec(&self) -> Option<Codec<T>>;
 }
@@ -138,6 +154,11 @@ fn message<T: Message>() -> Schema {
 
 /// Codec of types with the traits of serde.
 pub trait BySerde<T> {
+    /// Returns that they can be recorded.
+    fn is_recordable(&self) -> Recordable {
+        Recordable
+    }
+
     /// Returns the codec.
     fn codec(&self) -> Option<Codec<T>>;
 }
@@ -158,6 +179,11 @@ impl<T: Serialize + DeserializeOwned> BySerde<T> for &Kind<T> {
 
 /// Codec of all other types: none.
 pub trait ByNothing<T> {
+    /// Returns that they cannot be recorded.
+    fn is_recordable(&self) -> NotRecordable<T> {
+        NotRecordable(PhantomData)
+    }
+
     /// Returns `None`.
     fn codec(&self) -> Option<Codec<T>>;
 }

@@ -26,7 +26,7 @@ mod waits;
 
 pub use limits::RecordOptions;
 #[doc(hidden)]
-pub use message::{ByMessage, ByNothing, ByReference, BySerde, Kind};
+pub use message::{ByMessage, ByNothing, ByReference, BySerde, Kind, NotRecordable, Recordable};
 pub use message::{Codec, Message, Reason, Schema};
 pub use recorder::{Finished, Recorder, WhenFull};
 pub use replay::{Replay, ReplayError};
@@ -104,6 +104,17 @@ macro_rules! __codec {
         #[allow(unused_imports, reason = "only one of them is right for a type")]
         use $crate::record::{ByMessage as _, ByNothing as _, ByReference as _, BySerde as _};
         (&&&&$crate::record::Kind::<$ty>::NEW).codec()
+    }};
+}
+
+/// Returns whether tokens of a type can be recorded, as a type, for generated code.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __recordable {
+    ($ty:ty) => {{
+        #[allow(unused_imports, reason = "only one of them is right for a type")]
+        use $crate::record::{ByMessage as _, ByNothing as _, ByReference as _, BySerde as _};
+        (&&&&$crate::record::Kind::<$ty>::NEW).is_recordable()
     }};
 }
 
