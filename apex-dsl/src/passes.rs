@@ -76,10 +76,9 @@ pub fn check_all(
         }
         for program in &programs {
             check::check_periods(&program.graph, &program.analysis, diagnostics);
-            check::check_stuck(&program.graph, &program.analysis, catalog, diagnostics);
         }
         for program in &mut programs {
-            program.claims = claims::decide(&program.graph, catalog, states, diagnostics);
+            program.claims = claims::decide(&program.graph, &program.analysis, catalog, states, diagnostics);
         }
     }
     if !diagnostics.has_errors() {

@@ -229,7 +229,7 @@ impl Lateness {
 }
 
 /// Watch over the events of a program: what triggers an event is held back until its token was taken, so that a program
-/// whose events nobody takes comes to a standstill.
+/// whose events are not taken comes to a standstill.
 #[derive(Debug, Default)]
 pub(crate) struct Untaken {
     /// The token that waits, and since when.
@@ -238,7 +238,7 @@ pub(crate) struct Untaken {
     told: Option<&'static str>,
 }
 
-/// Time from which on an event that nobody takes is reported.
+/// Time from which on an event that is not taken is reported.
 const UNTAKEN_FROM: Duration = Duration::from_secs(1);
 
 impl Untaken {

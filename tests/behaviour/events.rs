@@ -98,3 +98,25 @@ fn tokens_that_wait_for_one_another_are_reported_once() {
     program.react_with(Time::from_millis(2), &mut knots);
     assert_eq!((program.nodes().sink.seen.as_slice(), knots.0.len()), (&[7][..], 2));
 }
+
+/// Claims that were broken.
+#[derive(Default)]
+struct Broken(Vec<usize>);
+
+impl Observer for Broken {
+    fn claim_failed(&mut self, claim: usize) {
+        self.0.push(claim);
+    }
+}
+
+#[test]
+fn the_claim_that_no_tokens_wait_is_checked_where_it_is_not_decided() {
+    let (mut program, mut broken) = (ActiveKnot::new(), Broken::default());
+    program.react_with(Time::ZERO, &mut broken);
+    assert!(broken.0.is_empty());
+    for _ in 0..2 {
+        program.inputs().press.put(1).expect("it is empty");
+        program.react_with(Time::from_millis(1), &mut broken);
+        assert_eq!(broken.0, [0]);
+    }
+}

@@ -17,7 +17,8 @@ impl Drop for Killed {
     }
 }
 
-/// Starts this test again, to run the ignored test `name` only. Returns the process and the lines that it writes, errors too.
+/// Starts this test again, to run the ignored test `name` only. Returns the process and the lines that it writes,
+/// errors too.
 pub fn again(name: &str, variables: &[(&str, &str)]) -> (Killed, Lines<BufReader<PipeReader>>) {
     let own = env::current_exe().expect("the test runs");
     let (reads, writes) = io::pipe().expect("there is a pipe");

@@ -1,4 +1,4 @@
-//! Events of a program that nobody takes: what triggers them is held back, which is said.
+//! Events of a program that are not taken: what triggers them is held back, which is said.
 
 use apex_macros::graph;
 use apex_rt::{Ports, drive_from, drive_with, prelude::*};
@@ -43,7 +43,7 @@ graph! {
     }
 }
 
-/// What was said of events.
+/// Events that were reported.
 #[derive(Default)]
 struct Said(Vec<(&'static str, Duration)>);
 

@@ -54,7 +54,7 @@ pub use rates::has_rates;
 pub use schedule::{Block, Run, Step};
 pub use silences::{Silence, parameter as silence_parameter};
 pub use stamps::Stamps;
-pub use stuck::{blockers, find as find_stuck, is_possible as may_get_stuck};
+pub use stuck::{Liveness, Stuck, blockers, is_possible as may_get_stuck, liveness};
 
 /// Results of the analysis of a graph.
 #[derive(Debug)]

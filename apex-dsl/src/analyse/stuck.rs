@@ -28,6 +28,26 @@ pub struct Stuck {
     pub waits: Vec<(ConnectionId, ConnectionId)>,
 }
 
+/// Answer to the question whether tokens may wait for one another.
+#[derive(Debug)]
+pub enum Liveness {
+    /// They never do.
+    Holds,
+    /// They may, after this run.
+    Fails(Stuck),
+    /// They may, if slots that ask whether their node is active send tokens nevertheless, or after more steps than were
+    /// searched, or on several threads.
+    Unknown,
+}
+
+/// Result of a search.
+enum Found {
+    Nothing,
+    Stuck(Stuck),
+    /// Nothing among as many queues as are visited.
+    TooMany,
+}
+
 struct Visited {
     queue: Vec<ConnectionId>,
     /// The queue before, and the token that was taken from it.
@@ -35,14 +55,20 @@ struct Visited {
 }
 
 /// Searches for a shortest run to tokens that wait for one another. Slots that ask whether their node is active are
-/// taken to send nothing.
-pub fn find(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Stuck> {
-    search(graph, analysis, &|token| asks_for_activity(graph, analysis, catalog, token))
+/// taken to send nothing in it.
+pub fn liveness(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Liveness {
+    match search(graph, analysis, &|token| asks_for_activity(graph, analysis, catalog, token)) {
+        Found::Stuck(stuck) => Liveness::Fails(stuck),
+        // Threads take their steps at the same time.
+        _ if graph.has_several_groups() && is_cyclic(graph, &analysis.links) => Liveness::Unknown,
+        _ if is_possible(graph, analysis) => Liveness::Unknown,
+        _ => Liveness::Holds,
+    }
 }
 
-/// Returns `true` if tokens that wait for one another were found, whatever their slots ask.
+/// Returns `true` if tokens may wait for one another, whatever their slots ask.
 pub fn is_possible(graph: &Graph, analysis: &Analysis) -> bool {
-    search(graph, analysis, &|_| false).is_some()
+    !matches!(search(graph, analysis, &|_| false), Found::Nothing)
 }
 
 /// For each slot token, those that have to be taken before its slot can be called.
@@ -55,11 +81,11 @@ pub fn blockers(graph: &Graph, analysis: &Analysis) -> Vec<Vec<ConnectionId>> {
     asynchronous.slots.iter().map(blockers).collect()
 }
 
-fn search(graph: &Graph, analysis: &Analysis, is_silent: &dyn Fn(ConnectionId) -> bool) -> Option<Stuck> {
+fn search(graph: &Graph, analysis: &Analysis, is_silent: &dyn Fn(ConnectionId) -> bool) -> Found {
     let asynchronous = &analysis.asynchronous;
     // Without a queue each slot is known to be ready when its token arrives.
     if asynchronous.delivery != Delivery::Queued || !is_cyclic(graph, &analysis.links) {
-        return None;
+        return Found::Nothing;
     }
     let blockers = blockers(graph, analysis);
     let blocks = |queue: &[ConnectionId], token: ConnectionId| {
@@ -82,7 +108,7 @@ fn search(graph: &Graph, analysis: &Analysis, is_silent: &dyn Fn(ConnectionId) -
                 continue;
             }
             let waits = queue.iter().filter_map(|token| Some((*token, blocks(&queue, *token)?))).collect();
-            return Some(Stuck { run: run(&visited, at), waits });
+            return Found::Stuck(Stuck { run: run(&visited, at), waits });
         };
         let token = queue[place];
         let mut rest = queue;
@@ -97,7 +123,7 @@ fn search(graph: &Graph, analysis: &Analysis, is_silent: &dyn Fn(ConnectionId) -
         }
         at += 1;
     }
-    None
+    if at < visited.len() { Found::TooMany } else { Found::Nothing }
 }
 
 /// The tokens that were taken on the way to a queue.

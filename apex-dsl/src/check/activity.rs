@@ -75,7 +75,7 @@ fn check_claims(graph: &Graph, reached: &BTreeSet<NodeId>, diagnostics: &mut Dia
         // A `reaches` whose end is never active is wrong.
         let meant = match claim.kind {
             ClaimKind::Reaches => &claim.of[..1],
-            ClaimKind::Exclusive | ClaimKind::Conserved => &claim.of,
+            ClaimKind::Exclusive | ClaimKind::Conserved | ClaimKind::Live => &claim.of,
         };
         let Some(idle) = meant.iter().find(|subject| !is_reached(**subject)) else { continue };
         let (claimed, name) = (graph.claim_text(claim), graph.subject_name(*idle));

@@ -7,7 +7,6 @@ mod lints;
 mod modifiers;
 mod parallel;
 mod rates;
-mod stuck;
 mod target;
 mod types;
 mod unused;
@@ -21,7 +20,6 @@ use crate::{
 
 pub use lints::check_lints;
 pub use rates::{check_periods, check_rates};
-pub use stuck::check_stuck;
 pub use types::compare as compare_types;
 pub use unused::check_unused;
 

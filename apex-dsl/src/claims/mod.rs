@@ -1,5 +1,7 @@
-//! Claims about activity, decided before a program runs by a search through all states of its activity.
+//! Claims about activity, decided before a program runs by a search through all states of its activity, and the claim
+//! that its tokens never wait for one another.
 
+mod live;
 mod model;
 mod properties;
 mod search;
@@ -7,6 +9,7 @@ mod slices;
 mod trace;
 
 use crate::{
+    analyse::Analysis,
     catalog::Catalog,
     graph::{Claim, ClaimKind, Graph, Subject},
     report::{Diagnostic, Diagnostics},
@@ -26,6 +29,8 @@ pub enum Verdict {
     Fails,
     /// There are too many states: the program checks the claim at run time.
     Undecided,
+    /// The same in a program on several threads, which does not check it.
+    Unchecked,
 }
 
 impl Verdict {
@@ -35,6 +40,23 @@ impl Verdict {
             Self::Holds => "holds",
             Self::Fails => "fails",
             Self::Undecided => "undecided, checked at run time",
+            Self::Unchecked => "undecided, and not checked on several threads",
+        }
+    }
+
+    /// The verdict on a claim of `graph` that is not decided.
+    fn undecided(graph: &Graph) -> Self {
+        if graph.has_several_groups() { Self::Unchecked } else { Self::Undecided }
+    }
+
+    /// Notes for a message about it.
+    fn notes(self) -> &'static [&'static str] {
+        match self {
+            Self::Holds | Self::Fails => &[],
+            Self::Undecided => {
+                &["the program checks it at run time and reports a violation to `Observer::claim_failed`"]
+            }
+            Self::Unchecked => &["it is not checked at run time either: the program runs on several threads"],
         }
     }
 }
@@ -46,29 +68,43 @@ pub struct Decided {
     pub states: usize,
     /// Verdict on each claim, in the order of [`Graph::claims`].
     pub verdicts: Vec<Verdict>,
+    /// The claim `live`.
+    live: Option<usize>,
 }
 
 impl Decided {
-    /// Returns `true` if the program has to check claims at run time.
-    pub fn has_undecided(&self) -> bool {
-        self.verdicts.contains(&Verdict::Undecided)
+    /// The claims about activity that the program has to check at run time.
+    pub fn undecided(&self) -> Vec<usize> {
+        (0..self.verdicts.len()).filter(|c| self.live != Some(*c) && self.is_undecided(*c)).collect()
     }
 
-    /// The claims that the program has to check at run time.
-    pub fn undecided(&self) -> Vec<usize> {
-        (0..self.verdicts.len()).filter(|c| self.verdicts[*c] == Verdict::Undecided).collect()
+    /// The claim `live`, if the program has to check it at run time.
+    pub fn undecided_live(&self) -> Option<usize> {
+        self.live.filter(|claim| self.is_undecided(*claim))
+    }
+
+    fn is_undecided(&self, claim: usize) -> bool {
+        self.verdicts[claim] == Verdict::Undecided
     }
 }
 
 /// Decides the claims of `graph` with at most `bound` visited states. Reports claims that fail or remain undecided,
-/// once for each place in the source file, however often its graph is used.
-pub fn decide(graph: &Graph, catalog: &Catalog, bound: usize, diagnostics: &mut Diagnostics) -> Decided {
+/// once for each place in the source file, however often its graph is used. Warns of tokens that wait for one another.
+pub fn decide(
+    graph: &Graph,
+    analysis: &Analysis,
+    catalog: &Catalog,
+    bound: usize,
+    diagnostics: &mut Diagnostics,
+) -> Decided {
+    let live = live::live(graph, analysis, catalog, diagnostics);
     if graph.claims.is_empty() {
         return Decided::default();
     }
     let model = Model::new(graph, catalog);
     let checks = Checks::new(graph, &model);
-    let mut decided = Decided::default();
+    let is_live = |claim: &Claim| claim.kind == ClaimKind::Live;
+    let mut decided = Decided { live: graph.claims.iter().position(is_live), ..Decided::default() };
     let mut found: Vec<(Option<Vec<Move>>, bool)> = vec![(None, true); graph.claims.len()];
     for slice in slices(&model, &checks) {
         let mut outcome = search(&model, &checks, &slice, bound.saturating_sub(decided.states));
@@ -81,6 +117,7 @@ pub fn decide(graph: &Graph, catalog: &Catalog, bound: usize, diagnostics: &mut 
     }
     for (number, (claim, (run, complete))) in graph.claims.iter().zip(&found).enumerate() {
         decided.verdicts.push(match run {
+            _ if claim.kind == ClaimKind::Live => live,
             Some(run) => {
                 diagnostics.push_once(failure(graph, &model, claim, run));
                 Verdict::Fails
@@ -88,7 +125,7 @@ pub fn decide(graph: &Graph, catalog: &Catalog, bound: usize, diagnostics: &mut 
             None if *complete || checks.is_certain(&model, number, claim.of.len() as u32) => Verdict::Holds,
             None => {
                 diagnostics.push_once(open(graph, claim, decided.states));
-                Verdict::Undecided
+                Verdict::undecided(graph)
             }
         });
     }
@@ -106,7 +143,7 @@ fn failure(graph: &Graph, model: &Model, claim: &Claim, run: &[Move]) -> Diagnos
             format!("{} can be active when no activity can reach {}", names[0], names[1]),
             "connect the node at which the run ends by `=>`, so that activity can continue from there",
         ),
-        ClaimKind::Conserved => {
+        ClaimKind::Live | ClaimKind::Conserved => {
             let (left, given) = (end(model, run).into_iter().filter(|p| model.is_active(*p)).count(), model.given);
             let what = if left < given { "lost" } else { "multiplied" };
             (
@@ -159,7 +196,7 @@ fn open(graph: &Graph, claim: &Claim, states: usize) -> Diagnostic {
         "`{}` is undecided: activity has more than the {states} states that were searched",
         graph.claim_text(claim)
     );
-    Diagnostic::warning("claim-undecided", claim.span, message)
-        .note("the program checks it at run time and reports a violation to `Observer::claim_failed`")
-        .note("to reduce the number of states, let fewer nodes be active at the same time, or make the claim in a smaller graph")
+    let warning = Diagnostic::warning("claim-undecided", claim.span, message);
+    let warning = Verdict::undecided(graph).notes().iter().fold(warning, |warning, note| warning.note(*note));
+    warning.note("to reduce the number of states, let fewer nodes be active at the same time, or make the claim in a smaller graph")
 }

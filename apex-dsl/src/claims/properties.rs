@@ -122,6 +122,7 @@ impl Checks {
             (ClaimKind::Conserved, _) => state.iter().filter(|place| model.is_active(**place)).count() != given,
             (ClaimKind::Reaches, (nearer, from)) => from && nearer.is_none(),
             (ClaimKind::Exclusive, (_, both)) => both,
+            (ClaimKind::Live, _) => false,
         };
         (0..self.kinds.len()).filter(is_broken).collect()
     }
@@ -134,7 +135,7 @@ impl Checks {
                 let nearer = model.reaching(&self.goals[&claim], false);
                 self.places(claim, FROM).iter().all(|place| nearer[*place as usize])
             }
-            ClaimKind::Conserved => false,
+            ClaimKind::Conserved | ClaimKind::Live => false,
         }
     }
 }

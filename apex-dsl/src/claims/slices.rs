@@ -27,6 +27,7 @@ pub fn slices(model: &Model, checks: &Checks) -> Vec<Slice> {
                 let all: BTreeSet<PlaceId> = part.iter().copied().collect();
                 all.into_iter().for_each(|part| claims.entry(BTreeSet::from([part])).or_default().push(claim));
             }
+            ClaimKind::Live => {}
             ClaimKind::Exclusive | ClaimKind::Reaches => {
                 let about = checks.about(claim).map(|place| part[place as usize]).collect();
                 claims.entry(about).or_default().push(claim);

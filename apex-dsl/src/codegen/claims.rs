@@ -23,12 +23,17 @@ struct Flagged {
 }
 
 impl Generator<'_> {
-    /// The claims that the program looks at.
+    /// The claims about activity that the program looks at.
     fn undecided(&self) -> Vec<usize> {
         self.claims.map(Decided::undecided).unwrap_or_default()
     }
 
-    /// Returns `true` if the program checks claims.
+    /// The claim `live`, if the program looks at it.
+    pub fn undecided_live(&self) -> Option<usize> {
+        self.claims.and_then(Decided::undecided_live)
+    }
+
+    /// Returns `true` if the program checks claims about activity.
     pub fn checks_claims(&self) -> bool {
         !self.undecided().is_empty()
     }
@@ -70,6 +75,8 @@ impl Generator<'_> {
                     let (from, nearer) = (names(FROM), names(NEARER));
                     quote!((#from) && !(#nearer))
                 }
+                // It is not about activity.
+                ClaimKind::Live => quote!(false),
                 ClaimKind::Conserved => {
                     let (all, given) = (flags.values().map(|flag| &flag.test), model.given);
                     quote!([#(#all),*].into_iter().filter(|active| *active).count() != #given)

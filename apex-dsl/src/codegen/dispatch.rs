@@ -383,10 +383,15 @@ impl Generator<'_> {
             let (slot, connection) = (slot as u16, self.connection(*token)?);
             Some(quote!(#slot => observer.stuck(#connection),))
         });
+        let claim = self.undecided_live();
+        let before = claim.map(|_| quote! { let before = state.stuck; });
+        let claim = claim.map(|claim| quote! { if before == 0 && state.stuck > 0 { observer.claim_failed(#claim); } });
         quote! {
             if !self.state.queue.is_empty() {
                 let Self { state, .. } = self;
+                #before
                 state.queue.stuck(&[#(#rows),*], &mut state.stuck, |slot| match slot { #(#arms)* _ => {} });
+                #claim
             }
         }
     }

@@ -318,6 +318,23 @@ impl Graph {
         own.or_else(around).unwrap_or(MAIN_GROUP)
     }
 
+    /// The thread groups: the main group, then the others in the order of the source file.
+    pub fn groups(&self) -> Vec<&str> {
+        let mut groups = vec![MAIN_GROUP];
+        for node in self.nodes.ids() {
+            let group = self.group(node);
+            if group != WATCH_GROUP && !groups.contains(&group) {
+                groups.push(group);
+            }
+        }
+        groups
+    }
+
+    /// Returns `true` if the program runs on several threads.
+    pub fn has_several_groups(&self) -> bool {
+        self.groups().len() > 1
+    }
+
     /// Returns `true` if a node can be active. `start` is an event in time without a state, and nodes that end the
     /// program or form its boundary hold no activity.
     pub fn can_hold_activity(&self, node: NodeId) -> bool {

@@ -9,7 +9,7 @@ use crate::{
 };
 use std::time::Duration;
 
-/// A claim about activity.
+/// A claim about activity, or about the tokens of events.
 #[derive(Debug, Clone)]
 pub struct Claim {
     /// Property that is claimed.
@@ -29,11 +29,13 @@ pub enum ClaimKind {
     Reaches,
     /// The amount of activity in the program is always the amount that `start` gave.
     Conserved,
+    /// Tokens never wait for one another.
+    Live,
 }
 
 impl ClaimKind {
     /// All kinds of claims.
-    pub const ALL: [Self; 3] = [Self::Exclusive, Self::Reaches, Self::Conserved];
+    pub const ALL: [Self; 4] = [Self::Exclusive, Self::Reaches, Self::Conserved, Self::Live];
 
     /// The keyword of the claim.
     pub fn word(self) -> &'static str {
@@ -41,6 +43,7 @@ impl ClaimKind {
             Self::Exclusive => "exclusive",
             Self::Reaches => "reaches",
             Self::Conserved => "conserved",
+            Self::Live => "live",
         }
     }
 }

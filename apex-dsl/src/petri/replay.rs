@@ -104,7 +104,7 @@ impl<'a> Replay<'a> {
             expected: BTreeMap::new(),
             bypass: vec![],
             last: vec![],
-            has_groups: crate::threads::groups(graph).len() > 1,
+            has_groups: graph.has_several_groups(),
             hesitant: BTreeSet::new(),
         };
         replay.expect_changes(true);

@@ -53,7 +53,8 @@ impl Builder<'_> {
             let message = format!("there is no claim `{}`", claim.kind.text);
             let error = Diagnostic::error("unknown-claim", claim.kind.span, message);
             let error = suggest(error, &claim.kind, ClaimKind::ALL.into_iter().map(ClaimKind::word));
-            self.diagnostics.push(error.note("claims are `exclusive(a, b, …)`, `reaches(a, b)` and `conserved`"));
+            self.diagnostics
+                .push(error.note("claims are `exclusive(a, b, …)`, `reaches(a, b)`, `conserved` and `live`"));
             return None;
         };
         self.check_count(kind, claim)?;
@@ -80,7 +81,7 @@ impl Builder<'_> {
         let (fits, wanted, form) = match (kind, claim.of.len()) {
             (ClaimKind::Exclusive, n) => (n >= 2, "at least two names", "exclusive(a, b)"),
             (ClaimKind::Reaches, n) => (n == 2, "two names", "reaches(a, b)"),
-            (ClaimKind::Conserved, n) => (n == 0, "no names", "conserved"),
+            (ClaimKind::Conserved | ClaimKind::Live, n) => (n == 0, "no names", kind.word()),
         };
         if fits {
             return Some(());

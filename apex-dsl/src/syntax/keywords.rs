@@ -42,7 +42,7 @@ const fn keyword(text: &'static str, position: KeywordPosition, docs: &'static s
 }
 
 /// All keywords. A keyword with several positions has several entries.
-pub const KEYWORDS: [Keyword; 65] = [
+pub const KEYWORDS: [Keyword; 66] = [
     keyword(
         "use",
         KeywordPosition::Item,
@@ -199,6 +199,7 @@ pub const KEYWORDS: [Keyword; 65] = [
         KeywordPosition::Claim,
         "The amount of activity in the program is always that created by `start`.",
     ),
+    keyword("live", KeywordPosition::Claim, "The tokens of events never wait for one another."),
     keyword("crate", KeywordPosition::Inside, "The package of the source file."),
 ];
 

@@ -17,12 +17,12 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
             check_body(&each.body, diagnostics);
         }
     }
-    let is_alone = super::groups(graph).len() < 2;
+    let is_alone = !graph.has_several_groups();
     check_watch(graph, is_alone, diagnostics);
     if is_alone {
         return;
     }
-    if super::groups(graph).len() > MAX_GROUPS {
+    if graph.groups().len() > MAX_GROUPS {
         let message = format!("a program has at most {MAX_GROUPS} thread groups");
         diagnostics.push(Diagnostic::error("too-large", graph.span, message));
         return;

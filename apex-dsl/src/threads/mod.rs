@@ -15,7 +15,7 @@ use crate::{
 };
 
 pub use check::check;
-pub use split::{groups, split};
+pub use split::split;
 
 /// The graphs of all thread groups.
 #[derive(Debug)]

@@ -5,8 +5,8 @@ use crate::{
     analyse::{self, Analysis},
     catalog::Catalog,
     graph::{
-        CellEnd, Connection, ConnectionId, Crossing, Graph, MAIN_GROUP, Modifiers, Node, NodeId, NodeKind, Port,
-        PortId, ScopeId, Subject, WATCH_GROUP,
+        CellEnd, Connection, ConnectionId, Crossing, Graph, Modifiers, Node, NodeId, NodeKind, Port, PortId, ScopeId,
+        Subject,
     },
     index::IdVec,
     report::Diagnostics,
@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 /// Splits a checked graph; `None` if all its nodes are in one group.
 pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Split> {
-    let groups = groups(whole);
+    let groups = whole.groups();
     if groups.len() < 2 {
         return None;
     }
@@ -42,18 +42,6 @@ pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Sp
     let parts =
         groups.iter().zip(drafts).map(|(group, draft)| draft.analysed(group, catalog)).collect::<Option<_>>()?;
     Some(Split { parts, cells })
-}
-
-/// The thread groups of a graph: the main group, then the others in the order of the source file.
-pub fn groups(graph: &Graph) -> Vec<&str> {
-    let mut groups = vec![MAIN_GROUP];
-    for node in graph.nodes.ids() {
-        let group = graph.group(node);
-        if group != WATCH_GROUP && !groups.contains(&group) {
-            groups.push(group);
-        }
-    }
-    groups
 }
 
 /// A part under construction.

@@ -121,7 +121,7 @@ impl Comparison {
             let agrees = match verdict {
                 Verdict::Holds => violated.is_none(),
                 Verdict::Fails => violated.is_some(),
-                Verdict::Undecided => true,
+                Verdict::Undecided | Verdict::Unchecked => true,
             };
             if !agrees {
                 let claimed = program.graph.claim_text(claim);

@@ -61,6 +61,23 @@ impl Pass {
     }
 }
 
+/// Passes the tokens at its slot on by an event while it is active, and stays active.
+#[node]
+#[derive(Default)]
+pub struct PassActive;
+
+#[node]
+impl PassActive {
+    #[slot]
+    fn enter(&mut self) {}
+    #[slot]
+    fn s(&mut self, token: &i64, ctx: &Ctx, e: Event<i64>) {
+        if ctx.active() {
+            e.emit(*token);
+        }
+    }
+}
+
 /// Passes values on, and triggers an event with each.
 #[node]
 #[derive(Default)]
