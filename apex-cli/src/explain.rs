@@ -2,11 +2,10 @@
 
 use crate::{answer::Answer, memory, project, times};
 use apex_dsl::{
-    explain::{by_name, explain, explain_json},
     passes::listings,
-    petri,
     report::{PAGES, nearest, page},
 };
+use apex_ide::explain::{by_name, explain, explain_json};
 use serde_json::{Value, json};
 use std::{
     path::{Path, PathBuf},
@@ -103,8 +102,8 @@ fn net(file: &Path) -> Result<ExitCode, String> {
         return Ok(ExitCode::from(1));
     }
     for program in &checked.programs {
-        let net = petri::net(&program.graph, &checked.catalog).map_err(|e| e.to_string())?;
-        project::print(&petri::pnml(&net))?;
+        let net = apex_petri::net(&program.graph, &checked.catalog).map_err(|e| e.to_string())?;
+        project::print(&apex_petri::pnml(&net))?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -1,11 +1,8 @@
 //! `apex check --fix`: applies unambiguous fixes.
 
 use crate::{project::Checker, replace::replace};
-use apex_dsl::{
-    fix::{applied, certain, mends},
-    report::Fix,
-    source::Sources,
-};
+use apex_dsl::{report::Fix, source::Sources};
+use apex_ide::fix::{applied, certain, mends};
 use std::{path::Path, sync::Arc};
 
 /// Maximum number of changes: beyond it, fixes cause new errors without end.

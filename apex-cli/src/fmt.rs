@@ -80,7 +80,7 @@ fn formatted(path: &Path, text: &str) -> Option<String> {
         sources.add(path, text);
         project::print_diagnostics(&diagnostics, &sources);
     };
-    apex_dsl::format(text).map_err(print).ok()
+    apex_ide::format(text).map_err(print).ok()
 }
 
 /// First difference between a source file and its formatted version.

@@ -3,12 +3,12 @@
 use crate::{answer::Answer, project::Checker};
 use apex_dsl::{
     catalog::{Catalog, Signature, SignatureId, first_sentence, linkless},
-    ide::{NodeType, ParamFacts, PortFacts, View},
     passes::Checked,
     report::nearest,
     source::Sources,
     syntax::tree::PortKind,
 };
+use apex_ide::{NodeType, ParamFacts, PortFacts, View};
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, fmt::Write as _, path::Path, process::ExitCode};
 

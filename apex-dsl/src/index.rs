@@ -7,6 +7,7 @@ use std::{
 };
 
 /// Defines a type of numbers for an [`IdVec`].
+#[macro_export]
 macro_rules! id {
     ($(#[$docs:meta])* $name:ident) => {
         $(#[$docs])*
@@ -34,7 +35,7 @@ macro_rules! id {
     };
 }
 
-pub(crate) use id;
+pub use id;
 
 /// A vector whose items are numbered by `I`. It also is a slice, for everything that needs no numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -8,14 +8,14 @@ use crate::{
 };
 use apex_dsl::{
     catalog::Catalog,
-    claims, fix,
-    ide::{self, Occurrence, View},
+    claims,
     passes::{self, Checked},
     report::Diagnostics,
     resolve::{Link, SourceSet},
     source::{Sources, World},
     syntax,
 };
+use apex_ide::{Occurrence, View, fix};
 use lsp_types::Position;
 use std::{path::Path, sync::Arc};
 
@@ -124,7 +124,7 @@ impl Names {
     fn new(checked: Checked, places: Places, catalog: &Catalog) -> Self {
         let Checked { texts, links, .. } = checked;
         let sources = places.sources();
-        let occurrences = ide::occurrences(&View { texts: &texts, links: &links, sources, catalog });
+        let occurrences = apex_ide::occurrences(&View { texts: &texts, links: &links, sources, catalog });
         Self { occurrences, places, texts, links }
     }
 

@@ -5,7 +5,7 @@ use crate::{
     language::{Language, Place, Said},
     picture::Picture,
 };
-use apex_dsl::ide::{Paint, paint, statement};
+use apex_ide::{Paint, paint, statement};
 use serde::Serialize;
 use serde_json::Value;
 use std::{

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 /// Paths relative to this package, and contents of all generated files.
 pub fn files() -> Vec<(String, String)> {
-    let formatted = |text: String| apex_dsl::format(&text).unwrap_or(text);
+    let formatted = |text: String| apex_ide::format(&text).unwrap_or(text);
     let graphs = all().into_iter().map(|(name, text)| (format!("graphs/{name}"), formatted(text)));
     graphs.chain([("src/hand/mixed1000.rs".to_owned(), mixed::rust())]).collect()
 }

@@ -15,7 +15,7 @@ graph!("accept.afg");
 #[test]
 fn the_machines_are_those_of_the_generator() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/behaviour/accept.afg");
-    let expected = apex_dsl::format(&machines_text(COUNT)).expect("the generator knows the syntax");
+    let expected = apex_ide::format(&machines_text(COUNT)).expect("the generator knows the syntax");
     if std::env::var_os("APEX_BLESS").is_some() {
         std::fs::write(file, &expected).expect("the folder of the tests can be written");
     }

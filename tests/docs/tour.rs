@@ -2,7 +2,7 @@
 //! the compiler. Its commands are tested in `apex-cli/tests/tools/tour.rs`, which follows the tour from the beginning.
 
 use crate::{Package, TOUR, blocks, page};
-use apex_dsl::explain::explain;
+use apex_ide::explain::explain;
 
 const TEXT: &str = include_str!("../../robots/rover/robot.afg");
 

@@ -1,11 +1,11 @@
 //! Properties that the formatter has for every source file.
 
 use apex_dsl::{
-    format,
     report::Diagnostics,
     source::{FileId, Span},
     syntax::{parse, tree::File},
 };
+use apex_ide::format;
 
 /// Formats a source file and checks the result. Returns `None` if it has errors.
 pub fn check(name: &str, text: &str) -> Option<String> {

@@ -1,6 +1,6 @@
 //! The exported net can be read by a public tool: `pm4py`.
 
-use apex_dsl::petri::pnml;
+use apex_petri::pnml;
 use apex_tests::{
     oracle::{Checker, generate},
     python,

@@ -540,7 +540,6 @@ mod words {
             constant -> letters.constant;
             borrowed -> letters.borrowed;
             letters  -> swallow();
-            record "words.mcap" { letters; }
         }
 
         robot Borrowed {

@@ -1,6 +1,6 @@
 //! Contents of the pages, independent of HTML.
 
-use apex_dsl::ide::{ParamFacts, PortFacts};
+use apex_ide::{ParamFacts, PortFacts};
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},

@@ -6,12 +6,12 @@ use apex_dsl::{
     catalog::SignatureId,
     claims::Verdict,
     graph::Graph,
-    ide::{Definition, MachineId, NodeType, Origin, View, declaration},
     program::Program,
     resolve::GraphId,
     source::Span,
     syntax::tree::{Arg, Endpoint, GraphItem, Instance, Modifier, NodeBody, PathExpr, StateItem, TypeKind},
 };
+use apex_ide::{Definition, MachineId, NodeType, Origin, View, declaration};
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},

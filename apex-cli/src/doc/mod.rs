@@ -13,7 +13,8 @@ use crate::{
     project::{self, Checker},
     texts,
 };
-use apex_dsl::{ide::View, report::render};
+use apex_dsl::report::render;
+use apex_ide::View;
 use book::{Book, Files, Item, Key, Text};
 use folder::Folder;
 use std::{

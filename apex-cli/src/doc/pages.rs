@@ -6,10 +6,8 @@ use super::{
     markdown,
     names::Names,
 };
-use apex_dsl::{
-    ide::{ParamFacts, PortFacts},
-    syntax::tree::PortKind,
-};
+use apex_dsl::syntax::tree::PortKind;
+use apex_ide::{ParamFacts, PortFacts};
 use std::collections::BTreeMap;
 
 /// All pages by file name. Equal books give equal pages.

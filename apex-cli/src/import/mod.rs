@@ -54,7 +54,7 @@ pub fn run(file: &Path, output: Option<&Path>, nodes: Option<&Path>) -> Result<E
         }
     };
     let module = nodes.map_or_else(|| "crate".to_owned(), module);
-    let text = apex_dsl::format(&text::write(&imported, &module))
+    let text = apex_ide::format(&text::write(&imported, &module))
         .map_err(|errors| format!("this graph cannot be written as a source file: {}", errors.sorted()[0].message))?;
     let skeletons = nodes.map(|path| Ok::<_, String>((path, skeletons::write(&imported)?))).transpose()?;
     match output {

@@ -7,8 +7,6 @@ use crate::{
 };
 use apex_diagram::{Item, diagram};
 use apex_dsl::{
-    fix::applied,
-    ide::{ArgumentPlace, set_argument},
     report::Diagnostics,
     source::Sources,
     syntax::{
@@ -16,6 +14,7 @@ use apex_dsl::{
         tree::{Expr, ExprKind, Instance, NodeBody},
     },
 };
+use apex_ide::{ArgumentPlace, fix::applied, set_argument};
 use apex_studio::{ParamChange, Replayed, Source};
 use std::{
     collections::BTreeMap,

@@ -83,11 +83,6 @@ impl Channels {
         quote! { #(#functions)* }
     }
 
-    /// The ports that a recording of the program has, by the type of their tokens.
-    pub fn recorded(&self) -> impl Iterator<Item = PortId> + '_ {
-        self.rows.iter().filter(|(_, role)| *role != Role::Port).map(|(end, _)| *end)
-    }
-
     /// The number of a type of tokens.
     fn type_number(&self, ty: TokenStream) -> usize {
         self.types.borrow_mut().number(ty)

@@ -295,10 +295,10 @@ impl Generator<'_> {
         quote! { #items #function }
     }
 
-    /// Asks whether the tokens that the `record` statement of the program writes can be written.
+    /// Asks whether the tokens that the `record` statement of the program names can be recorded.
     pub fn recorded_tokens(&self, graph: &Graph) -> TokenStream {
-        let (Some(channels), Some(record)) = (self.channels, &graph.record) else { return quote!() };
-        let ends = channels.recorded().filter(|end| !matches!(graph.port(*end).ty, Type::Primitive(_)));
+        let (Some(_), Some(record)) = (self.channels, &graph.record) else { return quote!() };
+        let ends = record.ports.iter().copied().filter(|end| !matches!(graph.port(*end).ty, Type::Primitive(_)));
         let mut of_types: BTreeMap<String, (TokenStream, &Type, Vec<String>)> = BTreeMap::new();
         for end in ends {
             let ty = self.token_type(graph, end);

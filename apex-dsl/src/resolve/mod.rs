@@ -41,8 +41,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub use link::{Link, Side};
 pub use lists::{check_origins, token_type};
 pub use names::{Constructor, GraphId, Resolution, SourceSet, suggest};
-pub(crate) use standard::is_own_event;
-pub(crate) use unknown::{Known, everywhere, unknown};
+pub use standard::is_own_event;
+pub use unknown::{Known, everywhere, unknown};
 
 /// Largest number of nodes and nested graphs of a program. It has at most four times as many connections.
 pub const MAX_NODES: usize = 50_000;

@@ -2,7 +2,7 @@
 
 mod build;
 mod characters;
-pub(crate) mod cst;
+pub mod cst;
 #[rustfmt::skip]
 #[allow(missing_docs, dead_code)]
 mod grammar;
@@ -11,7 +11,7 @@ mod mistakes;
 mod prescan;
 mod repair;
 mod syntax_errors;
-pub(crate) mod tokens;
+pub mod tokens;
 pub mod tree;
 
 use crate::{
@@ -24,7 +24,7 @@ pub use prescan::{MAX_BYTES, MAX_DEPTH};
 pub use repair::repaired;
 
 use grammar::Grammar;
-pub(crate) use grammar::Rule;
+pub use grammar::Rule;
 
 /// Parses a source file. Always returns a tree; the parts that cannot be parsed are reported and left out.
 pub fn parse(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> tree::File {
@@ -66,7 +66,7 @@ fn around_damage(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Opt
 }
 
 /// Reads a source file with all its tokens and comments; `None` if it has errors, which are reported.
-pub(crate) fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostics) -> Option<cst::Text<'t>> {
+pub fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostics) -> Option<cst::Text<'t>> {
     let lexical = prescan::scan(file, text, diagnostics)?;
     let pair = match Grammar::parse(Rule::file, &lexical.text) {
         Ok(mut pairs) => pairs.next()?,

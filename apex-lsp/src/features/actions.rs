@@ -1,7 +1,8 @@
 //! Code actions: fixes of errors, and connections by name written out.
 
 use super::{Ready, diagnostics::diagnostic};
-use apex_dsl::{fix, ide, report::Fix};
+use apex_dsl::report::Fix;
+use apex_ide::fix;
 use lsp_types::{CodeAction, CodeActionKind, Range, TextEdit, WorkspaceEdit};
 use std::collections::HashMap;
 
@@ -53,7 +54,7 @@ pub fn actions(ready: &Ready<'_>, range: Range) -> Vec<Offered> {
 /// Actions that replace `.*` by the names of the ports.
 fn written_out(ready: &Ready<'_>, range: Range) -> Vec<Offered> {
     let (start, end) = (ready.offset(range.start) as u32, ready.offset(range.end) as u32);
-    let offer = |written: ide::WrittenOut| {
+    let offer = |written: apex_ide::WrittenOut| {
         let location = ready.analysis.report.places.location(written.chain)?;
         let edit = TextEdit::new(location.range, written.text);
         let action = CodeAction {
@@ -64,5 +65,5 @@ fn written_out(ready: &Ready<'_>, range: Range) -> Vec<Offered> {
         };
         Some(Offered { action, certain: None })
     };
-    ide::written_out(&ready.view(), start, end).into_iter().filter_map(offer).collect()
+    apex_ide::written_out(&ready.view(), start, end).into_iter().filter_map(offer).collect()
 }

@@ -2,12 +2,8 @@
 
 use super::Ready;
 use crate::documents::Document;
-use apex_dsl::{
-    ide::{self, Completion, CompletionKind},
-    report::Diagnostics,
-    source::FileId,
-    syntax,
-};
+use apex_dsl::{report::Diagnostics, source::FileId, syntax};
+use apex_ide::{Completion, CompletionKind};
 use lsp_types::{
     CompletionItem, CompletionItemKind, CompletionTextEdit, Documentation, InsertTextFormat, MarkupContent, MarkupKind,
     Position, Range, TextEdit,
@@ -23,11 +19,11 @@ pub fn completion(
     ready: &Ready<'_>,
     position: Position,
     snippets: bool,
-    siblings: &ide::Siblings<'_>,
+    siblings: &apex_ide::Siblings<'_>,
 ) -> Vec<CompletionItem> {
     let text = &ready.analysis.text;
     let offset = ready.offset(position);
-    let (start, found) = ide::complete(&ready.view(), text, offset, siblings);
+    let (start, found) = apex_ide::complete(&ready.view(), text, offset, siblings);
     let range = ready.analysis.lines().range(start, offset);
     let import = import_position(ready);
     found.into_iter().map(|c| item(c, range, import, snippets)).collect()

@@ -1,7 +1,7 @@
 //! Formatting.
 
 use super::Ready;
-use apex_dsl::format;
+use apex_ide::format;
 use lsp_types::TextEdit;
 
 /// Edits that format the source file; none while it has errors.

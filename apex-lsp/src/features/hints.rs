@@ -1,7 +1,7 @@
 //! Inlay hints with the kinds of connections, and with the ports of those that are made by name.
 
 use super::Ready;
-use apex_dsl::{ide, resolve::Link};
+use apex_dsl::resolve::Link;
 use lsp_types::{InlayHint, InlayHintKind, InlayHintLabel, InlayHintTooltip, MarkupContent, MarkupKind, Range};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +14,7 @@ pub fn hints(ready: &Ready<'_>, range: Range) -> Vec<InlayHint> {
     let mut arrows = BTreeMap::<_, Vec<_>>::new();
     shown.for_each(|link| arrows.entry(link.arrow).or_default().push(link));
     let hint = |(arrow, links): (apex_dsl::source::Span, Vec<&Link>)| {
-        let pages: Vec<String> = links.iter().map(|l| ide::describe_link(l)).collect();
+        let pages: Vec<String> = links.iter().map(|l| apex_ide::describe_link(l)).collect();
         let value = pages.join("\n\n---\n\n");
         InlayHint {
             position: ready.analysis.names.places.range(arrow).end,
@@ -32,7 +32,7 @@ pub fn hints(ready: &Ready<'_>, range: Range) -> Vec<InlayHint> {
 
 /// The kinds of the connections of an arrow, or the ports that `.*` connects.
 fn label(links: &[&Link]) -> String {
-    let mut words: Vec<&str> = links.iter().map(|link| word(ide::flow_word(link))).collect();
+    let mut words: Vec<&str> = links.iter().map(|link| word(apex_ide::flow_word(link))).collect();
     words.dedup();
     let mut ports: Vec<&str> = links.iter().filter(|link| link.by_name).map(|link| link.to.port()).collect();
     let mut seen = BTreeSet::new();

@@ -12,7 +12,7 @@ pub mod rename;
 pub mod symbols;
 
 use crate::{analysis::Analysis, project::Project};
-use apex_dsl::ide::{self, Occurrence, View};
+use apex_ide::{Occurrence, View};
 use lsp_types::Position;
 
 /// A source file with its analysis and its package.
@@ -36,6 +36,6 @@ impl<'a> Ready<'a> {
 
     /// Name at a position.
     pub fn occurrence(&self, position: Position) -> Option<Occurrence> {
-        ide::at(&self.analysis.names.occurrences, &self.view(), self.offset(position))
+        apex_ide::at(&self.analysis.names.occurrences, &self.view(), self.offset(position))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Ready;
 use crate::places::is_own;
-use apex_dsl::ide::{Definition, Occurrence, Origin};
+use apex_ide::{Definition, Occurrence, Origin};
 use lsp_types::{DocumentHighlight, Location, Position};
 use std::path::PathBuf;
 

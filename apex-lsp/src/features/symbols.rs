@@ -1,12 +1,12 @@
 //! Tree of the declarations in a source file.
 
 use super::Ready;
-use apex_dsl::ide::{self, Symbol, SymbolKind};
+use apex_ide::{Symbol, SymbolKind};
 use lsp_types::DocumentSymbol;
 
 /// Declarations in a source file.
 pub fn symbols(ready: &Ready<'_>) -> Vec<DocumentSymbol> {
-    ide::outline(&ready.view()).iter().map(|s| symbol(ready, s)).collect()
+    apex_ide::outline(&ready.view()).iter().map(|s| symbol(ready, s)).collect()
 }
 
 fn symbol(ready: &Ready<'_>, found: &Symbol) -> DocumentSymbol {

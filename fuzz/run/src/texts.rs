@@ -6,12 +6,13 @@ use crate::{
 };
 use apex_dsl::{
     catalog::{Catalog, CrateSpec, Crates},
-    format, ide, passes,
+    passes,
     report::{Diagnostics, json, render},
     source::Sources,
     syntax::repaired,
 };
 use apex_host::Disk;
+use apex_ide::format;
 use apex_tests::texts::generate;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -85,7 +86,7 @@ impl Target for SourceSet {
             json(diagnostic, &sources);
         }
         let view =
-            ide::View { texts: &checked.texts, links: &checked.links, sources: &sources, catalog: &self.catalog };
+            apex_ide::View { texts: &checked.texts, links: &checked.links, sources: &sources, catalog: &self.catalog };
         let mut dice = Dice::new(input.len() as u64 ^ self.step);
         edited(&view, &text, &mut dice);
         if let Ok(formatted) = format::format(&text) {
@@ -102,18 +103,18 @@ impl Target for SourceSet {
 }
 
 /// Queries of an editor at a few positions.
-fn edited(view: &ide::View<'_>, text: &str, dice: &mut Dice) {
-    let occurrences = ide::occurrences(view);
-    ide::outline(view);
+fn edited(view: &apex_ide::View<'_>, text: &str, dice: &mut Dice) {
+    let occurrences = apex_ide::occurrences(view);
+    apex_ide::outline(view);
     for _ in 0..3 {
         let mut offset = dice.below(text.len() + 1);
         while !text.is_char_boundary(offset) {
             offset -= 1;
         }
-        ide::complete(view, text, offset, &Vec::new);
-        ide::describe_word(view, text, offset);
-        if let Some(found) = ide::at(&occurrences, view, offset) {
-            ide::describe(view, found.definition);
+        apex_ide::complete(view, text, offset, &Vec::new);
+        apex_ide::describe_word(view, text, offset);
+        if let Some(found) = apex_ide::at(&occurrences, view, offset) {
+            apex_ide::describe(view, found.definition);
         }
     }
 }

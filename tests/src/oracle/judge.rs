@@ -5,12 +5,12 @@ use apex_dsl::{
     catalog::Catalog,
     graph::{ConnectionId, Graph, NodeId, NodeKind, PortId, Value},
     passes,
-    petri::{self, Call, Net, Origin, Replay},
     report::{Diagnostics, Severity},
     source::Sources,
     syntax::tree::PortKind,
 };
 use apex_host::{Disk, Seen, Workspace};
+use apex_petri::{Call, Net, Origin, Replay};
 use std::{
     cell::{Ref, RefCell},
     collections::{BTreeMap, BTreeSet},
@@ -97,7 +97,7 @@ impl Checker {
             return Err(errors.join("\n"));
         }
         let graph = checked.programs.into_iter().next_back().ok_or("there is no program")?.graph;
-        let net = petri::net(&graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
+        let net = apex_petri::net(&graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
         Ok(Checked { graph, net })
     }
 
@@ -165,7 +165,7 @@ const MAX_CHOICES: usize = 200;
 pub fn judge(catalog: &Catalog, checked: &Checked, records: &[Record]) -> Result<(), Failure> {
     let replay = |hesitant: &BTreeSet<NodeId>| replay(catalog, checked, records, hesitant);
     let Err((step, early)) = replay(&BTreeSet::new()) else { return Ok(()) };
-    let undecided = petri::undecided(&checked.graph, &checked.net);
+    let undecided = apex_petri::undecided(&checked.graph, &checked.net);
     let Err((other, late)) = replay(&undecided) else { return Ok(()) };
     match choices(&undecided).take(MAX_CHOICES).any(|hesitant| replay(&hesitant).is_ok()) {
         true => Ok(()),

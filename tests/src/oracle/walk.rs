@@ -8,8 +8,8 @@ use crate::Dice;
 use apex_dsl::{
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind, PortId},
-    petri::{Call, State, Token, TransitionId, TransitionKind},
 };
+use apex_petri::{Call, State, Token, TransitionId, TransitionKind};
 use std::{collections::BTreeMap, time::Duration};
 
 /// A random run of `reactions` reactions, one per millisecond. Silent transitions occur at random times.
@@ -76,7 +76,7 @@ fn occur(
     state: &mut State<'_>,
     transition: TransitionId,
     kind: TransitionKind,
-    net: &apex_dsl::petri::Net,
+    net: &apex_petri::Net,
     records: &mut Vec<Record>,
 ) {
     let (node, record, after) = match kind {

@@ -17,7 +17,7 @@ pub fn text(cases: &[Case]) -> String {
             case.body(whole, &case.group).replace("GROUP", &format!("Group{number}"))
         );
     }
-    apex_dsl::format(&text).unwrap_or_else(|diagnostics| panic!("{:?}", diagnostics.sorted()))
+    apex_ide::format(&text).unwrap_or_else(|diagnostics| panic!("{:?}", diagnostics.sorted()))
 }
 
 impl Case {
