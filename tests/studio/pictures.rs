@@ -65,16 +65,19 @@ fn save(page: &mut Browser, name: &str) {
     fs::write(root().join("docs/images").join(name), page.picture()).expect("a folder for pictures");
 }
 
+/// Time between two pictures of a film.
+const INTERVAL: Duration = Duration::from_millis(250);
+
 /// Pictures of the page, one after the other, as RGBA.
+#[derive(Default)]
 struct Film {
     size: (u32, u32),
     frames: Vec<Vec<u8>>,
 }
 
 impl Film {
-    /// Takes `count` pictures, one each `interval`.
-    fn take(page: &mut Browser, count: usize, interval: Duration) -> Self {
-        let mut film = Self { size: (0, 0), frames: vec![] };
+    /// Takes `count` pictures, one each [`INTERVAL`].
+    fn take(&mut self, page: &mut Browser, count: usize) {
         let mut next = Instant::now();
         for _ in 0..count {
             let mut decoder = png::Decoder::new(io::Cursor::new(page.picture()));
@@ -82,22 +85,21 @@ impl Film {
             let mut reader = decoder.read_info().expect("a picture");
             let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
             let frame = reader.next_frame(&mut pixels).expect("a picture");
-            film.size = (frame.width, frame.height);
-            film.frames.push(pixels);
-            next += interval;
+            self.size = (frame.width, frame.height);
+            self.frames.push(pixels);
+            next += INTERVAL;
             thread::sleep(next.saturating_duration_since(Instant::now()));
         }
-        film
     }
 
     /// Writes the film as an animated PNG that begins again at its end. Pixels that stay are transparent.
-    fn save(&self, interval: Duration, name: &str) -> Result<(), png::EncodingError> {
+    fn save(&self, name: &str) -> Result<(), png::EncodingError> {
         let file = fs::File::create(root().join("docs/images").join(name)).expect("a folder for pictures");
         let mut encoder = png::Encoder::new(io::BufWriter::new(file), self.size.0, self.size.1);
         encoder.set_color(png::ColorType::Rgba);
         encoder.set_compression(png::Compression::High);
         encoder.set_animated(self.frames.len() as u32, 0)?;
-        encoder.set_frame_delay(interval.as_millis() as u16, 1000)?;
+        encoder.set_frame_delay(INTERVAL.as_millis() as u16, 1000)?;
         encoder.set_blend_op(png::BlendOp::Over)?;
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&self.frames[0])?;
@@ -180,8 +182,46 @@ fn film_of_the_competition() {
     // The plane is above the ports.
     page.value("document.querySelector('[data-panel=values]').scrollTop = 0");
     page.press("0");
-    let interval = Duration::from_millis(250);
-    Film::take(&mut page, 48, interval).save(interval, "studio_competition.png").expect("a file");
+    let mut film = Film::default();
+    film.take(&mut page, 48);
+    film.save("studio_competition.png").expect("a file");
+    fs::remove_dir_all(folder).expect("it is still there");
+}
+
+#[test]
+#[ignore = "draws docs/images/studio_travel.png: cargo test -p apex-tests --test studio -- --ignored travel"]
+fn film_of_a_travel_in_time() {
+    let folder = socket("travel");
+    fs::create_dir_all(&folder).expect("a new folder");
+    let robot = root().join("robots/rover/robot.afg");
+    let studio = Studio::open(Command::new(apex()), &folder, &["--simulated", robot.to_str().expect("UTF-8")]);
+    let mut page = Browser::open(&studio.address).expect("a browser");
+    page.size(1120, 640, false);
+    click(&mut page, "[data-tab=params]");
+    page.fill("document.getElementById('params-filter')", "mission.drive");
+    time_is_over(&mut page, 12.0);
+    page.press("0");
+    let mut film = Film::default();
+    film.take(&mut page, 12);
+    page.press(" ");
+    page.wait_for("document.getElementById('run').textContent === 'halted'");
+    film.take(&mut page, 4);
+    // Back to where it drove towards the wall.
+    let place = moment(&mut page, 8.0);
+    page.click_at(place);
+    film.take(&mut page, 2);
+    page.press("g");
+    page.wait_for(
+        "document.getElementById('run').textContent === 'halted' && parseFloat(document.getElementById('now').textContent) < 8.1",
+    );
+    film.take(&mut page, 4);
+    let text = "document.querySelector('[data-param=\"sim.mission.drive.near\"] input[type=text]')";
+    page.fill(text, "1.5");
+    page.wait_for("document.querySelector('[data-param=\"sim.mission.drive.near\"]').classList.contains('is-changed')");
+    film.take(&mut page, 4);
+    page.press(" ");
+    film.take(&mut page, 16);
+    film.save("studio_travel.png").expect("a file");
     fs::remove_dir_all(folder).expect("it is still there");
 }
 
