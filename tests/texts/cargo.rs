@@ -8,10 +8,12 @@ use apex_tests::{
 use rayon::prelude::*;
 use serde_json::Value;
 use std::{
-    fs,
+    fs, io,
     path::{Path, PathBuf},
     process::Command,
     sync::{LazyLock, OnceLock},
+    thread,
+    time::{Duration, Instant},
 };
 
 /// An error of rustc.
@@ -133,9 +135,10 @@ fn cargo() -> Command {
     command
 }
 
+static LIBRARIES: LazyLock<Libraries> = LazyLock::new(|| Libraries::ask(Path::new(env!("CARGO_TARGET_TMPDIR"))));
+
 /// Errors of rustc in packages, including their tests.
 pub fn check_all(packages: &[(usize, Shape)]) -> Vec<Vec<Message>> {
-    static LIBRARIES: LazyLock<Libraries> = LazyLock::new(|| Libraries::ask(Path::new(env!("CARGO_TARGET_TMPDIR"))));
     packages.par_iter().map(|(slot, shape)| check(&LIBRARIES, *slot, *shape)).collect()
 }
 
@@ -155,6 +158,47 @@ fn check(libraries: &Libraries, slot: usize, shape: Shape) -> Vec<Message> {
             messages
         }
     }
+}
+
+/// Runs the tests of a package that is a library, each time in the same order. Returns what they write, without times;
+/// `None` if they do not end.
+pub fn run_tests(slot: usize, times: usize) -> Vec<Option<String>> {
+    let (folder, name) = (folder().join(package(slot, Shape::Library)), package(slot, Shape::Library));
+    let program = folder.join("tests");
+    let mut command = LIBRARIES.rustc(&folder, &name);
+    command.current_dir(&folder).args(["--test", "-o"]).arg(&program).arg(folder.join("src/lib.rs"));
+    let output = command.output().expect("rustc runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    (0..times).map(|_| run(&program)).collect()
+}
+
+/// Time limit of a program: far more than its simulated seconds take, also on a busy machine, to detect hangs.
+const GUARD: Duration = Duration::from_secs(60);
+
+fn run(program: &Path) -> Option<String> {
+    let (reads, writes) = io::pipe().expect("there is a pipe");
+    let mut command = Command::new(program);
+    command.args(["--test-threads=1"]).stdout(writes.try_clone().expect("it has two ends")).stderr(writes);
+    let mut child = command.spawn().expect("it starts");
+    drop(command);
+    let said = thread::spawn(|| io::read_to_string(reads).unwrap_or_default());
+    let begin = Instant::now();
+    let status = loop {
+        match child.try_wait().expect("it can be waited for") {
+            Some(status) => break status,
+            None if begin.elapsed() > GUARD => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return None;
+            }
+            None => thread::sleep(Duration::from_millis(10)),
+        }
+    };
+    let said = said.join().unwrap_or_default();
+    let lines = said.lines().map(|line| line.split("; finished in").next().unwrap_or(line));
+    // The number of the thread differs from run to run.
+    let lines = lines.map(|line| if line.starts_with("thread '") { "" } else { line });
+    Some(format!("{}\n{:?}", lines.collect::<Vec<_>>().join("\n"), status.code()))
 }
 
 fn rustc(libraries: &Libraries, folder: &Path, name: &str, root: &str, args: &[&str]) -> Vec<Message> {

@@ -1,6 +1,6 @@
 //! Runs rustc on source files that the compiler accepted.
 
-use crate::cargo::{Message, check_all};
+use crate::cargo::{Message, check_all, run_tests};
 use apex_tests::texts::{Case, Shape};
 use std::fmt;
 
@@ -22,6 +22,8 @@ pub enum Failure {
     Named(Vec<Message>),
     /// The Rust code beside the source file has an error, because of a mistake of the generator.
     Rust(Vec<Message>),
+    /// Its tests do not end, differ from run to run, or end by a panic that is not one of their own.
+    Run(String),
 }
 
 impl Failure {
@@ -36,6 +38,7 @@ impl Failure {
                 format!("rustc: {}", messages.first().map(class).unwrap_or_default())
             }
             Self::Rust(messages) => format!("RUST: {}", messages.first().map(class).unwrap_or_default()),
+            Self::Run(why) => format!("run: {}", plain(why)),
         }
     }
 }
@@ -43,7 +46,9 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Panic(text) | Self::Hang(text) | Self::Outside(text) | Self::Unspelled(text) => write!(f, "{text}"),
+            Self::Panic(text) | Self::Hang(text) | Self::Outside(text) | Self::Unspelled(text) | Self::Run(text) => {
+                write!(f, "{text}")
+            }
             Self::Rustc(messages) | Self::Named(messages) | Self::Rust(messages) => {
                 messages.iter().take(3).try_for_each(|m| write!(f, "{}", m.rendered))
             }
@@ -97,4 +102,16 @@ fn is_named(message: &Message, names: &[String]) -> bool {
     let is_node = |word: &str| names.iter().any(|n| n == word);
     let named = quoted.flat_map(|q| q.split(['.', ' ', ':', '('])).any(is_node);
     (lines || inline) && named
+}
+
+/// Runs the tests of a text twice. They may fail, but say the same each time, and for their own reasons.
+pub fn judge_run(slot: usize) -> Option<Failure> {
+    let said = run_tests(slot, 2);
+    let [Some(first), Some(second)] = said.as_slice() else { return Some(Failure::Run("it does not end".to_owned())) };
+    if first != second {
+        return Some(Failure::Run(format!("it differs from run to run\n{first}\n{second}")));
+    }
+    let reasons = first.split("panicked at ").skip(1).map(|text| text.split_once('\n').unwrap_or((text, "")));
+    let foreign = reasons.clone().find(|(_, reason)| !reason.starts_with("test `"));
+    foreign.map(|(place, reason)| Failure::Run(format!("{reason}\n{place}\n{first}")))
 }

@@ -1,5 +1,5 @@
-//! Random source files with their Rust code. If the compiler accepts a source file, rustc accepts it. If the compiler
-//! rejects it, its first error is in the source file.
+//! Random source files with their Rust code. If the compiler accepts a source file, rustc accepts it, and its tests run.
+//! If the compiler rejects it, its first error is in the source file.
 //!
 //! `APEX_TEXTS` is the number of cases (100), `APEX_TEXTS_SEED` the first seed. With `APEX_TEXTS_RAW`, failing cases
 //! are shown without reduction. `APEX_TEXTS_OUT` is a folder for all failing cases.
@@ -8,9 +8,10 @@ mod cargo;
 mod check;
 mod judge;
 
-use apex_tests::texts::{Case, Kind, generate};
+use apex_tests::texts::{Case, Kind, Shape, generate};
 use check::{Checked, Checker};
-use judge::{Failure, judge};
+use judge::{Failure, judge, judge_run};
+use rayon::prelude::*;
 use std::{collections::BTreeMap, env, fs, path::PathBuf};
 
 /// Number of cases that are compiled together.
@@ -29,6 +30,7 @@ fn number(name: &str) -> Option<u64> {
 struct Found {
     accepted: usize,
     left_to_rustc: usize,
+    run: usize,
     refused: BTreeMap<String, usize>,
     by_kind: BTreeMap<Kind, (usize, usize)>,
     failures: Vec<(Case, Failure)>,
@@ -53,13 +55,19 @@ impl Found {
         }
         self.accepted += accepted.len();
         let judged = judge(&accepted.iter().map(|(slot, case, names)| (*slot, *case, &**names)).collect::<Vec<_>>());
-        for ((_, case, _), failure) in accepted.iter().zip(judged) {
+        let mut runs = vec![];
+        for ((slot, case, _), failure) in accepted.iter().zip(judged) {
             match failure {
                 Some(Failure::Named(_)) => self.left_to_rustc += 1,
                 Some(failure) => self.failures.push(((*case).clone(), failure)),
+                None if can_run(case) => runs.push((*slot, *case)),
                 None => {}
             }
         }
+        self.run += runs.len();
+        let judged: Vec<Option<Failure>> = runs.par_iter().map(|(slot, _)| judge_run(*slot)).collect();
+        let failures = runs.iter().zip(judged).filter_map(|((_, case), failure)| Some(((*case).clone(), failure?)));
+        self.failures.extend(failures);
     }
 
     /// Failures by class.
@@ -70,6 +78,12 @@ impl Found {
         }
         classes
     }
+}
+
+/// Returns `true` if a case has tests, and nodes that end.
+fn can_run(case: &Case) -> bool {
+    let has_tests = case.texts.iter().flat_map(|text| &text.items).any(|item| item.head.starts_with("test "));
+    has_tests && case.shape == Shape::Library && case.library.iter().all(|item| !item.contains("loop {}"))
 }
 
 /// Reduces a case while it fails in the same way.
@@ -140,9 +154,10 @@ fn what_is_accepted_compiles() {
         }
     }
     println!(
-        "{} accepted, {} of them left to rustc, {} wrong",
+        "{} accepted, {} of them left to rustc, the tests of {} run, {} wrong",
         found.accepted,
         found.left_to_rustc,
+        found.run,
         found.failures.len()
     );
     println!("refused: {:?}", found.refused);

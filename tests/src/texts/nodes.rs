@@ -1,4 +1,5 @@
-//! Rust nodes of many forms, visible or hidden in many ways. They are never run.
+//! Rust nodes of many forms, visible or hidden in many ways. Those whose types allow it can run: they pass on what they
+//! get.
 
 use super::{kinds::Kind, maker::Maker, names::KEYWORDS, types::Type, values::Param};
 
@@ -36,7 +37,8 @@ pub fn port(name: &str, ty: &'static Type) -> Port {
 }
 
 /// Form of a node. `{N}` is its name, `{T}` the type of its tokens, `{P}` that of its parameter with `{D}` as its
-/// default; `{I} {O} {S} {E}` are an input, an output, a slot and an event. Characters after the name select its ports.
+/// default; `{I} {O} {S} {E}` are an input, an output, a slot and an event, and `⟨…⟩` are bodies. Characters after
+/// the name select its ports.
 struct Shape {
     name: &'static str,
     ports: &'static str,
@@ -50,23 +52,47 @@ const fn shape(name: &'static str, ports: &'static str, text: &'static str) -> S
 const STATE: &str = "{#}\n#[derive(Default)]\n{V}struct {N} {\n    last: Option<u8>,\n}\n\n{#}\nimpl {N} {\n";
 
 const SHAPES: &[Shape] = &[
-    shape("pass", "io", "{#}\n{V}fn {N}({I}: &{T}) -> {T} {\n    loop {}\n}"),
-    shape("maybe", "io", "{#}\n{V}fn {N}({I}: &{T}) -> Option<{T}> {\n    loop {}\n}"),
-    shape("join", "i2o", "{#}\n{V}fn {N}({I}: &{T}, second: &{T}) -> {T} {\n    loop {}\n}"),
-    shape("optional", "io", "{#}\n{V}fn {N}({I}: &{T}, second: Option<&{T}>) -> {T} {\n    loop {}\n}"),
-    shape("written", "iO", "{#}\n{V}fn {N}({I}: &{T}, {O}: &mut Out<{T}>) {\n    loop {}\n}"),
-    shape("event", "ie", "{#}\n{V}fn {N}({I}: &{T}, {E}: Event<{T}>) {\n    loop {}\n}"),
-    shape("fallible", "io", "{#}\n{V}fn {N}({I}: &{T}) -> Result<{T}, String> {\n    loop {}\n}"),
-    shape("ctx", "io", "{#}\n{V}fn {N}(context: &Ctx, {I}: &{T}) -> {T} {\n    loop {}\n}"),
-    shape("sink", "i", "{#}\n{V}fn {N}({I}: &{T}) {\n    loop {}\n}"),
-    shape("tuned", "iop", "{#}\n{V}fn {N}({I}: &{T}, #[param(default = {D})] level: {P}) -> {T} {\n    loop {}\n}"),
+    shape("pass", "io", "{#}\n{V}fn {N}({I}: &{T}) -> {T} {\n    ⟨::core::clone::Clone::clone({I})⟩\n}"),
+    shape(
+        "maybe",
+        "io",
+        "{#}\n{V}fn {N}({I}: &{T}) -> Option<{T}> {\n    ⟨::core::option::Option::Some(::core::clone::Clone::clone({I}))⟩\n}",
+    ),
+    shape("join", "i2o", "{#}\n{V}fn {N}({I}: &{T}, second: &{T}) -> {T} {\n    ⟨::core::clone::Clone::clone({I})⟩\n}"),
+    shape(
+        "optional",
+        "io",
+        "{#}\n{V}fn {N}({I}: &{T}, second: Option<&{T}>) -> {T} {\n    ⟨::core::clone::Clone::clone({I})⟩\n}",
+    ),
+    shape(
+        "written",
+        "iO",
+        "{#}\n{V}fn {N}({I}: &{T}, {O}: &mut Out<{T}>) {\n    ⟨{O}.set(::core::clone::Clone::clone({I}))⟩\n}",
+    ),
+    shape(
+        "event",
+        "ie",
+        "{#}\n{V}fn {N}({I}: &{T}, {E}: Event<{T}>) {\n    ⟨{E}.emit(::core::clone::Clone::clone({I}))⟩\n}",
+    ),
+    shape(
+        "fallible",
+        "io",
+        "{#}\n{V}fn {N}({I}: &{T}) -> Result<{T}, String> {\n    ⟨::core::result::Result::Ok(::core::clone::Clone::clone({I}))⟩\n}",
+    ),
+    shape("ctx", "io", "{#}\n{V}fn {N}(context: &Ctx, {I}: &{T}) -> {T} {\n    ⟨::core::clone::Clone::clone({I})⟩\n}"),
+    shape("sink", "i", "{#}\n{V}fn {N}({I}: &{T}) {\n    ⟨()⟩\n}"),
+    shape(
+        "tuned",
+        "iop",
+        "{#}\n{V}fn {N}({I}: &{T}, #[param(default = {D})] level: {P}) -> {T} {\n    ⟨::core::clone::Clone::clone({I})⟩\n}",
+    ),
     shape(
         "Split",
         "iSplit",
-        "{#}\n{V}fn {N}({I}: &{T}) -> {N}Both {\n    loop {}\n}\n\n#[derive(Outputs)]\npub struct {N}Both {\n    pub {O}: {T},\n    pub other: Option<{T}>,\n}",
+        "{#}\n{V}fn {N}({I}: &{T}) -> {N}Both {\n    ⟨{N}Both { {O}: ::core::clone::Clone::clone({I}), other: ::core::option::Option::None }⟩\n}\n\n#[derive(Outputs)]\npub struct {N}Both {\n    pub {O}: {T},\n    pub other: Option<{T}>,\n}",
     ),
     shape("Ordered", "i2o", "{#}\n{V}fn {N}<T: PartialOrd>({I}: &T, second: &T) -> T {\n    loop {}\n}"),
-    shape("Generic", "iog", "{#}\n{V}fn {N}<T: Clone>({I}: &T) -> T {\n    loop {}\n}"),
+    shape("Generic", "iog", "{#}\n{V}fn {N}<T: Clone>({I}: &T) -> T {\n    ⟨::core::clone::Clone::clone({I})⟩\n}"),
     shape(
         "Summed",
         "i2o",
@@ -77,7 +103,7 @@ const SHAPES: &[Shape] = &[
     shape(
         "Holder",
         "sE",
-        "{#}\n#[derive(Default)]\n{V}struct {N}<T> {\n    last: Option<T>,\n}\n\n{#}\nimpl<T: Clone> {N}<T> {\n    #[slot]\n    fn {S}(&mut self, token: &T, {E}: Event<T>) {\n        loop {}\n    }\n}",
+        "{#}\n#[derive(Default)]\n{V}struct {N}<T> {\n    last: Option<T>,\n}\n\n{#}\nimpl<T: Clone> {N}<T> {\n    #[slot]\n    fn {S}(&mut self, token: &T, {E}: Event<T>) {\n        ⟨{E}.emit(::core::clone::Clone::clone(token))⟩\n    }\n}",
     ),
     shape(
         "Ring",
@@ -89,47 +115,73 @@ const SHAPES: &[Shape] = &[
         "io",
         "{#}\n{V}struct {N} {\n    last: {T},\n}\n\n{#}\nimpl {N} {\n    fn process(&mut self, {I}: &{T}) -> {T} {\n        loop {}\n    }\n}",
     ),
-    shape("Keeper", "io", "{STATE}    fn process(&mut self, {I}: &{T}) -> {T} {\n        loop {}\n    }\n}"),
+    shape(
+        "Keeper",
+        "io",
+        "{STATE}    fn process(&mut self, {I}: &{T}) -> {T} {\n        ⟨::core::clone::Clone::clone({I})⟩\n    }\n}",
+    ),
     shape(
         "Taker",
         "sE",
-        "{STATE}    #[slot]\n    fn {S}(&mut self, token: &{T}, {E}: Event<{T}>) {\n        loop {}\n    }\n}",
+        "{STATE}    #[slot]\n    fn {S}(&mut self, token: &{T}, {E}: Event<{T}>) {\n        ⟨{E}.emit(::core::clone::Clone::clone(token))⟩\n    }\n}",
     ),
     shape(
         "Fails",
         "sE",
-        "{STATE}    #[slot]\n    fn {S}(&mut self, token: &{T}, {E}: Event<{T}>, context: &Ctx) -> Result<(), String> {\n        loop {}\n    }\n}",
+        "{STATE}    #[slot]\n    fn {S}(&mut self, token: &{T}, {E}: Event<{T}>, context: &Ctx) -> Result<(), String> {\n        ⟨{E}.emit(::core::clone::Clone::clone(token));\n        ::core::result::Result::Ok(())⟩\n    }\n}",
     ),
     shape(
         "Latest",
         "so",
-        "{STATE}    fn process(&mut self) -> Option<{T}> {\n        loop {}\n    }\n    #[slot]\n    fn {S}(&mut self, token: &{T}) {\n        loop {}\n    }\n}",
+        "{STATE}    fn process(&mut self) -> Option<{T}> {\n        ⟨::core::option::Option::None⟩\n    }\n    #[slot]\n    fn {S}(&mut self, token: &{T}) {\n        ⟨()⟩\n    }\n}",
     ),
-    shape("Source", "o", "{STATE}    fn process(&mut self) -> {T} {\n        loop {}\n    }\n}"),
+    shape(
+        "Source",
+        "o",
+        "{STATE}    fn process(&mut self) -> {T} {\n        ⟨::core::default::Default::default()⟩\n    }\n}",
+    ),
     shape(
         "Begins",
         "ioe",
-        "{STATE}    fn process(&mut self, {I}: &{T}, {E}: Event<{T}>) -> {T} {\n        loop {}\n    }\n    #[on_activate]\n    fn begin(&mut self) {}\n    #[on_deactivate]\n    fn end(&mut self) {}\n    #[no_message]\n    fn nothing(&mut self) {}\n}",
+        "{STATE}    fn process(&mut self, {I}: &{T}, {E}: Event<{T}>) -> {T} {\n        ⟨{E}.emit(::core::clone::Clone::clone({I}));\n        ::core::clone::Clone::clone({I})⟩\n    }\n    #[on_activate]\n    fn begin(&mut self) {}\n    #[on_deactivate]\n    fn end(&mut self) {}\n    #[no_message]\n    fn nothing(&mut self) {}\n}",
     ),
     shape(
         "Tuned",
         "iop",
-        "{#}\n{V}struct {N} {\n    #[param(default = {D})]\n    level: {P},\n    last: Option<u8>,\n}\n\n{#}\nimpl {N} {\n    fn process(&mut self, {I}: &{T}) -> {T} {\n        loop {}\n    }\n}",
+        "{#}\n{V}struct {N} {\n    #[param(default = {D})]\n    level: {P},\n    last: Option<u8>,\n}\n\n{#}\nimpl {N} {\n    fn process(&mut self, {I}: &{T}) -> {T} {\n        ⟨::core::clone::Clone::clone({I})⟩\n    }\n}",
     ),
     shape(
         "Bound",
         "iop",
-        "{#}\n{V}struct {N} {\n    #[param]\n    level: {P},\n}\n\n{#}\nimpl {N} {\n    fn process(&mut self, {I}: &{T}) -> {T} {\n        loop {}\n    }\n}",
+        "{#}\n{V}struct {N} {\n    #[param]\n    level: {P},\n}\n\n{#}\nimpl {N} {\n    fn process(&mut self, {I}: &{T}) -> {T} {\n        ⟨::core::clone::Clone::clone({I})⟩\n    }\n}",
     ),
-    shape("pair", "io", "{#}\n{V}fn {N}({I}: &[{T}; 2]) -> {T} {\n    loop {}\n}"),
-    shape("several", "io", "{#}\n{V}fn {N}<const COUNT: usize>({I}: [&{T}; COUNT]) -> {T} {\n    loop {}\n}"),
+    shape("pair", "io", "{#}\n{V}fn {N}({I}: &[{T}; 2]) -> {T} {\n    ⟨::core::clone::Clone::clone(&{I}[0])⟩\n}"),
+    shape(
+        "several",
+        "io",
+        "{#}\n{V}fn {N}<const COUNT: usize>({I}: [&{T}; COUNT]) -> {T} {\n    ⟨::core::clone::Clone::clone({I}[0])⟩\n}",
+    ),
     shape(
         "Several",
         "i2o",
-        "{STATE}    fn process<const COUNT: usize>(&mut self, second: &{T}, {I}: [Option<&{T}>; COUNT]) -> {T} {\n        loop {}\n    }\n}",
+        "{STATE}    fn process<const COUNT: usize>(&mut self, second: &{T}, {I}: [Option<&{T}>; COUNT]) -> {T} {\n        ⟨::core::clone::Clone::clone(second)⟩\n    }\n}",
     ),
-    shape("double", "io", "{#}\n{V}fn {N}({I}: &{T}) -> [{T}; 2] {\n    loop {}\n}"),
+    shape(
+        "double",
+        "io",
+        "{#}\n{V}fn {N}({I}: &{T}) -> [{T}; 2] {\n    ⟨[::core::clone::Clone::clone({I}), ::core::clone::Clone::clone({I})]⟩\n}",
+    ),
 ];
+
+/// A node with its bodies, or with those that never end if its type has no copies.
+fn bodies(text: &str, can_run: bool) -> String {
+    if can_run {
+        return text.replace(['⟨', '⟩'], "");
+    }
+    let mut parts = text.split('⟨');
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.filter_map(|part| part.split_once('⟩')).fold(first, |text, (_, rest)| text + "loop {}" + rest)
+}
 
 /// Forms whose types only rustc can check.
 const BOUND: [&str; 8] = ["Ordered", "Generic", "Summed", "Fixed", "Sized", "Holder", "Ring", "Fresh"];
@@ -207,7 +259,8 @@ impl Maker {
         for (sign, name) in [("{I}", &input), ("{O}", &output), ("{S}", &slot), ("{E}", &event)] {
             text = text.replace(sign, name);
         }
-        let text = self.disguised(text, &mut node);
+        let can_run = ty.clone && (ty.default || !text.contains("Default::default()"));
+        let text = self.disguised(bodies(&text, can_run), &mut node);
         self.rust.push(text);
         self.nodes.push(node.clone());
         node
@@ -286,7 +339,9 @@ impl Maker {
             visible = (*self.dice.of(&["", "", "pub(crate) ", "pub(self) ", "pub(in crate) ", "pub "])).to_owned();
         }
         if self.strikes(Kind::Attributes, 4) && text.contains("{V}fn") {
-            visible.push_str(self.word(&["unsafe ", "const "]));
+            // What a node passes on is copied, which a `const fn` cannot do.
+            let form = self.word(&["unsafe ", "const "]);
+            visible.push_str(if text.contains("loop {}") { form } else { "unsafe " });
         }
         let text = text.replace("{#}", &mark).replace("{V}", &visible);
         if hides && self.dice.one_in(2) { self.in_module(&text, node) } else { text }
