@@ -50,6 +50,8 @@ pub struct Varied {
     pub targets: Vec<String>,
     /// SI unit of its numbers.
     pub unit: Option<String>,
+    /// Unit of its declaration, and the value of one of it in SI, if that is another one.
+    pub declared: Option<(String, f64)>,
     /// Smallest value, in SI.
     pub low: f64,
     /// Largest value, in SI.

@@ -72,6 +72,7 @@ fn parameters() -> Vec<Parameter> {
     let parameter = |name: &str, unit: &str, range: [f64; 2], scale, integer, default| Parameter {
         name: name.to_owned(),
         unit: unit.to_owned(),
+        shown_in: None,
         axis: Axis::new(range[0], range[1], scale, integer).expect("a range"),
         default,
         targets: vec![],

@@ -94,6 +94,7 @@ mod tests {
         let parameter = |name: &str| Parameter {
             name: name.to_owned(),
             unit: "m".to_owned(),
+            shown_in: None,
             axis: Axis::new(0.0, 1.0, Scale::Linear, false).unwrap(),
             default: 0.5,
             targets: vec![format!("node.{name}")],

@@ -27,6 +27,6 @@ pub use goal::{Goal, Point};
 pub use journal::{Journal, JournalError, Lock, Run};
 pub use report::{Report, Score};
 pub use seen::{Candidate, Fate, Seen, Trail};
-pub use study::{Found, Known, Method, Objective, Parameter, Progress, Study, StudyError, on_threads};
+pub use study::{Found, Known, Method, Objective, Parameter, Progress, Shown, Study, StudyError, on_threads};
 pub use summary::Summary;
 pub use timed::Timed;

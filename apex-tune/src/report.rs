@@ -115,8 +115,10 @@ impl Report {
         }
         text.push_str("\n| parameter | default | tuned | range | lost with the default |\n|---|---|---|---|---|\n");
         for ((p, value), importance) in self.study.parameters.iter().zip(&self.best.values).zip(&self.importance) {
-            let (low, high) = (number(p.axis.low()), number(p.axis.high()));
-            let (name, unit, default, value) = (&p.name, in_brackets(&p.unit), number(p.default), number(*value));
+            let (name, (unit, size)) = (&p.name, p.shown());
+            let shown = |value: f64| number(value / size);
+            let (low, high) = (shown(p.axis.low()), shown(p.axis.high()));
+            let (unit, default, value) = (in_brackets(unit), shown(p.default), shown(*value));
             let scale = if p.axis.scale() == crate::Scale::Logarithmic { ", logarithmic" } else { "" };
             let lost = number(*importance);
             let _ = writeln!(text, "| `{name}`{unit} | {default} | {value} | {low} to {high}{scale} | {lost} |");

@@ -51,8 +51,11 @@ impl std::error::Error for StudyError {}
 pub struct Parameter {
     /// Name in the report.
     pub name: String,
-    /// Unit in the report.
+    /// SI unit of its values.
     pub unit: String,
+    /// Unit in the report, if it is another one.
+    #[serde(default)]
+    pub shown_in: Option<Shown>,
     /// Range and scale.
     pub axis: Axis,
     /// Value with which the search starts and the result is compared.
@@ -61,6 +64,22 @@ pub struct Parameter {
     pub targets: Vec<String>,
     /// `true` if the values are of single precision.
     pub single: bool,
+}
+
+/// Unit in which people read the values of a parameter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Shown {
+    /// Name of the unit: `deg`.
+    pub unit: String,
+    /// Value of one of it, in the SI unit.
+    pub size: f64,
+}
+
+impl Parameter {
+    /// Name of the unit in the report, and the value of one of it in the SI unit.
+    pub fn shown(&self) -> (&str, f64) {
+        self.shown_in.as_ref().map_or((&self.unit, 1.0), |shown| (&shown.unit, shown.size))
+    }
 }
 
 /// Method of the search.

@@ -33,6 +33,7 @@ fn study(method: Method, goals: usize) -> Study {
         Parameter {
             name: name.into(),
             unit: "m".into(),
+            shown_in: None,
             axis,
             default,
             targets: vec![format!("a.b.{name}")],

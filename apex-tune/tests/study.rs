@@ -1,7 +1,7 @@
 //! Studies of a function with noise by seed.
 
 use apex_optim::{Axis, Scale};
-use apex_tune::{Found, Goal, Journal, Method, Objective, Parameter, Report, Study, Summary};
+use apex_tune::{Found, Goal, Journal, Method, Objective, Parameter, Report, Shown, Study, Summary};
 use std::{
     fs,
     path::PathBuf,
@@ -34,6 +34,7 @@ fn study(method: Method, summary: Summary) -> Study {
         Parameter {
             name: name.to_owned(),
             unit: "m".to_owned(),
+            shown_in: None,
             axis,
             default,
             targets: vec![format!("node.{name}")],
@@ -195,4 +196,23 @@ fn several_goals_have_a_front() {
     let found = study.run(&objective, &mut merged, (0, 1), &mut |_| ()).expect("the whole");
     let merged = Report::new(&study, found, &objective, &mut merged).expect("scores").expect("a result");
     assert_eq!(merged, report);
+}
+
+#[test]
+fn the_report_has_the_units_of_the_declarations() {
+    let mut study = study(Method::DifferentialEvolution, Summary::Mean);
+    study.parameters[0].shown_in = Some(Shown { unit: "cm".to_owned(), size: 0.01 });
+    let parameter = &study.parameters[0];
+    let (name, default, high) = (&parameter.name, 100.0 * parameter.default, 100.0 * parameter.axis.high());
+    let mut journal = Journal::in_memory();
+    let (found, _) = run(&study, 1, &mut journal, (0, 1));
+    let report = Report::new(&study, found, &Valley::default(), &mut journal).expect("a study").expect("a result");
+    let tables = report.tables();
+    let line = tables.lines().find(|line| line.starts_with(&format!("| `{name}` [cm] | {default} |")));
+    assert!(line.is_some_and(|line| line.contains(&format!(" to {high}"))), "{tables}");
+    // Programs get SI.
+    assert_eq!(
+        (&report.json()["parameters"][0]["unit"], &report.json()["parameters"][0]["default"]),
+        (&"m".into(), &parameter.default.into())
+    );
 }

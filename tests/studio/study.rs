@@ -32,7 +32,15 @@ const NAME: &str = "Valley <img src=x onerror=\"alert(1)\">";
 fn study() -> Study {
     let parameter = |name: &str, low, high, scale, default| {
         let (axis, unit) = (Axis::new(low, high, scale, false).expect("a range"), "m<sup>".to_owned());
-        Parameter { name: name.to_owned(), unit, axis, default, targets: vec!["node.x".to_owned()], single: false }
+        Parameter {
+            name: name.to_owned(),
+            unit,
+            shown_in: None,
+            axis,
+            default,
+            targets: vec!["node.x".to_owned()],
+            single: false,
+        }
     };
     let (unit, summary) = ("m</td>".to_owned(), Summary::Quantile(0.9));
     Study {

@@ -11,8 +11,8 @@ use apex_dsl::{
 };
 use apex_host::Workspace;
 use apex_tune::{
-    Axis, Found, Goal, Journal, Known, Lock, Method, Parameter, Progress, Report, Scale, Study, StudyError, Summary,
-    Timed,
+    Axis, Found, Goal, Journal, Known, Lock, Method, Parameter, Progress, Report, Scale, Shown, Study, StudyError,
+    Summary, Timed,
 };
 use std::{
     fs,
@@ -207,6 +207,7 @@ fn study(wanted: &Wanted, script: &Script, stated: &Stated, defaults: &[f64], ob
         Ok(Parameter {
             name: varied.name.clone(),
             unit: varied.unit.clone().unwrap_or_default(),
+            shown_in: varied.declared.clone().map(|(unit, size)| Shown { unit, size }),
             axis,
             default: *default,
             targets: varied.targets.clone(),

@@ -17,7 +17,7 @@ use crate::{
         Expr, ExprKind, GoalItem, GraphItem, Ident, Instance, ModifierKind, NodeBody, PortRef, RangeExpr, StudyItem,
         TestItem,
     },
-    units,
+    units::{self, Unit},
 };
 
 /// Share of the seeds that must reach the value of a goal, if the text gives none.
@@ -189,10 +189,21 @@ impl Resolver<'_> {
         let (low, high) = bounds.map_err(|error| writer.diagnostics.push(*error)).ok()?;
         let integer = limits(parameter.ty.name()).is_some();
         let (single, is_time) = (parameter.ty.name() == "f32", parameter.ty.name() == "Duration");
-        let unit = parameter.unit.as_deref().and_then(|unit| units::parse(unit).ok());
-        let unit = unit.map(|unit| unit.dimension).filter(|d| !d.is_none()).map(|d| d.to_string());
+        let parsed = parameter.unit.as_deref().and_then(|unit| units::parse(unit).ok());
+        let declared = parameter.unit.clone().zip(parsed.map(Unit::size)).filter(|(_, size)| *size != 1.0);
+        let unit = parsed.map(|unit| unit.dimension).filter(|d| !d.is_none()).map(|d| d.to_string());
         let unit = if is_time { Some("s".to_owned()) } else { unit };
-        Some(Varied { name: of.text(), targets: parameter.targets, unit, low, high, integer, single, span: of.span })
+        Some(Varied {
+            name: of.text(),
+            targets: parameter.targets,
+            unit,
+            declared,
+            low,
+            high,
+            integer,
+            single,
+            span: of.span,
+        })
     }
 
     /// The parameter with this name: of the graph, of a nested graph, or of a node.

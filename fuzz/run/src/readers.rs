@@ -287,6 +287,7 @@ fn study(method: Method) -> Study {
     let parameter = |name: &str| Parameter {
         name: name.to_owned(),
         unit: "m".to_owned(),
+        shown_in: None,
         axis,
         default: 1.0,
         targets: vec![format!("node.{name}")],
