@@ -1,5 +1,5 @@
-//! CDR, the binary encoding of ROS 2 messages (XCDR1, little endian). Foxglove and the Python package
-//! `mcap-ros2-support` read it.
+//! CDR, the binary encoding of ROS 2 messages (XCDR1): written with little-endian numbers, which Foxglove and the Python
+//! package `mcap-ros2-support` read, and read in both orders. The messages of ROS 1 are read, too: they have no gaps.
 
 use super::Reason;
 use crate::Time;
@@ -17,9 +17,6 @@ uint32 nanosec";
 
 /// Prefix of each message: little endian, no options.
 const HEADER: [u8; 4] = [0, 1, 0, 0];
-
-/// First bytes of what zstd has compressed.
-pub(super) const ZSTD: &[u8; 4] = &[0x28, 0xb5, 0x2f, 0xfd];
 
 /// Nanoseconds in a second.
 const NANOS: i64 = 1_000_000_000;
@@ -69,6 +66,18 @@ impl<'a> Writer<'a> {
 pub struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
+    form: Form,
+}
+
+/// Form of a message.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    /// CDR with little-endian numbers.
+    Little,
+    /// CDR with big-endian numbers.
+    Big,
+    /// That of ROS 1: little-endian, without gaps and final zeros; headers begin with a number.
+    Ros1,
 }
 
 /// Reason for a message that ends too early.
@@ -83,22 +92,35 @@ impl<'a> Reader<'a> {
         let (prefix, rest) = bytes.split_first_chunk::<4>().ok_or(MISSING)?;
         match prefix {
             // The last two bits are the number of bytes that were added at the end.
-            [0, 1, _, options] => {
+            [0, order @ 0..=1, _, options] => {
                 let length = rest.len().checked_sub(usize::from(options & 3)).ok_or(MISSING)?;
-                Ok(Self { bytes: &rest[..length], at: 0 })
+                let form = if *order == 1 { Form::Little } else { Form::Big };
+                Ok(Self { bytes: &rest[..length], at: 0, form })
             }
-            [0, 0, ..] => Err("its numbers are big-endian, which is not supported".into()),
             [0, 2..=11, ..] => Err("it is encoded in a version of CDR that is not supported".into()),
-            ZSTD => Err("it is compressed with zstd: record without a compression of messages".into()),
             _ => Err("it does not begin as CDR".into()),
         }
     }
 
+    /// Reads the message `bytes` of ROS 1.
+    pub const fn ros1(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 0, form: Form::Ros1 }
+    }
+
+    /// Returns `true` if the message is one of ROS 1.
+    pub fn is_ros1(&self) -> bool {
+        self.form == Form::Ros1
+    }
+
+    /// Takes the bytes of a number, in the order of little-endian ones.
     fn get<const N: usize>(&mut self) -> Result<[u8; N], Reason> {
-        let at = self.at.next_multiple_of(N);
-        let number = self.bytes.get(at..).and_then(<[u8]>::first_chunk).ok_or(MISSING)?;
+        let at = if self.is_ros1() { self.at } else { self.at.next_multiple_of(N) };
+        let mut number = *self.bytes.get(at..).and_then(<[u8]>::first_chunk).ok_or(MISSING)?;
         self.at = at + N;
-        Ok(*number)
+        if self.form == Form::Big {
+            number.reverse();
+        }
+        Ok(number)
     }
 
     /// Reads a number of bytes.
@@ -116,15 +138,24 @@ impl<'a> Reader<'a> {
 
     /// Reads a `std_msgs/Header` and returns its stamp.
     pub fn header(&mut self) -> Result<Time, Reason> {
+        self.header_with_frame().map(|(stamp, _)| stamp)
+    }
+
+    /// Reads a `std_msgs/Header` and returns its stamp and its frame.
+    pub fn header_with_frame(&mut self) -> Result<(Time, &'a str), Reason> {
+        if self.is_ros1() {
+            self.u32()?;
+        }
         let (seconds, rest) = (self.i32()?, self.u32()?);
-        self.text()?;
-        Ok(Time::from_nanos(i64::from(seconds) * NANOS + i64::from(rest)))
+        Ok((Time::from_nanos(i64::from(seconds) * NANOS + i64::from(rest)), self.text()?))
     }
 
     /// Reads a text.
     pub fn text(&mut self) -> Result<&'a str, Reason> {
         let length = usize::try_from(self.u32()?).map_err(|_| MISSING)?;
-        match self.bytes(length)?.split_last() {
+        let bytes = self.bytes(length)?;
+        match bytes.split_last() {
+            _ if self.is_ros1() => core::str::from_utf8(bytes).map_err(|_| "a text is not UTF-8".into()),
             Some((0, text)) => core::str::from_utf8(text).map_err(|_| "a text is not UTF-8".into()),
             _ => Err("a text does not end with a zero byte".into()),
         }

@@ -7,7 +7,7 @@ use super::{
 use crate::{Failure, Time};
 use core::{any::type_name, marker::PhantomData};
 use serde::{Serialize, de::DeserializeOwned};
-use std::borrow::Cow;
+use std::{borrow::Cow, iter};
 
 /// Reason why bytes are not a token, for example "its encoding is `bayer_rggb8`".
 pub type Reason = Cow<'static, str>;
@@ -36,6 +36,30 @@ pub trait Message: Sized {
     /// # Errors
     /// The fields are not a value of this type: the reason.
     fn read(message: &mut Reader<'_>) -> Result<Self, Reason>;
+
+    /// Returns the other messages that hold such a token, which tests read from the recordings of other programs, such
+    /// as `nav_msgs/msg/Odometry` for a pose.
+    fn others() -> Vec<Foreign<Self>> {
+        vec![]
+    }
+}
+
+/// Message of other programs that holds a token.
+pub struct Foreign<T> {
+    /// Name of the message: `nav_msgs/msg/Odometry`.
+    pub name: &'static str,
+    /// Definition of the message, or the part of it that is read.
+    pub definition: &'static str,
+    /// Reads a token, which may be one of several in the message: the part of this name is wanted, or the only one if
+    /// the name is empty. `None` if the message does not have this part.
+    pub read: fn(&mut Reader<'_>, part: &str) -> Result<Option<T>, Reason>,
+}
+
+impl<T: Message> Foreign<T> {
+    /// Message that consists of the token.
+    fn itself() -> Self {
+        Self { name: T::NAME, definition: T::DEFINITION, read: |message, _| T::read(message).map(Some) }
+    }
 }
 
 /// Schema of a channel: type and encoding of its tokens.
@@ -67,6 +91,8 @@ pub struct Codec<T> {
     pub read: fn(&[u8]) -> Result<T, Reason>,
     /// Returns the shape of the type: the definition of the message, or all that serde reads.
     pub shape: fn() -> String,
+    /// Returns the messages that hold a token of the type, its own first; none for types that are not messages.
+    pub messages: fn() -> Vec<Foreign<T>>,
 }
 
 impl<T> Clone for Codec<T> {
@@ -119,6 +145,7 @@ impl<T: Message> ByMessage<T> for &&Kind<T> {
                 if is_whole { Ok(token) } else { Err(LEFT_OVER) }
             },
             shape: || message::<T>().complete_definition(),
+            messages: || iter::once(Foreign::itself()).chain(T::others()).collect(),
         })
     }
 }
@@ -152,6 +179,7 @@ impl<T: Serialize + DeserializeOwned> BySerde<T> for &Kind<T> {
                 if rest.is_empty() { Ok(token) } else { Err(LEFT_OVER) }
             },
             shape: shape::<T>,
+            messages: Vec::new,
         })
     }
 }
@@ -169,7 +197,7 @@ impl<T> ByNothing<T> for Kind<T> {
 }
 
 macro_rules! numbers {
-    ($($ty:ident $name:literal $definition:literal)*) => { $(
+    ($($ty:ident $name:literal $definition:literal ($($other:ident)*))*) => { $(
         impl Message for $ty {
             const NAME: &'static str = $name;
             const DEFINITION: &'static str = $definition;
@@ -179,20 +207,28 @@ macro_rules! numbers {
             fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
                 message.$ty()
             }
+            fn others() -> Vec<Foreign<Self>> {
+                vec![$(Foreign {
+                    name: $other::NAME,
+                    definition: $other::DEFINITION,
+                    read: |message, _| message.$other().map(|number| Some(number.into())),
+                }),*]
+            }
         }
     )* };
 }
+// A number is also read from messages of numbers that it holds exactly.
 numbers! {
-    f64 "std_msgs/msg/Float64" "float64 data"
-    f32 "std_msgs/msg/Float32" "float32 data"
-    i64 "std_msgs/msg/Int64" "int64 data"
-    i32 "std_msgs/msg/Int32" "int32 data"
-    i16 "std_msgs/msg/Int16" "int16 data"
-    i8 "std_msgs/msg/Int8" "int8 data"
-    u64 "std_msgs/msg/UInt64" "uint64 data"
-    u32 "std_msgs/msg/UInt32" "uint32 data"
-    u16 "std_msgs/msg/UInt16" "uint16 data"
-    u8 "std_msgs/msg/UInt8" "uint8 data"
+    f64 "std_msgs/msg/Float64" "float64 data" (f32 i32 i16 i8 u32 u16 u8)
+    f32 "std_msgs/msg/Float32" "float32 data" (i16 i8 u16 u8)
+    i64 "std_msgs/msg/Int64" "int64 data" (i32 i16 i8 u32 u16 u8)
+    i32 "std_msgs/msg/Int32" "int32 data" (i16 i8 u16 u8)
+    i16 "std_msgs/msg/Int16" "int16 data" (i8 u8)
+    i8 "std_msgs/msg/Int8" "int8 data" ()
+    u64 "std_msgs/msg/UInt64" "uint64 data" (u32 u16 u8)
+    u32 "std_msgs/msg/UInt32" "uint32 data" (u16 u8)
+    u16 "std_msgs/msg/UInt16" "uint16 data" (u8)
+    u8 "std_msgs/msg/UInt8" "uint8 data" ()
 }
 
 impl Message for bool {
@@ -214,7 +250,7 @@ impl Message for () {
         message.u8(0);
     }
     fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.u8().map(drop)
+        if message.is_ros1() { Ok(()) } else { message.u8().map(drop) }
     }
 }
 
@@ -253,7 +289,7 @@ impl Message for Time {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::cdr::ZSTD, *};
+    use super::*;
     use core::fmt::Debug;
 
     /// Writes and reads a token.
@@ -348,14 +384,13 @@ mod tests {
         let number = 1.5_f64.to_le_bytes();
         let read = |prefix: &[u8], rest: &[u8]| (codec.read)(&[prefix, rest].concat());
         assert_eq!(read(&[0, 1, 0, 0], &number), Ok(1.5));
+        assert_eq!(read(&[0, 0, 0, 0], &1.5_f64.to_be_bytes()), Ok(1.5));
         assert_eq!(read(&[0, 1, 0, 3], &[&number[..], &[0; 3]].concat()), Ok(1.5), "padding as RTPS allows it");
         for (prefix, rest, reason) in [
             (&[0, 1, 0, 0][..], &number[..7], "bytes are missing"),
             (&[0, 1, 0, 3], &[], "bytes are missing"),
             (&[0, 1], &[], "bytes are missing"),
-            (&[0, 0, 0, 0], &number, "its numbers are big-endian, which is not supported"),
             (&[0, 7, 0, 0], &number, "it is encoded in a version of CDR that is not supported"),
-            (ZSTD, &number, "it is compressed with zstd: record without a compression of messages"),
             (b"{\"da", &number, "it does not begin as CDR"),
         ] {
             assert_eq!(read(prefix, rest), Err(reason.into()), "{prefix:?}");

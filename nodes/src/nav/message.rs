@@ -8,10 +8,13 @@ use crate::scan::{
 use apex_rt::{
     Time,
     record::{
-        Message, Reason,
+        Foreign, Message, Reason,
         cdr::{Reader, Writer},
     },
 };
+
+/// Number of numbers in a `geometry_msgs/PoseWithCovariance`.
+const POSE_WITH_COVARIANCE: usize = 7 + 36;
 
 /// The poses face along the path. One more pose is at the goal and has the goal heading. In the paths of other programs
 /// the last pose is the goal itself.
@@ -90,6 +93,29 @@ float64 z";
         let (x, y) = (message.f64()?, message.f64()?);
         let (_, _, _) = (message.f64()?, message.f64()?, message.f64()?);
         Ok(Self::new(x as f32, y as f32, message.f64()? as f32))
+    }
+
+    fn others() -> Vec<Foreign<Self>> {
+        let message = |name, read| Foreign { name, definition: "", read };
+        vec![
+            message("geometry_msgs/msg/TwistStamped", |message, _| {
+                message.header()?;
+                Self::read(message).map(Some)
+            }),
+            message("geometry_msgs/msg/TwistWithCovarianceStamped", |message, _| {
+                message.header()?;
+                Self::read(message).map(Some)
+            }),
+            // The twist of odometry is that of the robot, in its own frame.
+            message("nav_msgs/msg/Odometry", |message, _| {
+                message.header()?;
+                message.text()?;
+                for _ in 0..POSE_WITH_COVARIANCE {
+                    message.f64()?;
+                }
+                Self::read(message).map(Some)
+            }),
+        ]
     }
 }
 

@@ -1,10 +1,10 @@
 //! ROS 2 messages of scans and poses, which Foxglove and Python can show.
 
-use super::{Point2, Pose2, Ranges, Scan};
+use super::{Point2, Pose2, Ranges, Scan, foreign};
 use apex_rt::{
     Time,
     record::{
-        Message, Reason,
+        Foreign, Message, Reason,
         cdr::{Reader, Writer},
     },
 };
@@ -101,6 +101,10 @@ impl Message for Pose2 {
         message.header()?;
         read_pose(message)
     }
+
+    fn others() -> Vec<Foreign<Self>> {
+        foreign::poses()
+    }
 }
 
 /// Writes a `geometry_msgs/Pose`.
@@ -121,7 +125,7 @@ pub(crate) fn read_pose(message: &mut Reader<'_>) -> Result<Pose2, Reason> {
 }
 
 /// Heading of a quaternion, in rad: the direction in which the x axis points, seen from above.
-fn heading([x, y, z, w]: [f64; 4]) -> f32 {
+pub(super) fn heading([x, y, z, w]: [f64; 4]) -> f32 {
     // An angle that no quaternion can hold: x is NaN, or longer than that of a quaternion.
     if y == 0.0 && z == 0.0 && w == 0.0 && (x.is_nan() || x.abs() > 1.0) {
         return x as f32;
@@ -149,6 +153,14 @@ impl Message for Point2 {
     fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         let (x, y, _) = (message.f64()?, message.f64()?, message.f64()?);
         Ok(Self::new(x as f32, y as f32))
+    }
+
+    fn others() -> Vec<Foreign<Self>> {
+        let read = |message: &mut Reader<'_>, _: &str| {
+            message.header()?;
+            Self::read(message).map(Some)
+        };
+        vec![Foreign { name: "geometry_msgs/msg/PointStamped", definition: "", read }]
     }
 }
 
