@@ -2,6 +2,7 @@
 
 mod agents;
 mod answer;
+mod bag;
 mod build;
 mod calls;
 mod check;
@@ -58,6 +59,17 @@ enum Command {
         /// Change nothing, but say if the file is not up to date.
         #[arg(long)]
         check: bool,
+    },
+    /// List what is in a recording: topics, types, numbers of messages, rates, gaps.
+    #[command(
+        after_help = "Reads MCAP files, of Apex and of ROS 2, and bags of ROS 1. A gap is listed if it is three times as long as usual.\nExit code 1: the recording is incomplete.\n\nExample:\n  apex bag bag.mcap\n  apex bag --format json bag.mcap"
+    )]
+    Bag {
+        /// Recording.
+        file: PathBuf,
+        /// Format of the output.
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
     },
     /// Check source files and report their errors.
     #[command(
@@ -413,6 +425,7 @@ impl Command {
     /// Empty answer of the command.
     fn answer(&self) -> Answer {
         match self {
+            Self::Bag { format, .. } => Answer::new("bag", *format),
             Self::Check { format, .. } => Answer::new("check", *format),
             Self::Explain { format, .. } => Answer::new("explain", *format),
             Self::Nodes { format, .. } => Answer::new("nodes", *format),
@@ -427,6 +440,7 @@ impl Command {
 fn obey(command: Command, answer: &mut Answer) -> Result<ExitCode, String> {
     match command {
         Command::Agents { folder, check } => agents::run(&folder, check),
+        Command::Bag { file, .. } => bag::run(&file, answer),
         Command::Check { paths, fix, .. } => check::run(&paths, fix, answer),
         Command::Completions { shell } => completions::run(shell),
         Command::Doc { paths, output } => doc::run(&paths, output.as_deref()),

@@ -95,3 +95,44 @@ fn a_compression_that_is_not_known_is_named() {
     let error = read(&path, "/warmth").expect_err("it is compressed");
     assert!(error.contains("is incomplete: it is compressed with `gzip`"), "{error}");
 }
+
+#[test]
+fn a_file_that_was_cut_off_is_read_up_to_there() {
+    let folder = Folder::new();
+    let (whole, cut) = (folder.file("whole.mcap"), folder.file("cut.mcap"));
+    file(&whole, plain(), "float64 data", "cdr", CDR);
+    let bytes = fs::read(&whole).expect("it was written");
+    // The summary is missing, and then the whole end.
+    for length in [bytes.len() - 1, bytes.len() / 2] {
+        fs::write(&cut, &bytes[..length]).expect("room");
+        assert_eq!(read(&cut, "/warmth"), Ok(expected()), "{length} of {} bytes", bytes.len());
+    }
+    let mut damaged = bytes;
+    let number = damaged.windows(8).position(|part| part == 2.5_f64.to_le_bytes()).expect("a number");
+    damaged[number - 40] ^= 1;
+    fs::write(&cut, &damaged).expect("room");
+    assert!(read(&cut, "/warmth").is_err_and(|error| error.contains("is incomplete: it is damaged")));
+}
+
+#[test]
+fn numbers_are_read_from_messages_of_smaller_ones() {
+    let folder = Folder::new();
+    let path = folder.file("small.mcap");
+    let mut writer = plain().create(fs::File::create(&path).expect("a new file")).expect("a file");
+    for (topic, ty, definition) in [
+        ("/small", "std_msgs/msg/Float32", "float32 data"),
+        ("/changed", "std_msgs/msg/Float32", "int32 data"),
+        ("/text", "std_msgs/msg/String", "string data"),
+    ] {
+        let schema = writer.add_schema(ty, "ros2msg", definition.as_bytes()).expect("room");
+        let channel_id = writer.add_channel(schema, topic, "cdr", &BTreeMap::new()).expect("room");
+        let header = MessageHeader { channel_id, sequence: 0, log_time: BEGIN, publish_time: BEGIN };
+        writer.write_to_known_channel(&header, &[&CDR[..], &0.1_f32.to_le_bytes()].concat()).expect("room");
+    }
+    writer.finish().expect("room");
+    assert_eq!(read(&path, "/small"), Ok(vec![(Duration::ZERO, f64::from(0.1_f32))]));
+    let error = read(&path, "/changed").expect_err("another message");
+    assert!(error.ends_with("recorded: int32 data\n    known:    float32 data"), "{error}");
+    let error = read(&path, "/text").expect_err("a text");
+    assert!(error.contains("is of type `std_msgs/msg/String`; the port reads `std_msgs/msg/Float64`, `"), "{error}");
+}

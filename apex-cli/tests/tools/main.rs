@@ -9,6 +9,7 @@ use std::{
 mod common;
 
 mod agents;
+mod bag;
 mod completions;
 #[cfg(unix)]
 mod debugging;

@@ -48,7 +48,7 @@ pub trait Message: Sized {
 pub struct Foreign<T> {
     /// Name of the message: `nav_msgs/msg/Odometry`.
     pub name: &'static str,
-    /// Definition of the message, or the part of it that is read.
+    /// Definition of the message; empty if it is known by its name alone.
     pub definition: &'static str,
     /// Reads a token, which may be one of several in the message: the part of this name is wanted, or the only one if
     /// the name is empty. `None` if the message does not have this part.

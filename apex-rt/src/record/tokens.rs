@@ -91,7 +91,9 @@ impl<T> Read<T> {
             let names: Vec<String> = messages.iter().map(|message| format!("`{}`", message.name)).collect();
             return Err(format!("`{topic}` in `{file}` is of type `{ty}`; the port reads {}", names.join(", ")));
         };
-        let shape = channel.shape.as_deref().map(|text| if is_ros1 { of_ros1(text) } else { text.to_owned() });
+        // A message without a definition is known by its name alone.
+        let shape = channel.shape.as_deref().filter(|_| !message.definition.is_empty());
+        let shape = shape.map(|text| if is_ros1 { of_ros1(text) } else { text.to_owned() });
         match shape.and_then(|shape| difference(&shape, message.definition)) {
             Some((theirs, ours)) => Err(format!(
                 "`{topic}` in `{file}` has another message `{ty}` than is known here; the first difference:\n    \
