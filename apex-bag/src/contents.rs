@@ -41,7 +41,7 @@ impl Contents {
     pub fn read(path: &Path) -> io::Result<Self> {
         let mut recording = Recording::open(path)?;
         let mut seen: BTreeMap<u16, (Vec<u64>, u64)> = BTreeMap::new();
-        while let Some(message) = recording.next()? {
+        while let Some(message) = recording.next_message()? {
             let (times, bytes) = seen.entry(message.channel).or_default();
             times.push(message.time);
             *bytes += message.data.len() as u64;

@@ -1,8 +1,9 @@
 //! Reader of recordings: MCAP files, of Apex and of other programs, and bags of ROS 1.
 //!
 //! A [`Recording`] is read from its beginning, one message after the other, so that it needs neither an index nor
-//! statistics, and can be cut off. Chunks may be compressed (LZ4, Zstandard, bzip2): the decoders are Rust. The bytes of
-//! a message are interpreted elsewhere. [`Contents`] are what a recording has: topics, types, numbers, rates, gaps.
+//! statistics, and can be cut off. Chunks may be compressed (LZ4, Zstandard, bzip2) and are unpacked in Rust.
+//! [`Contents`] are what a recording has: topics, types, numbers, rates, gaps. The bytes of a message are interpreted
+//! elsewhere.
 
 mod contents;
 pub mod format;
@@ -78,7 +79,7 @@ impl Recording {
             magic if magic.starts_with(packed::MAGIC_OF_ZSTD) => {
                 refuse("it is compressed as a whole: `zstd -d` unpacks it")
             }
-            magic if magic.starts_with(&[0x1f, 0x8b]) => refuse("it is compressed as a whole: `gunzip` unpacks it"),
+            [0x1f, 0x8b, ..] => refuse("it is compressed as a whole: `gunzip` unpacks it"),
             magic if magic.starts_with(ros1::MAGIC_OF_ALL) => Ros1::open(path).map(Self::Ros1),
             _ => Mcap::open(path).map(|file| Self::Mcap(Box::new(file))),
         }
@@ -96,10 +97,10 @@ impl Recording {
     ///
     /// # Errors
     /// The file cannot be read.
-    pub fn next(&mut self) -> io::Result<Option<Message>> {
+    pub fn next_message(&mut self) -> io::Result<Option<Message>> {
         match self {
-            Self::Mcap(file) => file.next(),
-            Self::Ros1(bag) => bag.next(),
+            Self::Mcap(file) => file.next_message(),
+            Self::Ros1(bag) => bag.next_message(),
         }
     }
 

@@ -205,7 +205,7 @@ impl Mcap {
     ///
     /// # Errors
     /// The file cannot be read.
-    pub fn next(&mut self) -> io::Result<Option<Message>> {
+    pub fn next_message(&mut self) -> io::Result<Option<Message>> {
         while !self.over {
             match self.next_record().and_then(|record| self.record(record)) {
                 Ok(Some(message)) => return Ok(Some(message)),

@@ -80,7 +80,7 @@ impl Ros1 {
     ///
     /// # Errors
     /// The file cannot be read.
-    pub fn next(&mut self) -> io::Result<Option<Message>> {
+    pub fn next_message(&mut self) -> io::Result<Option<Message>> {
         while !self.over {
             match self.record() {
                 Ok(Some(message)) => return Ok(Some(message)),
@@ -266,7 +266,7 @@ mod tests {
         fs::write(&path, bytes)?;
         let mut bag = Ros1::open(&path)?;
         let mut messages = vec![];
-        while let Some(message) = bag.next()? {
+        while let Some(message) = bag.next_message()? {
             messages.push(message);
         }
         fs::remove_file(&path)?;

@@ -34,7 +34,8 @@ impl Drop for Temporary {
     }
 }
 
-/// File with `count` messages of a scanner, every 100 ms with a pause of a second in the middle, and one of another topic.
+/// File with `count` messages of a scanner, every 100 ms with a pause of a second in the middle, and one of another
+/// topic.
 fn file(count: u32, options: WriteOptions) -> Vec<u8> {
     let mut writer = options.compression(None).create(io::Cursor::new(vec![])).expect("a file");
     let schema = writer.add_schema("std_msgs/msg/Float64", "ros2msg", b"float64 data").expect("room");
@@ -87,7 +88,7 @@ fn read(name: &str, bytes: &[u8]) -> (Vec<Message>, Option<String>) {
     let file = Temporary::new(name, bytes);
     let mut recording = Recording::open(&file.0).expect("a recording");
     let mut messages = vec![];
-    while let Some(message) = recording.next().expect("a readable file") {
+    while let Some(message) = recording.next_message().expect("a readable file") {
         messages.push(message);
     }
     (messages, recording.cut().map(str::to_owned))

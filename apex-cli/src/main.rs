@@ -174,13 +174,17 @@ enum Command {
         #[arg(long, value_enum)]
         format: Option<graph::Picture>,
     },
-    /// Convert a graph file of CS::APEX to a source file.
+    /// Convert a graph file of CS::APEX to a source file, or messages of ROS 2 to Rust.
     #[command(
-        after_help = "Nodes that the library does not have are marked by comments; --nodes writes Rust skeletons for them.\n\nExample:\n  apex import robot.apex -o robot.afg --nodes src/nodes.rs"
+        after_help = "Nodes that the library does not have are marked by comments; --nodes writes Rust skeletons for them.\n--msg reads `.msg`, `.srv` and `.action` files, and folders of them. The structs need the crate `apex-messages`, which has\nthe common messages.\n\nExample:\n  apex import robot.apex -o robot.afg --nodes src/nodes.rs\n  apex import --msg my_msgs other_msgs -o src/messages.rs"
     )]
     Import {
-        /// Graph file: .apex, or a snippet .apexs.
-        file: PathBuf,
+        /// Graph file: .apex, or a snippet .apexs; with --msg, definition files or folders with packages.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// Read definitions of messages, services and actions of ROS 2, and write Rust structs.
+        #[arg(long, conflicts_with = "nodes")]
+        msg: bool,
         /// Output file; by default standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
@@ -459,7 +463,11 @@ fn obey(command: Command, answer: &mut Answer) -> Result<ExitCode, String> {
         Command::Graph { file, graph, activity, depth, output, format } => {
             graph::run(&file, &graph::Wanted { graph, activity, depth, output, format })
         }
-        Command::Import { file, output, nodes } => import::run(&file, output.as_deref(), nodes.as_deref()),
+        Command::Import { files, msg: true, output, .. } => import::msg::run(&files, output.as_deref()),
+        Command::Import { files, output, nodes, .. } => match files.as_slice() {
+            [file] => import::run(file, output.as_deref(), nodes.as_deref()),
+            _ => Err("one graph file at a time: several are read with `--msg` only".to_owned()),
+        },
         Command::Lsp => lsp::run(),
         Command::New { folder, template, path } => new::run(&folder, template, path.as_deref()),
         Command::Nodes { words, package, markdown, .. } => nodes::run(&package, &words, markdown, answer),

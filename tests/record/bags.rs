@@ -1,14 +1,37 @@
 //! Recordings of other programs: the Python package `rosbags` writes them, in all compressions.
 
 use crate::Folder;
+use apex_macros::graph;
+use apex_messages::nav_msgs::Odometry;
 use apex_nodes::{
     image::ColorImage,
     nav::{Path as Way, Twist},
     scan::{Pose2, Scan},
 };
-use apex_rt::record::{Codec, tokens};
+use apex_rt::{
+    prelude::*,
+    record::{Codec, tokens},
+};
 use apex_tests::python;
 use std::{panic, path::Path, process::Command, time::Duration};
+
+/// Speed of a robot, in m/s.
+#[node]
+pub fn speed(odometry: &Odometry) -> f64 {
+    odometry.twist.twist.linear.x
+}
+
+graph! {
+    use apex_messages::nav_msgs::Odometry;
+    use crate::bags::speed;
+
+    graph Moving {
+        in odometry: Odometry;
+        out speed: f64;
+        node s = speed();
+        odometry -> s -> speed;
+    }
+}
 
 const WRITE: &str = "import sys
 import numpy as np
@@ -97,6 +120,13 @@ fn bags_of_python_are_read() {
         for topic in ["/odom", "/amcl", "/tf: odom -> base"] {
             is_there(first(&file, topic, apex_rt::__codec!(Pose2)));
         }
+        // Messages themselves can be tokens.
+        let odometry = first(&file, "/odom", apex_rt::__codec!(Odometry));
+        assert_eq!((&*odometry.child_frame_id, odometry.pose.covariance[35]), ("base", 35.0), "{name}");
+        let mut program = Moving::new();
+        program.inputs().odometry.put(odometry).expect("room");
+        program.react(Time::ZERO);
+        assert_eq!(program.outputs().speed, Some(0.5), "{name}");
         for topic in ["/odom", "/speed"] {
             assert_eq!(first(&file, topic, apex_rt::__codec!(Twist)), Twist::new(0.5, 0.0, -0.25), "{name}");
         }

@@ -18,6 +18,7 @@ mod docs;
 mod explain;
 mod import;
 mod import_files;
+mod import_msg;
 mod import_runs;
 mod json;
 mod memory;

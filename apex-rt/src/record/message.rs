@@ -1,73 +1,37 @@
 //! Tokens as messages: types with a ROS 2 message, and the encoding of all others.
 
-use super::{
-    cdr::{Reader, STD_HEADER, Writer},
-    shape::shape,
-};
+use super::shape::shape;
 use crate::{Failure, Time};
+use apex_messages::{
+    Foreign, Message, Reason, builtin_interfaces,
+    cdr::{Reader, Writer},
+};
 use core::{any::type_name, marker::PhantomData};
 use serde::{Serialize, de::DeserializeOwned};
 use std::{borrow::Cow, iter};
 
-/// Reason why bytes are not a token, for example "its encoding is `bayer_rggb8`".
-pub type Reason = Cow<'static, str>;
+/// Definition of `std_msgs/Header` and of its contents.
+const STD_HEADER: &str = "
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec";
 
 /// Reason for bytes that serde cannot read.
 const WRONG: Reason = Cow::Borrowed("bytes are missing, or are those of another type");
 /// Reason for bytes after a token.
 const LEFT_OVER: Reason = Cow::Borrowed("bytes are left over");
 
-/// A type whose tokens are recorded as ROS 2 messages, so that other programs can read them.
-///
-/// Implement it for your own types that should be visible in Foxglove or Python. For all others the traits of serde are
-/// enough. Reading must give exactly the written value, bit by bit: replays depend on it.
-pub trait Message: Sized {
-    /// Name of the message: `sensor_msgs/msg/LaserScan`.
-    const NAME: &'static str;
-    /// Definition of the message as in a `.msg` file, and those of the messages in it after lines of `=`. The
-    /// definition of `std_msgs/Header` is added automatically.
-    const DEFINITION: &'static str;
-
-    /// Writes the fields in the order of the definition.
-    fn write(&self, message: &mut Writer<'_>);
-
-    /// Reads the fields.
-    ///
-    /// # Errors
-    /// The fields are not a value of this type: the reason.
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason>;
-
-    /// Returns the other messages that hold such a token, which tests read from the recordings of other programs, such
-    /// as `nav_msgs/msg/Odometry` for a pose.
-    fn others() -> Vec<Foreign<Self>> {
-        vec![]
-    }
-}
-
-/// Message of other programs that holds a token.
-pub struct Foreign<T> {
-    /// Name of the message: `nav_msgs/msg/Odometry`.
-    pub name: &'static str,
-    /// Definition of the message; empty if it is known by its name alone.
-    pub definition: &'static str,
-    /// Reads a token, which may be one of several in the message: the part of this name is wanted, or the only one if
-    /// the name is empty. `None` if the message does not have this part.
-    pub read: fn(&mut Reader<'_>, part: &str) -> Result<Option<T>, Reason>,
-}
-
-impl<T: Message> Foreign<T> {
-    /// Message that consists of the token.
-    fn itself() -> Self {
-        Self { name: T::NAME, definition: T::DEFINITION, read: |message, _| T::read(message).map(Some) }
-    }
-}
-
 /// Schema of a channel: type and encoding of its tokens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Schema {
     /// Name of the message, or of the Rust type.
     pub name: &'static str,
-    /// Definition of the message, without that of its header; empty for a Rust type.
+    /// Definition of the message; that of its header may be missing. Empty for a Rust type.
     pub definition: &'static str,
     /// Encoding: `cdr` or `postcard`.
     pub encoding: &'static str,
@@ -76,7 +40,9 @@ pub struct Schema {
 impl Schema {
     /// Returns the definition of the message with that of its header, as other programs need it.
     pub fn complete_definition(&self) -> String {
-        let header = if self.definition.starts_with("std_msgs/Header ") { STD_HEADER } else { "" };
+        let lacks_header =
+            self.definition.starts_with("std_msgs/Header ") && !self.definition.contains("MSG: std_msgs/Header");
+        let header = if lacks_header { STD_HEADER } else { "" };
         format!("{}{header}", self.definition)
     }
 }
@@ -196,83 +162,27 @@ impl<T> ByNothing<T> for Kind<T> {
     }
 }
 
-macro_rules! numbers {
-    ($($ty:ident $name:literal $definition:literal ($($other:ident)*))*) => { $(
-        impl Message for $ty {
-            const NAME: &'static str = $name;
-            const DEFINITION: &'static str = $definition;
-            fn write(&self, message: &mut Writer<'_>) {
-                message.$ty(*self);
-            }
-            fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-                message.$ty()
-            }
-            fn others() -> Vec<Foreign<Self>> {
-                vec![$(Foreign {
-                    name: $other::NAME,
-                    definition: $other::DEFINITION,
-                    read: |message, _| message.$other().map(|number| Some(number.into())),
-                }),*]
-            }
-        }
-    )* };
-}
-// A number is also read from messages of numbers that it holds exactly.
-numbers! {
-    f64 "std_msgs/msg/Float64" "float64 data" (f32 i32 i16 i8 u32 u16 u8)
-    f32 "std_msgs/msg/Float32" "float32 data" (i16 i8 u16 u8)
-    i64 "std_msgs/msg/Int64" "int64 data" (i32 i16 i8 u32 u16 u8)
-    i32 "std_msgs/msg/Int32" "int32 data" (i16 i8 u16 u8)
-    i16 "std_msgs/msg/Int16" "int16 data" (i8 u8)
-    i8 "std_msgs/msg/Int8" "int8 data" ()
-    u64 "std_msgs/msg/UInt64" "uint64 data" (u32 u16 u8)
-    u32 "std_msgs/msg/UInt32" "uint32 data" (u16 u8)
-    u16 "std_msgs/msg/UInt16" "uint16 data" (u8)
-    u8 "std_msgs/msg/UInt8" "uint8 data" ()
-}
-
-impl Message for bool {
-    const NAME: &'static str = "std_msgs/msg/Bool";
-    const DEFINITION: &'static str = "bool data";
-    fn write(&self, message: &mut Writer<'_>) {
-        message.u8(u8::from(*self));
-    }
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.u8().map(|byte| byte != 0)
-    }
-}
-
-impl Message for () {
-    const NAME: &'static str = "std_msgs/msg/Empty";
-    const DEFINITION: &'static str = "";
-    fn write(&self, message: &mut Writer<'_>) {
-        // An empty ROS message still has one byte.
-        message.u8(0);
-    }
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        if message.is_ros1() { Ok(()) } else { message.u8().map(drop) }
-    }
-}
-
-impl Message for String {
-    const NAME: &'static str = "std_msgs/msg/String";
-    const DEFINITION: &'static str = "string data";
-    fn write(&self, message: &mut Writer<'_>) {
-        message.text(self);
-    }
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.text().map(str::to_owned)
-    }
-}
-
 impl Message for Failure {
-    const NAME: &'static str = "std_msgs/msg/String";
-    const DEFINITION: &'static str = "string data";
+    const NAME: &'static str = String::NAME;
+    const DEFINITION: &'static str = String::DEFINITION;
+    const HASH: &'static str = String::HASH;
     fn write(&self, message: &mut Writer<'_>) {
         message.text(self.text());
     }
     fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.text().map(|text| Self::new(&text))
+    }
+}
+
+impl From<Time> for builtin_interfaces::Time {
+    fn from(time: Time) -> Self {
+        Self::from_nanos(time.as_nanos())
+    }
+}
+
+impl From<builtin_interfaces::Time> for Time {
+    fn from(time: builtin_interfaces::Time) -> Self {
+        Self::from_nanos(time.as_nanos())
     }
 }
 

@@ -252,7 +252,7 @@ impl Replay {
         let mut source = open(path)?;
         let at = |error| ReplayError::File(path.to_owned(), error);
         while self.channels.iter().zip(&self.last).any(is_wanted) {
-            let Some(message) = source.next().map_err(at)? else { break };
+            let Some(message) = source.next_message().map_err(at)? else { break };
             if let Some(Meaning::Token(channel)) = self.meaning(message.channel) {
                 self.last[channel].get_or_insert(message.data);
             }
@@ -338,7 +338,7 @@ impl Replay {
     }
 
     fn load(&mut self) -> io::Result<()> {
-        while let Some(message) = self.source.next()? {
+        while let Some(message) = self.source.next_message()? {
             match self.meaning(message.channel) {
                 Some(Meaning::Reaction) => match time_of(&message.data) {
                     Some((group, _)) if !self.is_own(group) => {}
@@ -436,7 +436,7 @@ impl Replay {
     /// Reads the rest of the file, and returns the report.
     pub(super) fn finish(&mut self) -> Report {
         // The rest may be damaged: a group that waits for a token of a group that was cut off ends before it is read.
-        while let Some(more) = self.source.next().transpose() {
+        while let Some(more) = self.source.next_message().transpose() {
             if let Err(error) = more {
                 self.source.cut = Some(error.to_string());
                 break;

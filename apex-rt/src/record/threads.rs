@@ -56,7 +56,7 @@ pub(super) fn record_from_threads<P: Program, O: Observer + Send>(
 pub(super) fn recorded_threads(path: &Path) -> Result<Option<String>, ReplayError> {
     let at = |error| ReplayError::File(path.to_owned(), error);
     let mut source = replay::open(path)?;
-    source.next().map_err(at)?;
+    source.next_message().map_err(at)?;
     Ok(source.threads)
 }
 

@@ -15,8 +15,8 @@ use std::{
 };
 
 /// Returns the tokens of the channel `channel` of a recording, with their times. The path `file` is relative to the
-/// folder of the source file `text`. Behind a colon, `channel` may name one of several tokens in the messages of another
-/// program: `/tf: odom -> base_link`.
+/// folder of the source file `text`. Behind a colon, `channel` may name one of several tokens in the messages of
+/// another program: `/tf: odom -> base_link`.
 ///
 /// # Panics
 /// The file cannot be read, or has no such tokens.
@@ -31,7 +31,7 @@ fn try_tokens<T>(path: &Path, wanted: &str, codec: Option<Codec<T>>) -> Result<V
     let cannot_read = |error| format!("cannot read `{}`: {error}", path.display());
     let mut recording = Recording::open(path).map_err(cannot_read)?;
     let (mut tokens, mut readers, mut start) = (vec![], BTreeMap::new(), None);
-    while let Some(message) = recording.next().map_err(cannot_read)? {
+    while let Some(message) = recording.next_message().map_err(cannot_read)? {
         start = Some(start.map_or(message.time, |start: u64| start.min(message.time)));
         let found = recording.channels().get(&message.channel);
         let Some(found) = found.filter(|c| c.name == topic || c.topic == topic) else { continue };

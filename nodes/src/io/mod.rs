@@ -4,7 +4,6 @@
 //! Readers of tables and logs stream: they hold one line in memory. Invalid data gives an error with file and line, and
 //! reading continues with the next line.
 
-mod bag;
 mod carmen;
 mod csv;
 #[cfg(feature = "dxf")]
@@ -24,7 +23,6 @@ mod scan_log;
 #[cfg(feature = "dxf")]
 mod spline;
 
-pub use bag::{Bag, BagMessage};
 pub use csv::{CsvLog, CsvReader};
 pub use error::ReadError;
 #[cfg(feature = "figure")]
