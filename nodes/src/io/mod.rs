@@ -13,6 +13,7 @@ mod error;
 mod figure;
 mod lines;
 mod lzf;
+mod map_file;
 mod pcd;
 #[cfg(feature = "figure")]
 mod picture;
@@ -29,6 +30,7 @@ pub use error::ReadError;
 pub use figure::{ScanFigure, WriteError};
 #[cfg(feature = "slam")]
 pub(crate) use lines::Lines;
+pub use map_file::{MapFile, SaveMap, SaveMapError, read_map_file, write_map_file};
 pub use pcd::{RecordedCloud, read_cloud};
 #[cfg(feature = "figure")]
 pub use picture::ScanPicture;
