@@ -1,7 +1,7 @@
 //! MCAP files of other programs, whose messages tests feed.
 
-use crate::Folder;
-use apex_rt::record::tokens;
+use crate::{Folder, cut::Small};
+use apex_rt::record::{replay, tokens};
 use mcap::{WriteOptions, records::MessageHeader};
 use std::{collections::BTreeMap, fs, panic, path::Path, time::Duration};
 
@@ -135,4 +135,18 @@ fn numbers_are_read_from_messages_of_smaller_ones() {
     assert!(error.ends_with("recorded: int32 data\n    known:    float32 data"), "{error}");
     let error = read(&path, "/text").expect_err("a text");
     assert!(error.contains("is of type `std_msgs/msg/String`; the port reads `std_msgs/msg/Float64`, `"), "{error}");
+}
+
+#[test]
+fn recordings_of_others_are_not_replayed_and_it_is_said_what_can_be_done_with_them() {
+    let folder = Folder::new();
+    let (mcap, bag) = (folder.file("other.mcap"), folder.file("other.bag"));
+    file(&mcap, plain(), "float64 data", "cdr", CDR);
+    fs::write(&bag, "#ROSBAG V2.0\n").expect("room");
+    for path in [mcap, bag] {
+        let error = replay(Small::new(), &path, ()).map(|_| ()).expect_err("it is another program's").to_string();
+        let [what, feed, list] = error.lines().collect::<Vec<_>>()[..] else { panic!("{error}") };
+        assert!(what.ends_with("is a recording, but not of a program of Apex: it has no reactions"), "{error}");
+        assert!(feed.contains("feed its topics to a test instead") && list.contains("`apex bag FILE`"), "{error}");
+    }
 }
