@@ -2,6 +2,7 @@
 
 mod agents;
 mod answer;
+mod bag;
 mod build;
 mod calls;
 mod check;
@@ -58,6 +59,17 @@ enum Command {
         /// Change nothing, but say if the file is not up to date.
         #[arg(long)]
         check: bool,
+    },
+    /// List what is in a recording: topics, types, numbers of messages, rates, gaps.
+    #[command(
+        after_help = "Reads MCAP files, of Apex and of ROS 2, and bags of ROS 1. A gap is listed if it is three times as long as usual.\nExit code 1: the recording is incomplete.\n\nExample:\n  apex bag bag.mcap\n  apex bag --format json bag.mcap"
+    )]
+    Bag {
+        /// Recording.
+        file: PathBuf,
+        /// Format of the output.
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
     },
     /// Check source files and report their errors.
     #[command(
@@ -162,13 +174,17 @@ enum Command {
         #[arg(long, value_enum)]
         format: Option<graph::Picture>,
     },
-    /// Convert a graph file of CS::APEX to a source file.
+    /// Convert a graph file of CS::APEX to a source file, or messages of ROS 2 to Rust.
     #[command(
-        after_help = "Nodes that the library does not have are marked by comments; --nodes writes Rust skeletons for them.\n\nExample:\n  apex import robot.apex -o robot.afg --nodes src/nodes.rs"
+        after_help = "Nodes that the library does not have are marked by comments; --nodes writes Rust skeletons for them.\n--msg reads `.msg`, `.srv` and `.action` files, and folders of them. The structs need the crate `apex-messages`, which has\nthe common messages.\n\nExample:\n  apex import robot.apex -o robot.afg --nodes src/nodes.rs\n  apex import --msg my_msgs other_msgs -o src/messages.rs"
     )]
     Import {
-        /// Graph file: .apex, or a snippet .apexs.
-        file: PathBuf,
+        /// Graph file: .apex, or a snippet .apexs; with --msg, definition files or folders with packages.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// Read definitions of messages, services and actions of ROS 2, and write Rust structs.
+        #[arg(long, conflicts_with = "nodes")]
+        msg: bool,
         /// Output file; by default standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
@@ -413,6 +429,7 @@ impl Command {
     /// Empty answer of the command.
     fn answer(&self) -> Answer {
         match self {
+            Self::Bag { format, .. } => Answer::new("bag", *format),
             Self::Check { format, .. } => Answer::new("check", *format),
             Self::Explain { format, .. } => Answer::new("explain", *format),
             Self::Nodes { format, .. } => Answer::new("nodes", *format),
@@ -427,6 +444,7 @@ impl Command {
 fn obey(command: Command, answer: &mut Answer) -> Result<ExitCode, String> {
     match command {
         Command::Agents { folder, check } => agents::run(&folder, check),
+        Command::Bag { file, .. } => bag::run(&file, answer),
         Command::Check { paths, fix, .. } => check::run(&paths, fix, answer),
         Command::Completions { shell } => completions::run(shell),
         Command::Doc { paths, output } => doc::run(&paths, output.as_deref()),
@@ -445,7 +463,11 @@ fn obey(command: Command, answer: &mut Answer) -> Result<ExitCode, String> {
         Command::Graph { file, graph, activity, depth, output, format } => {
             graph::run(&file, &graph::Wanted { graph, activity, depth, output, format })
         }
-        Command::Import { file, output, nodes } => import::run(&file, output.as_deref(), nodes.as_deref()),
+        Command::Import { files, msg: true, output, .. } => import::msg::run(&files, output.as_deref()),
+        Command::Import { files, output, nodes, .. } => match files.as_slice() {
+            [file] => import::run(file, output.as_deref(), nodes.as_deref()),
+            _ => Err("one graph file at a time: several are read with `--msg` only".to_owned()),
+        },
         Command::Lsp => lsp::run(),
         Command::New { folder, template, path } => new::run(&folder, template, path.as_deref()),
         Command::Nodes { words, package, markdown, .. } => nodes::run(&package, &words, markdown, answer),

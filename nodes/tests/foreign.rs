@@ -72,4 +72,7 @@ fn recordings() {
     let refused = read("grid_turned_origin.mcap", "/map", map()).expect("a file").map(|_| ()).expect_err("turned");
     assert!(refused.contains("its origin is turned by 90.0°"), "{refused}");
     read("grid_probabilities.mcap", "/map", map()).expect("a file").expect("a map");
+    for name in ["scan_zstd.mcap", "scan_unix_time.mcap"] {
+        assert!(!read(name, "/scan", scan()).expect("a file").expect(name).is_empty());
+    }
 }

@@ -1,33 +1,30 @@
 use apex_macros::graph;
+use apex_messages::{
+    Message, Reason,
+    cdr::{Reader, Writer},
+    sensor_msgs::Temperature,
+    std_msgs::Header,
+};
 use apex_rt::{
     drive_with,
     prelude::*,
-    record::{
-        Message, Reason, Recorder, Tap, WhenFull,
-        cdr::{Reader, Writer},
-        replay,
-    },
+    record::{Recorder, Tap, WhenFull, replay},
 };
 
 /// Temperature, in °C.
 pub struct Warmth(pub f64);
 
 impl Message for Warmth {
-    const NAME: &'static str = "sensor_msgs/msg/Temperature";
-    const DEFINITION: &'static str = "\
-std_msgs/Header header
-float64 temperature
-float64 variance";
+    const NAME: &'static str = Temperature::NAME;
+    const DEFINITION: &'static str = Temperature::DEFINITION;
 
     fn write(&self, message: &mut Writer<'_>) {
-        message.header(Time::ZERO, "stove");
-        message.f64(self.0);
-        message.f64(0.0);
+        let header = Header::new(Time::ZERO, "stove");
+        Temperature { header, temperature: self.0, variance: 0.0 }.write(message);
     }
 
     fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.header()?;
-        message.f64().map(Self)
+        Temperature::read(message).map(|message| Self(message.temperature))
     }
 }
 

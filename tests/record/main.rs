@@ -1,5 +1,6 @@
 //! Recordings: a run that is repeated from its file is bitwise the same run.
 
+mod bags;
 mod cut;
 mod damage;
 mod feed;

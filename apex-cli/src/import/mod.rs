@@ -1,7 +1,8 @@
-//! `apex import`: converts graph files of CS::APEX to source files.
+//! `apex import`: converts graph files of CS::APEX to source files, and messages of ROS 2 to Rust ([`msg`]).
 
 mod graph;
 mod known;
+pub mod msg;
 mod names;
 mod ports;
 mod skeletons;

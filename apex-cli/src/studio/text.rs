@@ -5,6 +5,7 @@ use crate::{
     project, replace,
     watch::{files::Files, folders},
 };
+use apex_bag::Contents;
 use apex_diagram::{Item, diagram};
 use apex_dsl::{
     report::Diagnostics,
@@ -212,17 +213,15 @@ fn is_plain(value: &Expr) -> bool {
     }
 }
 
-/// Reads the summary of a recording: the channels that have tokens, and the times of its first and last message.
+/// Reads a recording: the channels that have tokens, and the times of its first and last message.
 fn recorded(path: &Path, file: String) -> Result<Replayed, String> {
-    let bytes = fs::read(path).map_err(|error| error.to_string())?;
-    let summary = mcap::Summary::read(&bytes).map_err(|error| error.to_string())?.unwrap_or_default();
-    // A file that was cut off has no statistics.
-    let stats = summary.stats.ok_or("it is incomplete")?;
-    let has_tokens = |id: &u16| stats.channel_message_counts.get(id).is_some_and(|count| *count > 0);
-    let name = |channel: &mcap::Channel<'_>| channel.metadata.get("apex/name").unwrap_or(&channel.topic).clone();
-    let channels = summary.channels.iter().filter(|(id, _)| has_tokens(id)).map(|(_, channel)| name(channel)).collect();
+    let Contents { topics, times, cut, .. } = Contents::read(path).map_err(|error| error.to_string())?;
+    if let Some(cut) = cut {
+        return Err(format!("it is incomplete: {cut}"));
+    }
+    let channels = topics.into_iter().filter(|topic| topic.count > 0).map(|topic| topic.channel.name).collect();
     let time = |time: u64| i64::try_from(time).ok();
-    let range = time(stats.message_start_time).zip(time(stats.message_end_time)).filter(|_| stats.message_count > 0);
+    let range = times.and_then(|(first, last)| time(first).zip(time(last)));
     Ok(Replayed { file, channels, range })
 }
 

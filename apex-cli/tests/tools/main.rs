@@ -9,6 +9,7 @@ use std::{
 mod common;
 
 mod agents;
+mod bag;
 mod completions;
 #[cfg(unix)]
 mod debugging;
@@ -17,6 +18,7 @@ mod docs;
 mod explain;
 mod import;
 mod import_files;
+mod import_msg;
 mod import_runs;
 mod json;
 mod memory;

@@ -108,6 +108,32 @@ fn a_program_has_no_paths_of_the_machine_if_they_are_left_out() {
     }
 }
 
+/// Names of the crates that a package needs in programs, with these features. Those of macros are left out.
+fn needs(package: &str, features: &str) -> BTreeSet<String> {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(["tree", "--locked", "--offline", "--prefix", "none", "--edges", "normal,no-proc-macro"]);
+    command.args(["--no-default-features", "--package", package, "--features", features]);
+    let output = command.current_dir(root()).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let lines = String::from_utf8(output.stdout).unwrap();
+    lines.lines().filter_map(|line| line.split(' ').next()).map(str::to_owned).collect()
+}
+
+#[test]
+fn programs_that_record_nothing_need_no_crate_for_it() {
+    let set = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
+    let of_runtime = ["apex-rt", "byteorder", "hash32", "heapless", "stable_deref_trait"];
+    assert_eq!(needs("apex-rt", ""), set(&of_runtime));
+    let of_nodes = [&of_runtime[..], &["apex-nodes", "apex-optim", "libm", "num-traits"]].concat();
+    assert_eq!(needs("apex-nodes", "std"), set(&of_nodes));
+    let recording = needs("apex-rt", "record");
+    let of_bags = set(&["apex-bag", "apex-messages", "bzip2-rs", "crc32fast", "lz4_flex", "ruzstd", "tinyvec"]);
+    assert!(recording.is_superset(&of_bags), "{recording:?}");
+    assert_eq!(needs("apex-messages", ""), set(&["apex-messages"]));
+    // Nothing in C.
+    assert!(!recording.iter().any(|name| name.ends_with("-sys")), "{recording:?}");
+}
+
 /// `true` if an expression of licences can be met with those that are allowed.
 fn is_allowed(expression: &str, allowed: &[String]) -> bool {
     let expression = expression.replace(['(', ')'], "").replace(" / ", "/").replace('/', " OR ");

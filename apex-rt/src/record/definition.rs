@@ -29,6 +29,28 @@ pub fn difference(was: &str, is: &str) -> Option<(String, String)> {
     (same < was.len().max(is.len())).then(|| (place(&was), place(&is)))
 }
 
+/// Returns the definition of a message of ROS 1 as ROS 2 has it: times are messages, and headers have no number.
+pub fn of_ros1(definition: &str) -> String {
+    let (mut text, mut is_header) = (String::new(), false);
+    for line in definition.lines() {
+        let (ty, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line, ""));
+        if ty == "MSG:" {
+            is_header = rest.trim() == "std_msgs/Header";
+        }
+        let (plain, array) = ty.find('[').map_or((ty, ""), |at| ty.split_at(at));
+        let plain = match plain {
+            "time" => "builtin_interfaces/Time",
+            "duration" => "builtin_interfaces/Duration",
+            "Header" => "std_msgs/Header",
+            other => other,
+        };
+        if !(is_header && ty == "uint32" && rest.trim() == "seq") {
+            text.extend([plain, array, " ", rest, "\n"]);
+        }
+    }
+    text
+}
+
 /// Fields of plain types with their names: `float64 pose.position.x`.
 fn fields(definition: &str) -> Vec<String> {
     let mut messages = BTreeMap::new();
@@ -146,6 +168,14 @@ mod tests {
         let constants = "uint8 INT8    = 1\nuint8 UINT8=2\nstring name\nuint32 offset";
         assert_eq!(difference(constants, "string name\nuint32 offset"), None);
         assert_eq!(difference("byte[<=4] a\nstring<=9 b", "uint8[] a\nstring b"), None);
+    }
+
+    #[test]
+    fn definitions_of_ros_1_are_those_of_ros_2() {
+        let theirs = "Header header\ntime[] times\n===\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id";
+        assert_eq!(difference(&of_ros1(theirs), "std_msgs/Header header\nbuiltin_interfaces/Time[] times"), None);
+        let changed = difference(&of_ros1("uint32 seq\nduration lasts"), "uint32 seq\nfloat64 lasts");
+        assert_eq!(changed, Some(("int32 lasts.sec".to_owned(), "float64 lasts".to_owned())));
     }
 
     #[test]

@@ -2,17 +2,15 @@
 //!
 //! Chunks are compressed by a library without C, in the frame format of LZ4, which every reader of MCAP knows.
 
+use apex_bag::format::{LZ4, MAGIC, op};
 use crc32fast::Hasher;
 use lz4_flex::frame::{BlockMode, BlockSize, FrameEncoder, FrameInfo};
-use mcap::{MAGIC, records::op};
 use std::{
     collections::BTreeMap,
     fs::File,
     io::{self, BufWriter, Write as _},
 };
 
-/// Name of the compression of a chunk.
-pub const LZ4: &str = "lz4";
 /// Length of the record of a chunk besides its messages and the name of its compression, and of what the index at the
 /// end has on a chunk or a channel in it, in bytes.
 const OF_CHUNK: usize = 256;

@@ -1,49 +1,37 @@
 //! Tokens as messages: types with a ROS 2 message, and the encoding of all others.
 
-use super::{
-    cdr::{Reader, STD_HEADER, Writer},
-    shape::shape,
-};
+use super::shape::shape;
 use crate::{Failure, Time};
+use apex_messages::{
+    Foreign, Message, Reason, builtin_interfaces,
+    cdr::{Reader, Writer},
+};
 use core::{any::type_name, marker::PhantomData};
 use serde::{Serialize, de::DeserializeOwned};
-use std::borrow::Cow;
+use std::{borrow::Cow, iter};
 
-/// Reason why bytes are not a token, for example "its encoding is `bayer_rggb8`".
-pub type Reason = Cow<'static, str>;
+/// Definition of `std_msgs/Header` and of its contents.
+const STD_HEADER: &str = "
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec";
 
 /// Reason for bytes that serde cannot read.
 const WRONG: Reason = Cow::Borrowed("bytes are missing, or are those of another type");
 /// Reason for bytes after a token.
 const LEFT_OVER: Reason = Cow::Borrowed("bytes are left over");
 
-/// A type whose tokens are recorded as ROS 2 messages, so that other programs can read them.
-///
-/// Implement it for your own types that should be visible in Foxglove or Python. For all others the traits of serde are
-/// enough. Reading must give exactly the written value, bit by bit: replays depend on it.
-pub trait Message: Sized {
-    /// Name of the message: `sensor_msgs/msg/LaserScan`.
-    const NAME: &'static str;
-    /// Definition of the message as in a `.msg` file, and those of the messages in it after lines of `=`. The
-    /// definition of `std_msgs/Header` is added automatically.
-    const DEFINITION: &'static str;
-
-    /// Writes the fields in the order of the definition.
-    fn write(&self, message: &mut Writer<'_>);
-
-    /// Reads the fields.
-    ///
-    /// # Errors
-    /// The fields are not a value of this type: the reason.
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason>;
-}
-
 /// Schema of a channel: type and encoding of its tokens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Schema {
     /// Name of the message, or of the Rust type.
     pub name: &'static str,
-    /// Definition of the message, without that of its header; empty for a Rust type.
+    /// Definition of the message; that of its header may be missing. Empty for a Rust type.
     pub definition: &'static str,
     /// Encoding: `cdr` or `postcard`.
     pub encoding: &'static str,
@@ -52,7 +40,9 @@ pub struct Schema {
 impl Schema {
     /// Returns the definition of the message with that of its header, as other programs need it.
     pub fn complete_definition(&self) -> String {
-        let header = if self.definition.starts_with("std_msgs/Header ") { STD_HEADER } else { "" };
+        let lacks_header =
+            self.definition.starts_with("std_msgs/Header ") && !self.definition.contains("MSG: std_msgs/Header");
+        let header = if lacks_header { STD_HEADER } else { "" };
         format!("{}{header}", self.definition)
     }
 }
@@ -67,6 +57,8 @@ pub struct Codec<T> {
     pub read: fn(&[u8]) -> Result<T, Reason>,
     /// Returns the shape of the type: the definition of the message, or all that serde reads.
     pub shape: fn() -> String,
+    /// Returns the messages that hold a token of the type, its own first; none for types that are not messages.
+    pub messages: fn() -> Vec<Foreign<T>>,
 }
 
 impl<T> Clone for Codec<T> {
@@ -135,6 +127,7 @@ impl<T: Message> ByMessage<T> for &&Kind<T> {
                 if is_whole { Ok(token) } else { Err(LEFT_OVER) }
             },
             shape: || message::<T>().complete_definition(),
+            messages: || iter::once(Foreign::itself()).chain(T::others()).collect(),
         })
     }
 }
@@ -173,6 +166,7 @@ impl<T: Serialize + DeserializeOwned> BySerde<T> for &Kind<T> {
                 if rest.is_empty() { Ok(token) } else { Err(LEFT_OVER) }
             },
             shape: shape::<T>,
+            messages: Vec::new,
         })
     }
 }
@@ -194,75 +188,27 @@ impl<T> ByNothing<T> for Kind<T> {
     }
 }
 
-macro_rules! numbers {
-    ($($ty:ident $name:literal $definition:literal)*) => { $(
-        impl Message for $ty {
-            const NAME: &'static str = $name;
-            const DEFINITION: &'static str = $definition;
-            fn write(&self, message: &mut Writer<'_>) {
-                message.$ty(*self);
-            }
-            fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-                message.$ty()
-            }
-        }
-    )* };
-}
-numbers! {
-    f64 "std_msgs/msg/Float64" "float64 data"
-    f32 "std_msgs/msg/Float32" "float32 data"
-    i64 "std_msgs/msg/Int64" "int64 data"
-    i32 "std_msgs/msg/Int32" "int32 data"
-    i16 "std_msgs/msg/Int16" "int16 data"
-    i8 "std_msgs/msg/Int8" "int8 data"
-    u64 "std_msgs/msg/UInt64" "uint64 data"
-    u32 "std_msgs/msg/UInt32" "uint32 data"
-    u16 "std_msgs/msg/UInt16" "uint16 data"
-    u8 "std_msgs/msg/UInt8" "uint8 data"
-}
-
-impl Message for bool {
-    const NAME: &'static str = "std_msgs/msg/Bool";
-    const DEFINITION: &'static str = "bool data";
-    fn write(&self, message: &mut Writer<'_>) {
-        message.u8(u8::from(*self));
-    }
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.u8().map(|byte| byte != 0)
-    }
-}
-
-impl Message for () {
-    const NAME: &'static str = "std_msgs/msg/Empty";
-    const DEFINITION: &'static str = "";
-    fn write(&self, message: &mut Writer<'_>) {
-        // An empty ROS message still has one byte.
-        message.u8(0);
-    }
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.u8().map(drop)
-    }
-}
-
-impl Message for String {
-    const NAME: &'static str = "std_msgs/msg/String";
-    const DEFINITION: &'static str = "string data";
-    fn write(&self, message: &mut Writer<'_>) {
-        message.text(self);
-    }
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.text().map(str::to_owned)
-    }
-}
-
 impl Message for Failure {
-    const NAME: &'static str = "std_msgs/msg/String";
-    const DEFINITION: &'static str = "string data";
+    const NAME: &'static str = String::NAME;
+    const DEFINITION: &'static str = String::DEFINITION;
+    const HASH: &'static str = String::HASH;
     fn write(&self, message: &mut Writer<'_>) {
         message.text(self.text());
     }
     fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
         message.text().map(|text| Self::new(&text))
+    }
+}
+
+impl From<Time> for builtin_interfaces::Time {
+    fn from(time: Time) -> Self {
+        Self::from_nanos(time.as_nanos())
+    }
+}
+
+impl From<builtin_interfaces::Time> for Time {
+    fn from(time: builtin_interfaces::Time) -> Self {
+        Self::from_nanos(time.as_nanos())
     }
 }
 
@@ -279,7 +225,7 @@ impl Message for Time {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::cdr::ZSTD, *};
+    use super::*;
     use core::fmt::Debug;
 
     /// Writes and reads a token.
@@ -374,14 +320,13 @@ mod tests {
         let number = 1.5_f64.to_le_bytes();
         let read = |prefix: &[u8], rest: &[u8]| (codec.read)(&[prefix, rest].concat());
         assert_eq!(read(&[0, 1, 0, 0], &number), Ok(1.5));
+        assert_eq!(read(&[0, 0, 0, 0], &1.5_f64.to_be_bytes()), Ok(1.5));
         assert_eq!(read(&[0, 1, 0, 3], &[&number[..], &[0; 3]].concat()), Ok(1.5), "padding as RTPS allows it");
         for (prefix, rest, reason) in [
             (&[0, 1, 0, 0][..], &number[..7], "bytes are missing"),
             (&[0, 1, 0, 3], &[], "bytes are missing"),
             (&[0, 1], &[], "bytes are missing"),
-            (&[0, 0, 0, 0], &number, "its numbers are big-endian, which is not supported"),
             (&[0, 7, 0, 0], &number, "it is encoded in a version of CDR that is not supported"),
-            (ZSTD, &number, "it is compressed with zstd: record without a compression of messages"),
             (b"{\"da", &number, "it does not begin as CDR"),
         ] {
             assert_eq!(read(prefix, rest), Err(reason.into()), "{prefix:?}");

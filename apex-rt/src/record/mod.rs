@@ -5,29 +5,27 @@
 //! deadlines see the same delays. If it runs on several threads, these must also find the same tokens in the cells
 //! between them. All of this is recorded, and also the tokens of selected ports, for comparison.
 
-pub mod cdr;
 mod definition;
 mod file;
 mod limits;
 mod message;
 mod recorder;
-mod records;
 mod replay;
 mod report;
 mod run;
 mod shape;
 mod sink;
-mod source;
 mod tap;
 mod threads;
 mod tokens;
 mod types;
 mod waits;
 
+pub use apex_messages::{Foreign, Message, Reason, cdr};
 pub use limits::RecordOptions;
 #[doc(hidden)]
 pub use message::{ByMessage, ByNothing, ByReference, BySerde, Kind, NotRecordable, Recordable};
-pub use message::{Codec, Message, Reason, Schema};
+pub use message::{Codec, Schema};
 pub use recorder::{Finished, Recorder, WhenFull};
 pub use replay::{Replay, ReplayError};
 pub use report::{Compared, Difference, Report};

@@ -1,12 +1,13 @@
 use super::{
     Channel, Codec, Message as _, RecordOptions, Role,
     cdr::Writer,
-    sink::{ELAPSED, ENDED, FIRST, Frame, LOOKED, Near, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN, THREADS},
+    sink::{ELAPSED, ENDED, FIRST, Frame, LOOKED, Near, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN},
 };
 use crate::{
     GroupInfo, Mailbox, Parameters, Program, Time,
     params::{Access, ParamInfo, ParamRef, ParamVisitor},
 };
+use apex_bag::format::THREADS;
 use core::time::Duration;
 use std::{
     collections::BTreeMap,

@@ -3,7 +3,6 @@ use super::{
     cdr::Reader,
     report::{Compared, Difference},
     sink::OWN,
-    source::{CUT, FileMessage, Source},
     types::{TypeChange, TypeMatch, compare},
     waits::{ReplayBarrier, WaitOutcome},
 };
@@ -11,6 +10,7 @@ use crate::{
     Info, Parameters, Program, Time,
     params::{Access, ParamInfo, ParamVisitor, set_text},
 };
+use apex_bag::{CUT, Mcap, Message, Recording};
 use core::{fmt, time::Duration};
 use std::{
     collections::{BTreeMap, BTreeSet, VecDeque},
@@ -24,7 +24,7 @@ use std::{
 pub enum ReplayError {
     /// The file cannot be read.
     File(PathBuf, io::Error),
-    /// The file is an MCAP file, but not a recording of a program.
+    /// The file is a recording of another program, which has no reactions.
     NoRecording(PathBuf),
     /// The file is a recording of another program.
     OtherProgram {
@@ -65,7 +65,9 @@ impl fmt::Display for ReplayError {
         match self {
             Self::File(path, error) => write!(f, "cannot read `{}`: {error}", path.display()),
             Self::NoRecording(path) => {
-                write!(f, "`{}` is an MCAP file, but not a recording of a program: it has no reactions", path.display())
+                write!(f, "`{}` is a recording, but not of a program of Apex: it has no reactions", path.display())?;
+                write!(f, "\n  feed its topics to a test instead: `feed port = recording(\"FILE\", \"/topic\");`")?;
+                write!(f, "\n  `apex bag FILE` lists them")
             }
             Self::OtherProgram { path, recorded, wanted } => {
                 write!(f, "`{}` is a recording of `{recorded}`, not of `{wanted}`", path.display())
@@ -132,7 +134,7 @@ impl Reaction {
 /// Replay of a run, or of one thread group in a run.
 pub struct Replay {
     channels: Vec<Channel>,
-    source: Source,
+    source: Mcap,
     meanings: BTreeMap<u16, Option<Meaning>>,
     /// Time of the next reaction, whose beginning was read already.
     next: Option<Time>,
@@ -167,6 +169,18 @@ struct Side {
     waits: Arc<ReplayBarrier>,
 }
 
+/// Opens a recording. A shadow follows the file that its parent writes.
+pub(super) fn open(path: &Path) -> Result<Mcap, ReplayError> {
+    let at = |error| ReplayError::File(path.to_owned(), error);
+    if crate::is_shadow() {
+        return Mcap::follow(path).map_err(at);
+    }
+    match Recording::open(path).map_err(at)? {
+        Recording::Mcap(file) => Ok(*file),
+        Recording::Ros1(_) => Err(ReplayError::NoRecording(path.to_owned())),
+    }
+}
+
 impl Replay {
     /// Opens a recording of a program of type `P` that ran on one thread.
     ///
@@ -190,7 +204,7 @@ impl Replay {
         let at = |error| ReplayError::File(path.to_owned(), error);
         let channels = P::channels();
         let mut replay = Self {
-            source: Source::open(path).map_err(at)?,
+            source: open(path)?,
             meanings: BTreeMap::new(),
             next: None,
             read: (0, Time::ZERO),
@@ -226,18 +240,19 @@ impl Replay {
         }
         replay.leads_in = matches!(replay.source.files, Some((2.., _)));
         if replay.leads_in {
-            replay.find_first_tokens(path).map_err(at)?;
+            replay.find_first_tokens(path)?;
         }
         Ok(replay)
     }
 
     /// Finds the first token of each recorded source, which it sends until the recording begins.
-    fn find_first_tokens(&mut self, path: &Path) -> io::Result<()> {
+    fn find_first_tokens(&mut self, path: &Path) -> Result<(), ReplayError> {
         let is_wanted =
             |(channel, token): (&Channel, &Option<Vec<u8>>)| channel.role == Role::Source && token.is_none();
-        let mut source = Source::open(path)?;
+        let mut source = open(path)?;
+        let at = |error| ReplayError::File(path.to_owned(), error);
         while self.channels.iter().zip(&self.last).any(is_wanted) {
-            let Some(message) = source.next()? else { break };
+            let Some(message) = source.next_message().map_err(at)? else { break };
             if let Some(Meaning::Token(channel)) = self.meaning(message.channel) {
                 self.last[channel].get_or_insert(message.data);
             }
@@ -323,7 +338,7 @@ impl Replay {
     }
 
     fn load(&mut self) -> io::Result<()> {
-        while let Some(message) = self.source.next()? {
+        while let Some(message) = self.source.next_message()? {
             match self.meaning(message.channel) {
                 Some(Meaning::Reaction) => match time_of(&message.data) {
                     Some((group, _)) if !self.is_own(group) => {}
@@ -379,7 +394,7 @@ impl Replay {
         self.group.as_ref().is_none_or(|own| own.number == group as usize)
     }
 
-    fn keep(&mut self, meaning: Meaning, message: FileMessage) {
+    fn keep(&mut self, meaning: Meaning, message: Message) {
         let Ok(mut fields) = Reader::new(&message.data).or_else(|_| Reader::new(&[0, 1, 0, 0])) else { return };
         match meaning {
             Meaning::Reaction => {}
@@ -421,7 +436,7 @@ impl Replay {
     /// Reads the rest of the file, and returns the report.
     pub(super) fn finish(&mut self) -> Report {
         // The rest may be damaged: a group that waits for a token of a group that was cut off ends before it is read.
-        while let Some(more) = self.source.next().transpose() {
+        while let Some(more) = self.source.next_message().transpose() {
             if let Err(error) = more {
                 self.source.cut = Some(error.to_string());
                 break;

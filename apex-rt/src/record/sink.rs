@@ -5,6 +5,7 @@ use super::{
     file::{Head, Out},
     limits::{Files, RecordOptions},
 };
+use apex_bag::format::{CHANNEL_NAME, DROPPED, GOES_ON, MESSAGES, NEXT, NUMBER, PROGRAM, SHAPE};
 use rtrb::{Consumer, Producer, RingBuffer};
 use std::{
     collections::BTreeMap,
@@ -59,28 +60,6 @@ pub const OWN: [(&str, Schema); FIRST] = [
 const fn own(name: &'static str, definition: &'static str) -> Schema {
     Schema { name, definition, encoding: "cdr" }
 }
-
-/// Key of the name of a channel, in its metadata.
-pub const CHANNEL_NAME: &str = "apex/name";
-/// Name of the metadata with the numbers of lost messages.
-pub const DROPPED: &str = "apex/dropped";
-/// Name of the metadata on the recorded program.
-pub const PROGRAM: &str = "apex/program";
-
-/// Name of the metadata at the end of a file of a recording that goes on in another one.
-pub const GOES_ON: &str = "apex/next";
-/// Key of the name of that file.
-pub const NEXT: &str = "file";
-/// Key of the number of a file in a recording that is divided, in the metadata on the program.
-pub const NUMBER: &str = "file";
-
-/// Key of the thread groups that ran in parallel, in the metadata on the program.
-pub const THREADS: &str = "threads";
-
-/// Encoding of the schemas of messages.
-pub const MESSAGES: &str = "ros2msg";
-/// Encoding of the schemas of types that are not messages.
-pub const SHAPE: &str = "apex";
 
 /// Number in the header of a frame with the numbers of lost messages.
 const LOST: u16 = u16::MAX;

@@ -5,8 +5,7 @@
 //! check found something waits until it is there.
 
 use super::{
-    Finished, RecordOptions, Recorder, Replay, ReplayError, Report, Tap, recorder, run, source::Source,
-    waits::ReplayBarrier,
+    Finished, RecordOptions, Recorder, Replay, ReplayError, Report, Tap, recorder, replay, run, waits::ReplayBarrier,
 };
 use crate::{
     CellSender, Observer, Ports, Program,
@@ -56,8 +55,8 @@ pub(super) fn record_from_threads<P: Program, O: Observer + Send>(
 /// Returns the groups that ran in parallel when `path` was recorded, if there were several.
 pub(super) fn recorded_threads(path: &Path) -> Result<Option<String>, ReplayError> {
     let at = |error| ReplayError::File(path.to_owned(), error);
-    let mut source = Source::open(path).map_err(at)?;
-    source.next().map_err(at)?;
+    let mut source = replay::open(path)?;
+    source.next_message().map_err(at)?;
     Ok(source.threads)
 }
 

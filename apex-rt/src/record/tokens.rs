@@ -1,18 +1,22 @@
 //! Tokens of one channel of a recording, for tests.
 
 use super::{
-    Codec,
-    source::{FileChannel, Source},
+    Codec, Reason,
+    cdr::Reader,
+    definition::{difference, of_ros1},
     types::{TypeMatch, compare},
 };
+use apex_bag::{CUT, Channel, ROS1, Recording};
 use core::time::Duration;
 use std::{
+    collections::btree_map::{BTreeMap, Entry},
     env,
     path::{Path, PathBuf},
 };
 
 /// Returns the tokens of the channel `channel` of a recording, with their times. The path `file` is relative to the
-/// folder of the source file `text`.
+/// folder of the source file `text`. Behind a colon, `channel` may name one of several tokens in the messages of
+/// another program: `/tf: odom -> base_link`.
 ///
 /// # Panics
 /// The file cannot be read, or has no such tokens.
@@ -20,42 +24,97 @@ pub fn tokens<T>(text: &str, file: &str, channel: &str, codec: Option<Codec<T>>)
     try_tokens(&find(text, file), channel, codec).unwrap_or_else(|message| panic!("{message}"))
 }
 
-fn try_tokens<T>(path: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<Vec<(Duration, T)>, String> {
+fn try_tokens<T>(path: &Path, wanted: &str, codec: Option<Codec<T>>) -> Result<Vec<(Duration, T)>, String> {
     let codec =
         codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
+    let (topic, part) = wanted.split_once(':').map_or((wanted, ""), |(topic, part)| (topic.trim(), part.trim()));
     let cannot_read = |error| format!("cannot read `{}`: {error}", path.display());
-    let mut source = Source::open(path).map_err(cannot_read)?;
-    let (mut tokens, mut compared, mut start) = (vec![], None, None);
-    while let Some(message) = source.next().map_err(cannot_read)? {
-        // A later file of a recording that is divided begins in the middle of its run, and the times of other programs
-        // may begin in 1970.
-        let begins_late = source.program.is_none() || matches!(source.files, Some((2.., _)));
-        let start = *start.get_or_insert(if begins_late { message.time } else { 0 });
-        let found = source.channels.get(&message.channel);
-        let Some(found) = found.filter(|c| c.name == channel || c.topic == channel) else { continue };
-        if compared != Some(message.channel) {
-            check(path, found, codec)?;
-            compared = Some(message.channel);
-        }
-        let token = (codec.read)(&message.data);
+    let mut recording = Recording::open(path).map_err(cannot_read)?;
+    let (mut tokens, mut readers, mut start) = (vec![], BTreeMap::new(), None);
+    while let Some(message) = recording.next_message().map_err(cannot_read)? {
+        start = Some(start.map_or(message.time, |start: u64| start.min(message.time)));
+        let found = recording.channels().get(&message.channel);
+        let Some(found) = found.filter(|c| c.name == topic || c.topic == topic) else { continue };
+        let read = match readers.entry(message.channel) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(Read::of(path, found, recording.program().is_some(), codec)?),
+        };
+        let token = apex_bag::message(&message.data).map_err(Into::into).and_then(|bytes| read.read(&bytes, part));
         let token = token.map_err(|reason| {
             let (ty, file) = (codec.schema.name, path.display());
-            format!("a token of `{channel}` in `{file}` is not one of `{ty}`: {reason}")
+            format!("a token of `{wanted}` in `{file}` is not one of `{ty}`: {reason}")
         })?;
-        tokens.push((Duration::from_nanos(message.time.saturating_sub(start)), token));
+        tokens.extend(token.map(|token| (message.time, token)));
     }
-    if let Some(cut) = source.cut {
-        return Err(format!("`{}` is incomplete: {cut}", path.display()));
-    }
+    is_whole(path, &recording)?;
     if tokens.is_empty() {
-        let names: Vec<String> = source.channels.values().map(|c| format!("`{}`", c.name)).collect();
-        return Err(format!("`{}` has no tokens of `{channel}`; it has {}", path.display(), names.join(", ")));
+        let names: Vec<String> = recording.channels().values().map(|c| format!("`{}`", c.name)).collect();
+        return Err(format!("`{}` has no tokens of `{wanted}`; it has {}", path.display(), names.join(", ")));
     }
-    Ok(tokens)
+    let start = start.filter(|_| recording.begins_late()).unwrap_or_default();
+    // Recorders write messages as they come, which is not always the order of their times.
+    tokens.sort_by_key(|(time, _)| *time);
+    Ok(tokens.into_iter().map(|(time, token)| (Duration::from_nanos(time - start), token)).collect())
+}
+
+/// Checks that a recording was read to its end. One of another program may be cut off: its recorder was, too.
+fn is_whole(path: &Path, recording: &Recording) -> Result<(), String> {
+    match recording.cut() {
+        None => Ok(()),
+        Some(CUT) if recording.program().is_none() => {
+            eprintln!("warning: `{}` is not complete: {CUT}; the messages before are fed", path.display());
+            Ok(())
+        }
+        Some(cut) => Err(format!("`{}` is incomplete: {cut}", path.display())),
+    }
+}
+
+/// Function that reads the tokens of a channel.
+enum Read<T> {
+    /// Tokens of the type of the port.
+    Own(fn(&[u8]) -> Result<T, Reason>),
+    /// Messages that hold such tokens, in CDR or in the form of ROS 1.
+    Foreign { read: fn(&mut Reader<'_>, &str) -> Result<Option<T>, Reason>, is_ros1: bool },
+}
+
+impl<T> Read<T> {
+    /// Selects the function for a channel.
+    fn of(path: &Path, channel: &Channel, is_own: bool, codec: Codec<T>) -> Result<Self, String> {
+        let (messages, is_ros1) = ((codec.messages)(), channel.encoding == ROS1);
+        let is_own_type = channel.schema == codec.schema.name && !is_ros1;
+        if is_own || is_own_type || messages.is_empty() || !["cdr", ROS1].contains(&&*channel.encoding) {
+            check(path, channel, codec)?;
+            return Ok(Self::Own(codec.read));
+        }
+        let (file, topic, ty) = (path.display(), &channel.topic, &channel.schema);
+        let Some(message) = messages.iter().find(|message| message.name == ty) else {
+            let names: Vec<String> = messages.iter().map(|message| format!("`{}`", message.name)).collect();
+            return Err(format!("`{topic}` in `{file}` is of type `{ty}`; the port reads {}", names.join(", ")));
+        };
+        // A message without a definition is known by its name alone.
+        let shape = channel.shape.as_deref().filter(|_| !message.definition.is_empty());
+        let shape = shape.map(|text| if is_ros1 { of_ros1(text) } else { text.to_owned() });
+        match shape.and_then(|shape| difference(&shape, message.definition)) {
+            Some((theirs, ours)) => Err(format!(
+                "`{topic}` in `{file}` has another message `{ty}` than is known here; the first difference:\n    \
+                 recorded: {theirs}\n    known:    {ours}"
+            )),
+            None => Ok(Self::Foreign { read: message.read, is_ros1 }),
+        }
+    }
+
+    /// Reads the token in the bytes of a message, or the part of this name.
+    fn read(&self, bytes: &[u8], part: &str) -> Result<Option<T>, Reason> {
+        match self {
+            Self::Own(read) => read(bytes).map(Some),
+            Self::Foreign { read, is_ros1: true } => read(&mut Reader::ros1(bytes), part),
+            Self::Foreign { read, is_ros1: false } => read(&mut Reader::new(bytes)?, part),
+        }
+    }
 }
 
 /// Checks that the recorded tokens are of the type of the port.
-fn check<T>(path: &Path, channel: &FileChannel, codec: Codec<T>) -> Result<(), String> {
+fn check<T>(path: &Path, channel: &Channel, codec: Codec<T>) -> Result<(), String> {
     match compare(channel, codec.schema, codec.shape) {
         TypeMatch::Same => {}
         TypeMatch::Undescribed => {

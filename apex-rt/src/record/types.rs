@@ -1,6 +1,7 @@
 //! Comparison of the types in a recording with those of the program.
 
-use super::{Schema, definition, shape, source::FileChannel};
+use super::{Schema, definition, shape};
+use apex_bag::Channel;
 use core::fmt::{self, Display, Formatter};
 
 /// A channel whose tokens are of another type than the recorded ones.
@@ -28,7 +29,7 @@ pub enum TypeMatch {
 
 /// Compares the type of a recorded channel with the present one. A type that has only moved to another module is the
 /// same, and so is a message that is defined in other words.
-pub fn compare(recorded: &FileChannel, present: Schema, shape: fn() -> String) -> TypeMatch {
+pub fn compare(recorded: &Channel, present: Schema, shape: fn() -> String) -> TypeMatch {
     let change = |difference| {
         TypeMatch::Changed(TypeChange {
             channel: recorded.name.clone(),

@@ -4,10 +4,12 @@ use crate::{
     mutate::{Dice, bytes, words},
     worker::Target,
 };
+use apex_bag::Recording;
 use apex_macros::graph;
+use apex_messages::{Message as _, cdr};
 use apex_nodes::{
     cloud::PointCloud,
-    io::{Bag, BagMessage, CsvReader, LogGeometry, PlanOptions, ScanLogReader, read_cloud, read_map, read_plan},
+    io::{CsvReader, LogGeometry, PlanOptions, ScanLogReader, read_cloud, read_map, read_plan},
     learn::{Mlp, Model},
     map::{Grid, Occupancy, Raster},
     math::Random,
@@ -183,13 +185,14 @@ pub fn bags() -> Box<dyn Target> {
     let connection = record(&[b"op=\x07", b"conn=\0\0\0\0", b"topic=/scan"], &sized(b"type=sensor_msgs/LaserScan"));
     let scan = [&[0; 12][..], &sized(b"laser"), &[0; 28], &2_u32.to_le_bytes(), &[0; 12]].concat();
     let message = record(&[b"op=\x02", b"conn=\0\0\0\0", b"time=\x01\0\0\0\0\0\0\0"], &scan);
-    let chunk = record(&[b"op=\x05", b"compression=none"], &[connection, message].concat());
-    let bag = [b"#ROSBAG V2.0\n", &record(&[b"op=\x03"], b"  ")[..], &chunk].concat();
-    reader(vec![bag], &[], |input| {
+    let chunk = record(&[b"op=\x05", b"compression=none", b"size=\x9e\0\0\0"], &[connection, message].concat());
+    let bag = [b"#ROSBAG V2.0\n", &record(&[b"op=\x03", b"index_pos=\0\0\0\0\0\0\0\0"], b"  ")[..], &chunk].concat();
+    reader(vec![bag], &["lz4", "bz2", "none"], |input| {
         let file = file("bag", input);
-        if let Ok(bag) = Bag::read(&file) {
-            for (topic, _) in bag.topics() {
-                bag.messages(topic).for_each(|message: &BagMessage| drop((message.scan(), message.odometry())));
+        if let Ok(mut bag) = Recording::open(&file) {
+            while let Ok(Some(message)) = bag.next_message() {
+                let _ = Scan::read(&mut cdr::Reader::ros1(&message.data));
+                let _ = Scan::from_bytes(&message.data);
             }
         }
         let _ = fs::remove_file(file);

@@ -2,84 +2,66 @@
 
 use super::{CloudPoint, MAX_POINTS, PointCloud};
 use crate::scan::message::FRAME;
-use apex_rt::record::{
-    Message, Reason,
-    cdr::{Reader, Writer},
+use apex_messages::{
+    Reason, converted,
+    sensor_msgs::{PointCloud2, PointField},
+    std_msgs::Header,
 };
 
 /// Fields of a point, each a number of four bytes.
 const FIELDS: [&str; 4] = ["x", "y", "z", "intensity"];
 /// Size of a point, in bytes.
 const STEP: u32 = 4 * FIELDS.len() as u32;
-/// Number type of the fields.
-const FLOAT32: u8 = 7;
 
-impl Message for PointCloud {
-    const NAME: &'static str = "sensor_msgs/msg/PointCloud2";
-    const DEFINITION: &'static str = "\
-std_msgs/Header header
-uint32 height
-uint32 width
-sensor_msgs/PointField[] fields
-bool is_bigendian
-uint32 point_step
-uint32 row_step
-uint8[] data
-bool is_dense
-================================================================================
-MSG: sensor_msgs/PointField
-string name
-uint32 offset
-uint8 datatype
-uint32 count";
-
-    fn write(&self, message: &mut Writer<'_>) {
-        let (width, height) = self.size();
-        message.header(self.stamp, FRAME);
-        message.u32(height as u32);
-        message.u32(width as u32);
-        message.u32(FIELDS.len() as u32);
-        for (i, name) in FIELDS.iter().enumerate() {
-            message.text(name);
-            message.u32(4 * i as u32);
-            message.u8(FLOAT32);
-            message.u32(1);
+impl From<&PointCloud> for PointCloud2 {
+    fn from(cloud: &PointCloud) -> Self {
+        let (width, height) = cloud.size();
+        let field = |(i, name): (usize, &&str)| PointField {
+            name: (*name).to_owned(),
+            offset: 4 * i as u32,
+            datatype: PointField::FLOAT32,
+            count: 1,
+        };
+        let numbers = cloud.points().iter().flat_map(|p| [p.x, p.y, p.z, p.intensity]);
+        Self {
+            header: Header::new(cloud.stamp, FRAME),
+            height: height as u32,
+            width: width as u32,
+            fields: FIELDS.iter().enumerate().map(field).collect(),
+            is_bigendian: false,
+            point_step: STEP,
+            row_step: STEP * width as u32,
+            data: numbers.flat_map(f32::to_le_bytes).collect(),
+            is_dense: false,
         }
-        message.u8(0);
-        message.u32(STEP);
-        message.u32(STEP * width as u32);
-        message.u32(STEP * self.points().len() as u32);
-        for p in self.points() {
-            let numbers = [p.x, p.y, p.z, p.intensity];
-            numbers.iter().flat_map(|number| number.to_le_bytes()).for_each(|byte| message.u8(byte));
-        }
-        message.u8(0);
     }
+}
 
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        let stamp = message.header()?;
-        let (height, width) = (message.u32()? as usize, message.u32()? as usize);
-        let places = places(message)?;
-        let (is_big, step, row) = (message.u8()?, message.u32()? as usize, message.u32()? as usize);
-        let count = message.u32()? as usize;
-        if is_big != 0 {
-            return Err("its numbers are big-endian, which is not supported".into());
-        }
+impl TryFrom<PointCloud2> for PointCloud {
+    type Error = Reason;
+
+    fn try_from(message: PointCloud2) -> Result<Self, Reason> {
+        let PointCloud2 { header, fields, is_bigendian, data, .. } = message;
+        let (height, width) = (message.height as usize, message.width as usize);
+        let (step, row) = (message.point_step as usize, message.row_step as usize);
+        let places = places(&fields)?;
         let points = width.checked_mul(height).filter(|points| *points <= MAX_POINTS);
         points.ok_or_else(|| format!("{width} x {height} points are more than {MAX_POINTS}"))?;
         let is_inside = places.iter().flatten().all(|place| place.checked_add(4).is_some_and(|end| end <= step));
-        let fits = width.checked_mul(step).is_some_and(|size| size <= row) && row.checked_mul(height) == Some(count);
+        let fits =
+            width.checked_mul(step).is_some_and(|size| size <= row) && row.checked_mul(height) == Some(data.len());
         if !is_inside || !fits {
+            let count = data.len();
             return Err(format!("it has {count} bytes for {height} rows of {row} bytes with {width} x {step}").into());
         }
-        let bytes = message.bytes(count)?;
-        message.u8()?;
         let mut cloud = Self::default();
-        cloud.reset(stamp, (width, height));
+        cloud.reset(header.stamp.into(), (width, height));
         for (i, point) in cloud.points_mut().iter_mut().enumerate() {
             let start = i / width * row + i % width * step;
-            let number =
-                |place: usize| bytes[start + place..].first_chunk().map_or(f32::NAN, |b| f32::from_le_bytes(*b));
+            let number = |place: usize| {
+                let bytes = data[start + place..].first_chunk().copied();
+                bytes.map_or(f32::NAN, if is_bigendian { f32::from_be_bytes } else { f32::from_le_bytes })
+            };
             let [x, y, z, intensity] = places.map(|place| place.map_or(0.0, number));
             *point = CloudPoint { x, y, z, intensity };
         }
@@ -87,20 +69,23 @@ uint32 count";
     }
 }
 
-/// Reads the fields, and returns the places of those that a point has; `intensity` may be missing.
-fn places(message: &mut Reader<'_>) -> Result<[Option<usize>; FIELDS.len()], Reason> {
-    let (mut places, mut names) = ([None; FIELDS.len()], vec![]);
-    for _ in 0..message.u32()? {
-        let (name, offset, kind, count) = (message.text()?, message.u32()?, message.u8()?, message.u32()?);
-        let known = FIELDS.iter().position(|field| *field == name).filter(|_| kind == FLOAT32 && count == 1);
-        if let Some(field) = known {
-            places[field] = Some(offset as usize);
+converted!(PointCloud as PointCloud2);
+
+/// Places of the fields of a point; `intensity` may be missing.
+fn places(fields: &[PointField]) -> Result<[Option<usize>; FIELDS.len()], Reason> {
+    let mut places = [None; FIELDS.len()];
+    for PointField { name, offset, datatype, count } in fields {
+        let is_number = *datatype == PointField::FLOAT32 && *count == 1;
+        if let Some(field) = FIELDS.iter().position(|field| field == name).filter(|_| is_number) {
+            places[field] = Some(*offset as usize);
         }
-        names.push(name);
     }
     match places {
         [Some(_), Some(_), Some(_), _] => Ok(places),
-        _ => Err(format!("its fields are `{}`; `x`, `y` and `z` must be of type `float32`", names.join("`, `")).into()),
+        _ => {
+            let names = fields.iter().map(|field| field.name.as_str()).collect::<Vec<_>>().join("`, `");
+            Err(format!("its fields are `{names}`; `x`, `y` and `z` must be of type `float32`").into())
+        }
     }
 }
 
@@ -108,6 +93,7 @@ fn places(message: &mut Reader<'_>) -> Result<[Option<usize>; FIELDS.len()], Rea
 mod tests {
     use super::*;
     use crate::scan::message::tests::{again, bytes, reason};
+    use apex_messages::Message as _;
     use apex_rt::Time;
 
     #[test]
@@ -123,27 +109,29 @@ mod tests {
 
     /// Message of a cloud of two points, with these fields and their kinds, of four bytes each.
     fn foreign(fields: &[(&str, u8)], step: u32, numbers: &[f32]) -> Vec<u8> {
-        let mut bytes = vec![];
-        let mut message = Writer::new(&mut bytes);
-        message.header(Time::ZERO, "velodyne");
-        [1, 2, fields.len() as u32].into_iter().for_each(|number| message.u32(number));
-        for (i, (name, kind)) in fields.iter().enumerate() {
-            message.text(name);
-            message.u32(4 * i as u32);
-            message.u8(*kind);
-            message.u32(1);
+        let field = |(i, (name, datatype)): (usize, &(&str, u8))| PointField {
+            name: (*name).to_owned(),
+            offset: 4 * i as u32,
+            datatype: *datatype,
+            count: 1,
+        };
+        PointCloud2 {
+            header: Header::new(Time::ZERO, "velodyne"),
+            height: 1,
+            width: 2,
+            fields: fields.iter().enumerate().map(field).collect(),
+            is_bigendian: false,
+            point_step: step,
+            row_step: 4 * numbers.len() as u32,
+            data: numbers.iter().flat_map(|number| number.to_le_bytes()).collect(),
+            is_dense: true,
         }
-        message.u8(0);
-        let bytes_of_all = 4 * numbers.len() as u32;
-        [step, bytes_of_all, bytes_of_all].into_iter().for_each(|number| message.u32(number));
-        numbers.iter().flat_map(|number| number.to_le_bytes()).for_each(|byte| message.u8(byte));
-        message.u8(1);
-        bytes
+        .to_bytes()
     }
 
     #[test]
     fn clouds_of_other_programs_are_read_by_their_fields() {
-        let float = |name| (name, FLOAT32);
+        let float = |name| (name, PointField::FLOAT32);
         let plain = foreign(&["x", "y", "z"].map(float), 12, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
         let cloud: PointCloud = again(&plain).expect("a cloud");
         let point = |x, y, z, intensity| CloudPoint { x, y, z, intensity };

@@ -4,7 +4,6 @@
 //! Readers of tables and logs stream: they hold one line in memory. Invalid data gives an error with file and line, and
 //! reading continues with the next line.
 
-mod bag;
 mod carmen;
 mod csv;
 #[cfg(feature = "dxf")]
@@ -14,6 +13,7 @@ mod error;
 mod figure;
 mod lines;
 mod lzf;
+mod map_file;
 mod pcd;
 #[cfg(feature = "figure")]
 mod picture;
@@ -24,13 +24,13 @@ mod scan_log;
 #[cfg(feature = "dxf")]
 mod spline;
 
-pub use bag::{Bag, BagMessage};
 pub use csv::{CsvLog, CsvReader};
 pub use error::ReadError;
 #[cfg(feature = "figure")]
 pub use figure::{ScanFigure, WriteError};
 #[cfg(feature = "slam")]
 pub(crate) use lines::Lines;
+pub use map_file::{MapFile, SaveMap, SaveMapError, read_map_file, write_map_file};
 pub use pcd::{RecordedCloud, read_cloud};
 #[cfg(feature = "figure")]
 pub use picture::ScanPicture;

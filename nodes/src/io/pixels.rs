@@ -24,23 +24,37 @@ pub fn read_map(path: impl AsRef<Path>, resolution: f32) -> Result<Grid<Occupanc
     if !(resolution.is_finite() && resolution > 0.0) {
         return Err(error(format!("a resolution of {resolution} m is not positive")));
     }
-    let read = match Ending::of(path).name.as_str() {
-        "pgm" => {
-            let bytes = fs::read(path).map_err(|e| error(e.to_string()))?;
-            Pixels::of_pgm(&bytes)
-        }
+    let pixels = read_pixels(path).map_err(error)?;
+    let Pixels { width, height, .. } = pixels;
+    let raster = Raster { corner: Point2::default(), resolution, width, height };
+    let cell = |white: f32| match 1.0 - white {
+        p if p > OCCUPIED => Occupancy::Occupied,
+        p if p < FREE => Occupancy::Free,
+        _ => Occupancy::Unknown,
+    };
+    pixels.map(raster, cell).map_err(error)
+}
+
+/// Reads the pixels of a map.
+pub(super) fn read_pixels(path: &Path) -> Result<Pixels, String> {
+    match Ending::of(path).name.as_str() {
+        "pgm" => Pixels::of_pgm(&fs::read(path).map_err(|e| e.to_string())?),
         #[cfg(feature = "image")]
         _ => Pixels::of_image(path),
         #[cfg(not(feature = "image"))]
         _ => Err("a map ends in .pgm; other images need the feature `image` of `apex-nodes`".to_owned()),
-    };
-    read.and_then(|pixels| pixels.map(resolution)).map_err(error)
+    }
+}
+
+/// Returns `true` if a pixel is transparent.
+pub(super) fn is_transparent(white: f32) -> bool {
+    white.is_nan()
 }
 
 /// Shares of white of all pixels, from the upper left corner; NaN for transparent ones.
-struct Pixels {
-    width: usize,
-    height: usize,
+pub(super) struct Pixels {
+    pub(super) width: usize,
+    pub(super) height: usize,
     white: Vec<f32>,
 }
 
@@ -91,18 +105,14 @@ impl Pixels {
         Ok(Self { width: picture.width() as usize, height: picture.height() as usize, white: white.collect() })
     }
 
-    fn map(self, resolution: f32) -> Result<Grid<Occupancy>, String> {
-        let Self { width, height, white } = self;
-        let raster = Raster { corner: Point2::default(), resolution, width, height };
+    /// Map on the raster of the pixels, whose cells `cell` tells by the share of white.
+    pub(super) fn map(self, raster: Raster, cell: impl Fn(f32) -> Occupancy) -> Result<Grid<Occupancy>, String> {
         let mut map = Grid::new(raster, Occupancy::Unknown).map_err(|e| e.to_string())?;
+        let Self { width, height, white } = self;
         for (i, white) in white.into_iter().enumerate() {
             // The first row of an image is the upper one.
-            if let Some(cell) = map.get_mut(Cell::new(i % width, height - 1 - i / width)) {
-                *cell = match 1.0 - white {
-                    p if p > OCCUPIED => Occupancy::Occupied,
-                    p if p < FREE => Occupancy::Free,
-                    _ => Occupancy::Unknown,
-                };
+            if let Some(place) = map.get_mut(Cell::new(i % width, height - 1 - i / width)) {
+                *place = cell(white);
             }
         }
         Ok(map)

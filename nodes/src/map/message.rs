@@ -1,17 +1,15 @@
 //! ROS 2 and Foxglove messages of maps, which Foxglove and Python can show.
 
 use super::{Grid, Occupancy, Raster};
-use crate::scan::{
-    Pose2,
-    message::{FRAME, pose_definition, read_pose, write_pose},
+use crate::scan::{Pose2, message::FRAME};
+use apex_messages::{
+    Reason, builtin_interfaces, converted,
+    foxglove_msgs::{self, PackedElementField, Vector2},
+    geometry_msgs::Pose,
+    nav_msgs::{MapMetaData, OccupancyGrid},
+    std_msgs::Header,
 };
-use apex_rt::{
-    Time,
-    record::{
-        Message, Reason,
-        cdr::{Reader, Writer},
-    },
-};
+use apex_rt::Time;
 
 /// Values of the cells of an occupancy grid: −1 if unknown, otherwise the probability of an obstacle in %. Of other
 /// programs, cells from 65 on are occupied and those up to 19 free, as map servers of ROS have it.
@@ -23,145 +21,99 @@ const OCCUPIED: i8 = 100;
 /// Angle up to which an origin is along the axes, in rad.
 const LEVEL: f32 = 1e-6;
 
-impl Message for Grid<Occupancy> {
-    const NAME: &'static str = "nav_msgs/msg/OccupancyGrid";
-    const DEFINITION: &'static str = concat!(
-        "\
-std_msgs/Header header
-nav_msgs/MapMetaData info
-int8[] data
-================================================================================
-MSG: nav_msgs/MapMetaData
-builtin_interfaces/Time map_load_time
-float32 resolution
-uint32 width
-uint32 height
-geometry_msgs/Pose origin",
-        pose_definition!()
-    );
-
-    fn write(&self, message: &mut Writer<'_>) {
-        let Raster { resolution, width, height, .. } = *self.raster();
-        message.header(Time::ZERO, FRAME);
-        // The load time is not used.
-        message.i32(0);
-        message.u32(0);
-        message.f32(resolution);
-        message.u32(width as u32);
-        message.u32(height as u32);
-        write_pose(&origin(self.raster()), message);
-        message.u32(self.cells().len() as u32);
-        for cell in self.cells() {
-            message.i8(match cell {
-                Occupancy::Unknown => UNKNOWN,
-                Occupancy::Free => FREE,
-                Occupancy::Occupied => OCCUPIED,
-            });
+impl From<&Grid<Occupancy>> for OccupancyGrid {
+    fn from(grid: &Grid<Occupancy>) -> Self {
+        let Raster { resolution, width, height, .. } = *grid.raster();
+        let cell = |cell: &Occupancy| match cell {
+            Occupancy::Unknown => UNKNOWN,
+            Occupancy::Free => FREE,
+            Occupancy::Occupied => OCCUPIED,
+        };
+        Self {
+            header: Header::new(Time::ZERO, FRAME),
+            info: MapMetaData {
+                map_load_time: builtin_interfaces::Time::default(),
+                resolution,
+                width: width as u32,
+                height: height as u32,
+                origin: origin(grid.raster()),
+            },
+            data: grid.cells().iter().map(cell).collect(),
         }
     }
+}
 
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.header()?;
-        let (_, _) = (message.i32()?, message.u32()?);
-        let (resolution, width, height) = (message.f32()?, message.u32()?, message.u32()?);
-        let origin = read_pose(message)?;
+impl TryFrom<OccupancyGrid> for Grid<Occupancy> {
+    type Error = Reason;
+
+    fn try_from(OccupancyGrid { info, data, .. }: OccupancyGrid) -> Result<Self, Reason> {
+        let origin = Pose2::from(&info.origin);
         if origin.theta.abs() > LEVEL {
             let turn = origin.theta.to_degrees();
             return Err(format!("its origin is turned by {turn:.1}°: only maps along the axes can be read").into());
         }
-        let raster = raster(&origin, resolution, width, height);
-        let count = message.u32()?;
-        let cells = message.bytes(count as usize)?.iter().map(|byte| match *byte as i8 {
+        let cells = data.into_iter().map(|cell| match cell {
             UNKNOWN => Ok(Occupancy::Unknown),
             FREE..=MOSTLY_FREE => Ok(Occupancy::Free),
             MOSTLY_OCCUPIED..=OCCUPIED => Ok(Occupancy::Occupied),
             between if (FREE..OCCUPIED).contains(&between) => Ok(Occupancy::Unknown),
             other => Err(format!("a cell is {other}, not in -1..=100")),
         });
-        grid(raster, cells.collect::<Result<_, _>>()?)
+        grid(raster(&origin, info.resolution, info.width, info.height), cells.collect::<Result<_, _>>()?)
     }
 }
+
+converted!(Grid<Occupancy> as OccupancyGrid);
 
 /// Number of bytes per cell of a map of numbers.
 const STRIDE: u32 = 4;
-/// Number type of the cells.
-const FLOAT32: u8 = 7;
 
-impl Message for Grid<f32> {
-    const NAME: &'static str = "foxglove_msgs/msg/Grid";
-    const DEFINITION: &'static str = concat!(
-        "\
-builtin_interfaces/Time timestamp
-string frame_id
-geometry_msgs/Pose pose
-uint32 column_count
-foxglove_msgs/Vector2 cell_size
-uint32 row_stride
-uint32 cell_stride
-foxglove_msgs/PackedElementField[] fields
-uint8[] data
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
-MSG: foxglove_msgs/Vector2
-float64 x
-float64 y
-================================================================================
-MSG: foxglove_msgs/PackedElementField
-uint8 UNKNOWN=0
-uint8 UINT8=1
-uint8 INT8=2
-uint8 UINT16=3
-uint8 INT16=4
-uint8 UINT32=5
-uint8 INT32=6
-uint8 FLOAT32=7
-uint8 FLOAT64=8
-string name
-uint32 offset
-uint8 type",
-        pose_definition!()
-    );
-
-    fn write(&self, message: &mut Writer<'_>) {
-        let Raster { resolution, width, height, .. } = *self.raster();
-        // Time and frame have the same bytes as a header.
-        message.header(Time::ZERO, FRAME);
-        write_pose(&origin(self.raster()), message);
-        message.u32(width as u32);
-        message.f64(f64::from(resolution));
-        message.f64(f64::from(resolution));
-        // The message stores the row stride in bytes. Without columns, the number of rows is stored in its place.
-        message.u32(if width == 0 { height as u32 } else { STRIDE * width as u32 });
-        message.u32(STRIDE);
-        message.u32(1);
-        message.text("value");
-        message.u32(0);
-        message.u8(FLOAT32);
-        message.u32(STRIDE * self.cells().len() as u32);
-        self.cells().iter().flat_map(|cell| cell.to_le_bytes()).for_each(|byte| message.u8(byte));
-    }
-
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.header()?;
-        let corner = read_pose(message)?;
-        let (width, resolution, _) = (message.u32()?, message.f64()? as f32, message.f64()?);
-        let (row, cell, fields) = (message.u32()?, message.u32()?, message.u32()?);
-        let (_, offset, kind, bytes) = (message.text()?, message.u32()?, message.u8()?, message.u32()?);
-        if (cell, fields, offset, kind) != (STRIDE, 1, 0, FLOAT32) {
-            return Err("its cells are not a single `float32`".into());
+impl From<&Grid<f32>> for foxglove_msgs::Grid {
+    fn from(grid: &Grid<f32>) -> Self {
+        let Raster { resolution, width, height, .. } = *grid.raster();
+        let side = f64::from(resolution);
+        Self {
+            timestamp: builtin_interfaces::Time::default(),
+            frame_id: FRAME.to_owned(),
+            pose: origin(grid.raster()),
+            column_count: width as u32,
+            cell_size: Vector2 { x: side, y: side },
+            // The message stores the row stride in bytes. Without columns, the number of rows is stored in its place.
+            row_stride: if width == 0 { height as u32 } else { STRIDE * width as u32 },
+            cell_stride: STRIDE,
+            fields: vec![PackedElementField {
+                name: "value".to_owned(),
+                offset: 0,
+                r#type: PackedElementField::FLOAT32,
+            }],
+            data: grid.cells().iter().flat_map(|cell| cell.to_le_bytes()).collect(),
         }
-        let height = if width == 0 { row } else { bytes.checked_div(row).ok_or("its rows have no bytes")? };
-        let (cells, _) = message.bytes(bytes as usize)?.as_chunks();
-        grid(raster(&corner, resolution, width, height), cells.iter().map(|cell| f32::from_le_bytes(*cell)).collect())
     }
 }
 
+impl TryFrom<foxglove_msgs::Grid> for Grid<f32> {
+    type Error = Reason;
+
+    fn try_from(message: foxglove_msgs::Grid) -> Result<Self, Reason> {
+        let foxglove_msgs::Grid { pose, column_count: width, cell_size, row_stride: row, data, .. } = message;
+        let is_one_number =
+            matches!(&message.fields[..], [PackedElementField { offset: 0, r#type: PackedElementField::FLOAT32, .. }]);
+        if message.cell_stride != STRIDE || !is_one_number {
+            return Err("its cells are not a single `float32`".into());
+        }
+        let bytes = data.len() as u32;
+        let height = if width == 0 { row } else { bytes.checked_div(row).ok_or("its rows have no bytes")? };
+        let (cells, _) = data.as_chunks();
+        let raster = raster(&(&pose).into(), cell_size.x as f32, width, height);
+        grid(raster, cells.iter().map(|cell| f32::from_le_bytes(*cell)).collect())
+    }
+}
+
+converted!(Grid<f32> as foxglove_msgs::Grid);
+
 /// Pose of the corner of a raster. Its sides are parallel to the axes.
-fn origin(raster: &Raster) -> Pose2 {
-    Pose2::new(raster.corner.x, raster.corner.y, 0.0)
+fn origin(raster: &Raster) -> Pose {
+    (&Pose2::new(raster.corner.x, raster.corner.y, 0.0)).into()
 }
 
 fn raster(origin: &Pose2, resolution: f32, width: u32, height: u32) -> Raster {
@@ -188,6 +140,7 @@ mod tests {
             message::tests::{again, bytes, reason},
         },
     };
+    use apex_messages::Message as _;
     use apex_rt::record::Codec;
 
     fn filled<T: Copy + Default>(width: usize, height: usize, values: &[T]) -> Grid<T> {
@@ -260,15 +213,9 @@ mod tests {
 
     #[test]
     fn a_turned_map_is_refused() {
-        let mut turned = vec![];
-        let mut message = Writer::new(&mut turned);
-        message.header(Time::ZERO, "map");
-        (0..2).for_each(|_| message.u32(0));
-        message.f32(0.05);
-        (0..2).for_each(|_| message.u32(1));
-        write_pose(&Pose2::new(-1.0, -2.0, 0.5), &mut message);
-        message.u32(1);
-        message.i8(0);
+        let mut message = OccupancyGrid::from(&filled(1, 1, &[Occupancy::Free]));
+        message.info.origin = (&Pose2::new(-1.0, -2.0, 0.5)).into();
+        let turned = message.to_bytes();
         let refused = reason::<Grid<Occupancy>>(&turned).expect_err("it is turned");
         assert_eq!(refused, "its origin is turned by 28.6°: only maps along the axes can be read");
     }

@@ -1,49 +1,34 @@
 //! ROS 2 messages of paths and twists, which Foxglove and Python can show.
 
 use super::{Path, Twist};
-use crate::scan::{
-    Point2, Pose2,
-    message::{FRAME, pose_definition},
+use crate::scan::{Point2, Pose2, message::FRAME};
+use apex_messages::{
+    Foreign, Reason, converted,
+    geometry_msgs::{self, PoseStamped, TwistStamped, TwistWithCovarianceStamped, Vector3},
+    nav_msgs::{self, Odometry},
+    std_msgs::Header,
 };
-use apex_rt::{
-    Time,
-    record::{
-        Message, Reason,
-        cdr::{Reader, Writer},
-    },
-};
+use apex_rt::Time;
 
 /// The poses face along the path. One more pose is at the goal and has the goal heading. In the paths of other programs
 /// the last pose is the goal itself.
-impl Message for Path {
-    const NAME: &'static str = "nav_msgs/msg/Path";
-    const DEFINITION: &'static str = concat!(
-        "\
-std_msgs/Header header
-geometry_msgs/PoseStamped[] poses
-================================================================================
-MSG: geometry_msgs/PoseStamped
-std_msgs/Header header
-geometry_msgs/Pose pose",
-        pose_definition!()
-    );
-
-    fn write(&self, message: &mut Writer<'_>) {
-        message.header(Time::ZERO, FRAME);
-        message.u32(self.points.len() as u32 + 1);
-        for (i, point) in self.points.iter().enumerate() {
-            Pose2::new(point.x, point.y, self.direction(i)).write(message);
-        }
+impl From<&Path> for nav_msgs::Path {
+    fn from(path: &Path) -> Self {
+        let along = path.points.iter().enumerate().map(|(i, point)| Pose2::new(point.x, point.y, path.direction(i)));
         // The goal of an empty path is NaN, which viewers do not show.
-        let goal = self.goal().unwrap_or(Point2::new(f32::NAN, f32::NAN));
-        Pose2::new(goal.x, goal.y, self.heading).write(message);
+        let goal = path.goal().unwrap_or(Point2::new(f32::NAN, f32::NAN));
+        let poses = along.chain([Pose2::new(goal.x, goal.y, path.heading)]);
+        Self { header: Header::new(Time::ZERO, FRAME), poses: poses.map(|pose| PoseStamped::from(&pose)).collect() }
     }
+}
 
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.header()?;
+impl TryFrom<nav_msgs::Path> for Path {
+    type Error = Reason;
+
+    fn try_from(message: nav_msgs::Path) -> Result<Self, Reason> {
+        let poses = message.poses.iter().map(|pose| Pose2::from(&pose.pose));
         let mut path = Self::default();
-        for _ in 0..message.u32()? {
-            let pose = Pose2::read(message)?;
+        for pose in poses {
             path.points.push(pose.position());
             path.heading = pose.theta;
         }
@@ -60,6 +45,8 @@ geometry_msgs/Pose pose",
     }
 }
 
+converted!(Path as nav_msgs::Path);
+
 impl Path {
     /// Direction of the segment after a point, in rad; for the last point, of the segment before it.
     fn direction(&self, i: usize) -> f32 {
@@ -71,32 +58,40 @@ impl Path {
     }
 }
 
-impl Message for Twist {
-    const NAME: &'static str = "geometry_msgs/msg/Twist";
-    const DEFINITION: &'static str = "\
-geometry_msgs/Vector3 linear
-geometry_msgs/Vector3 angular
-================================================================================
-MSG: geometry_msgs/Vector3
-float64 x
-float64 y
-float64 z";
-
-    fn write(&self, message: &mut Writer<'_>) {
-        [self.x, self.y, 0.0, 0.0, 0.0, self.omega].into_iter().for_each(|number| message.f64(f64::from(number)));
-    }
-
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        let (x, y) = (message.f64()?, message.f64()?);
-        let (_, _, _) = (message.f64()?, message.f64()?, message.f64()?);
-        Ok(Self::new(x as f32, y as f32, message.f64()? as f32))
+impl From<&Twist> for geometry_msgs::Twist {
+    fn from(twist: &Twist) -> Self {
+        Self {
+            linear: Vector3 { x: f64::from(twist.x), y: f64::from(twist.y), z: 0.0 },
+            angular: Vector3 { x: 0.0, y: 0.0, z: f64::from(twist.omega) },
+        }
     }
 }
+
+impl TryFrom<geometry_msgs::Twist> for Twist {
+    type Error = Reason;
+
+    fn try_from(geometry_msgs::Twist { linear, angular }: geometry_msgs::Twist) -> Result<Self, Reason> {
+        Ok(Self::new(linear.x as f32, linear.y as f32, angular.z as f32))
+    }
+}
+
+converted!(
+    Twist as geometry_msgs::Twist,
+    others = vec![
+        Foreign::of::<TwistStamped>(|message, _| Self::try_from(TwistStamped::read(message)?.twist).map(Some)),
+        Foreign::of::<TwistWithCovarianceStamped>(|message, _| {
+            Self::try_from(TwistWithCovarianceStamped::read(message)?.twist.twist).map(Some)
+        }),
+        // The twist of odometry is that of the robot, in its own frame.
+        Foreign::of::<Odometry>(|message, _| Self::try_from(Odometry::read(message)?.twist.twist).map(Some)),
+    ]
+);
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scan::message::tests::{again, bytes};
+    use apex_messages::Message as _;
     use core::f32::consts::FRAC_PI_2;
 
     #[test]
@@ -115,12 +110,8 @@ mod tests {
     #[test]
     fn paths_of_other_programs_end_at_their_last_pose() {
         let write = |poses: &[(f32, f32)]| {
-            let mut bytes = vec![];
-            let mut message = Writer::new(&mut bytes);
-            message.header(Time::ZERO, "map");
-            message.u32(poses.len() as u32);
-            poses.iter().for_each(|(x, y)| Pose2::new(*x, *y, 1.5).write(&mut message));
-            bytes
+            let poses = poses.iter().map(|(x, y)| PoseStamped::from(&Pose2::new(*x, *y, 1.5)));
+            nav_msgs::Path { poses: poses.collect(), ..nav_msgs::Path::default() }.to_bytes()
         };
         for poses in [&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)][..], &[(2.0, 3.0)], &[]] {
             let path: Path = again(&write(poses)).expect("a path");

@@ -1,127 +1,86 @@
-//! ROS 2 messages of scans and poses, which Foxglove and Python can show.
+//! ROS 2 messages of scans, poses and points, which Foxglove and Python can show.
 
-use super::{Point2, Pose2, Ranges, Scan};
-use apex_rt::{
-    Time,
-    record::{
-        Message, Reason,
-        cdr::{Reader, Writer},
-    },
+use super::{Point2, Pose2, Ranges, Scan, foreign};
+use apex_messages::{
+    Foreign, Reason, converted,
+    geometry_msgs::{Point, PointStamped, Pose, PoseStamped, Quaternion},
+    sensor_msgs::LaserScan,
+    std_msgs::Header,
 };
+use apex_rt::Time;
 use core::f32::consts::PI;
 
 /// Frame of all messages. Types do not name their frame, so all are shown in the same one.
 pub(crate) const FRAME: &str = "robot";
 
-/// Definitions of `geometry_msgs/Pose` and of its parts, for the end of a message definition.
-macro_rules! pose_definition {
-    () => {
-        "
-================================================================================
-MSG: geometry_msgs/Pose
-geometry_msgs/Point position
-geometry_msgs/Quaternion orientation
-================================================================================
-MSG: geometry_msgs/Point
-float64 x
-float64 y
-float64 z
-================================================================================
-MSG: geometry_msgs/Quaternion
-float64 x
-float64 y
-float64 z
-float64 w"
-    };
-}
-pub(crate) use pose_definition;
-
-impl Message for Scan {
-    const NAME: &'static str = "sensor_msgs/msg/LaserScan";
-    const DEFINITION: &'static str = "\
-std_msgs/Header header
-float32 angle_min
-float32 angle_max
-float32 angle_increment
-float32 time_increment
-float32 scan_time
-float32 range_min
-float32 range_max
-float32[] ranges
-float32[] intensities";
-
-    fn write(&self, message: &mut Writer<'_>) {
-        message.header(self.stamp, FRAME);
-        message.f32(self.angle_min);
-        message.f32(self.angle(self.ranges.len().saturating_sub(1)));
-        message.f32(self.angle_increment);
-        // The beams have no time offsets, and the time until the next scan is unknown.
-        message.f32(0.0);
-        message.f32(0.0);
-        message.f32(self.range_min);
-        message.f32(self.range_max);
-        message.u32(self.ranges.len() as u32);
-        self.ranges.iter().for_each(|range| message.f32(*range));
-        message.u32(0);
-    }
-
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        let stamp = message.header()?;
-        let (angle_min, _, angle_increment) = (message.f32()?, message.f32()?, message.f32()?);
-        let (_, _) = (message.f32()?, message.f32()?);
-        let mut scan = Self {
-            angle_min,
-            angle_increment,
-            range_min: message.f32()?,
-            range_max: message.f32()?,
-            stamp,
-            ranges: Ranges::new(),
-        };
-        for _ in 0..message.u32()? {
-            scan.ranges.push(message.f32()?).map_err(|error| error.to_string())?;
+impl From<&Scan> for LaserScan {
+    fn from(scan: &Scan) -> Self {
+        Self {
+            header: Header::new(scan.stamp, FRAME),
+            angle_min: scan.angle_min,
+            angle_max: scan.angle(scan.ranges.len().saturating_sub(1)),
+            angle_increment: scan.angle_increment,
+            // The beams have no time offsets, and the time until the next scan is unknown.
+            time_increment: 0.0,
+            scan_time: 0.0,
+            range_min: scan.range_min,
+            range_max: scan.range_max,
+            ranges: scan.ranges.to_vec(),
+            intensities: vec![],
         }
-        // Intensities are not used.
-        for _ in 0..message.u32()? {
-            message.f32()?;
+    }
+}
+
+impl TryFrom<LaserScan> for Scan {
+    type Error = Reason;
+
+    fn try_from(message: LaserScan) -> Result<Self, Reason> {
+        let LaserScan { header, angle_min, angle_increment, range_min, range_max, .. } = message;
+        let mut ranges = Ranges::new();
+        for range in message.ranges {
+            ranges.push(range).map_err(|error| error.to_string())?;
         }
-        Ok(scan)
+        Ok(Self { angle_min, angle_increment, range_min, range_max, stamp: header.stamp.into(), ranges })
     }
 }
 
-impl Message for Pose2 {
-    const NAME: &'static str = "geometry_msgs/msg/PoseStamped";
-    const DEFINITION: &'static str = concat!("std_msgs/Header header\ngeometry_msgs/Pose pose", pose_definition!());
+converted!(Scan as LaserScan);
 
-    fn write(&self, message: &mut Writer<'_>) {
-        message.header(Time::ZERO, FRAME);
-        write_pose(self, message);
-    }
-
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        message.header()?;
-        read_pose(message)
+impl From<&Pose2> for PoseStamped {
+    fn from(pose: &Pose2) -> Self {
+        Self { header: Header::new(Time::ZERO, FRAME), pose: pose.into() }
     }
 }
 
-/// Writes a `geometry_msgs/Pose`.
-pub(crate) fn write_pose(pose: &Pose2, message: &mut Writer<'_>) {
-    pose.position().write(message);
-    let (z, w) = libm::sincos(0.5 * f64::from(pose.theta));
-    // A quaternion cannot hold more than half a turn or NaN. Such an angle is stored in x, with z = w = 0.
-    let is_same = angle(z, w).to_bits() == pose.theta.to_bits() && pose.theta.abs() <= PI;
-    let (x, z, w) = if is_same { (0.0, z, w) } else { (f64::from(pose.theta), 0.0, 0.0) };
-    [x, 0.0, z, w].into_iter().for_each(|number| message.f64(number));
+impl TryFrom<PoseStamped> for Pose2 {
+    type Error = Reason;
+
+    fn try_from(message: PoseStamped) -> Result<Self, Reason> {
+        Ok((&message.pose).into())
+    }
 }
 
-/// Reads a `geometry_msgs/Pose`, as seen from above.
-pub(crate) fn read_pose(message: &mut Reader<'_>) -> Result<Pose2, Reason> {
-    let position = Point2::read(message)?;
-    let quaternion = [message.f64()?, message.f64()?, message.f64()?, message.f64()?];
-    Ok(Pose2::new(position.x, position.y, heading(quaternion)))
+converted!(Pose2 as PoseStamped, others = foreign::poses());
+
+impl From<&Pose2> for Pose {
+    fn from(pose: &Pose2) -> Self {
+        let (z, w) = libm::sincos(0.5 * f64::from(pose.theta));
+        // A quaternion cannot hold more than half a turn or NaN. Such an angle is stored in x, with z = w = 0.
+        let is_same = angle(z, w).to_bits() == pose.theta.to_bits() && pose.theta.abs() <= PI;
+        let (x, z, w) = if is_same { (0.0, z, w) } else { (f64::from(pose.theta), 0.0, 0.0) };
+        Self { position: (&pose.position()).into(), orientation: Quaternion { x, y: 0.0, z, w } }
+    }
+}
+
+/// Pose as seen from above.
+impl From<&Pose> for Pose2 {
+    fn from(pose: &Pose) -> Self {
+        Self::new(pose.position.x as f32, pose.position.y as f32, heading(&pose.orientation))
+    }
 }
 
 /// Heading of a quaternion, in rad: the direction in which the x axis points, seen from above.
-fn heading([x, y, z, w]: [f64; 4]) -> f32 {
+pub(super) fn heading(&Quaternion { x, y, z, w }: &Quaternion) -> f32 {
     // An angle that no quaternion can hold: x is NaN, or longer than that of a quaternion.
     if y == 0.0 && z == 0.0 && w == 0.0 && (x.is_nan() || x.abs() > 1.0) {
         return x as f32;
@@ -138,31 +97,37 @@ fn angle(z: f64, w: f64) -> f32 {
     (2.0 * libm::atan2(z, w)) as f32
 }
 
-impl Message for Point2 {
-    const NAME: &'static str = "geometry_msgs/msg/Point";
-    const DEFINITION: &'static str = "float64 x\nfloat64 y\nfloat64 z";
-
-    fn write(&self, message: &mut Writer<'_>) {
-        [self.x, self.y, 0.0].into_iter().for_each(|number| message.f64(f64::from(number)));
-    }
-
-    fn read(message: &mut Reader<'_>) -> Result<Self, Reason> {
-        let (x, y, _) = (message.f64()?, message.f64()?, message.f64()?);
-        Ok(Self::new(x as f32, y as f32))
+impl From<&Point2> for Point {
+    fn from(point: &Point2) -> Self {
+        Self { x: f64::from(point.x), y: f64::from(point.y), z: 0.0 }
     }
 }
+
+/// Point as seen from above.
+impl TryFrom<Point> for Point2 {
+    type Error = Reason;
+
+    fn try_from(point: Point) -> Result<Self, Reason> {
+        Ok(Self::new(point.x as f32, point.y as f32))
+    }
+}
+
+converted!(
+    Point2 as Point,
+    others = vec![Foreign::of::<PointStamped>(|message, _| {
+        Self::try_from(PointStamped::read(message)?.point).map(Some)
+    })]
+);
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use apex_messages::{Message, cdr::Reader};
     use core::f32::consts::TAU;
-    use std::vec::Vec;
 
     /// Message that contains a token.
     pub(crate) fn bytes(token: &impl Message) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        token.write(&mut Writer::new(&mut bytes));
-        bytes
+        token.to_bytes()
     }
 
     /// Token of a message.
@@ -186,13 +151,7 @@ pub(crate) mod tests {
         let codec = apex_rt::__codec!(Scan).expect("a message");
         assert_eq!((codec.read)(&bytes).map(|scan| scan.ranges.len()), Ok(2000));
         assert!((codec.read)(&bytes[..end + 4]).is_err(), "an intensity is missing");
-        let mut many = Vec::new();
-        let mut message = Writer::new(&mut many);
-        message.header(Time::ZERO, "laser");
-        (0..7).for_each(|_| message.f32(0.0));
-        message.u32(70_000);
-        (0..70_000).for_each(|_| message.f32(1.0));
-        message.u32(0);
+        let many = LaserScan { ranges: vec![1.0; 70_000], ..LaserScan::default() }.to_bytes();
         assert!(reason::<Scan>(&many).expect_err("too many").starts_with("more than 65535 beams"));
     }
 
@@ -209,7 +168,8 @@ pub(crate) mod tests {
             ([-0.353, 0.353, 0.612, 0.612], 0.5 * PI),
             ([0.0; 4], 0.0),
         ] {
-            let found = heading(quaternion);
+            let [x, y, z, w] = quaternion;
+            let found = heading(&Quaternion { x, y, z, w });
             assert!((found - expected).abs() < 1e-3, "{quaternion:?}: {found}");
         }
     }

@@ -7,6 +7,8 @@ mod confirm;
 mod consensus;
 mod container;
 mod filter;
+#[cfg(feature = "record")]
+mod foreign;
 mod geometry;
 mod hide;
 mod laser;

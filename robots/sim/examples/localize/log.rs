@@ -1,7 +1,8 @@
 //! Recordings with reference poses.
 
+use apex_messages::{Message, cdr::Reader, nav_msgs::Odometry};
 use apex_nodes::{
-    io::{Bag, BagMessage, CsvReader},
+    io::CsvReader,
     scan::{Pose2, Scan},
 };
 use apex_sim::Random;
@@ -113,14 +114,30 @@ fn graph(path: &Path) -> Result<Recording, String> {
 /// Bag of the simulator Stage: `/odom`, `/base_scan` and `/base_pose_ground_truth`, by the same stamps. A beam without
 /// an echo has the maximum range.
 fn bag(path: &Path) -> Result<Recording, String> {
-    let bag = Bag::read(path).map_err(|e| e.message)?;
-    let poses = |topic| bag.messages(topic).filter_map(BagMessage::odometry).collect::<BTreeMap<_, _>>();
-    let (odometry, truth) = (poses("/odom"), poses("/base_pose_ground_truth"));
+    let at = |error: std::io::Error| format!("{}: {error}", path.display());
+    let mut bag = apex_bag::Ros1::open(path).map_err(at)?;
+    let (mut scans, mut odometry, mut truth) = (vec![], BTreeMap::new(), BTreeMap::new());
+    while let Some(message) = bag.next_message().map_err(at)? {
+        let mut reader = Reader::ros1(&message.data);
+        let poses = match &*bag.channels[&message.channel].topic {
+            "/base_scan" => {
+                scans.push(Scan::read(&mut reader)?);
+                continue;
+            }
+            "/odom" => &mut odometry,
+            "/base_pose_ground_truth" => &mut truth,
+            _ => continue,
+        };
+        let Odometry { header, pose, .. } = Odometry::read(&mut reader)?;
+        poses.insert(header.stamp.as_nanos(), Pose2::from(&pose.pose));
+    }
+    if let Some(cut) = bag.cut {
+        return Err(format!("{}: {cut}", path.display()));
+    }
     let record = |scan: Scan| {
-        let (odometry, truth) = (*odometry.get(&scan.stamp)?, *truth.get(&scan.stamp)?);
+        let (odometry, truth) = (*odometry.get(&scan.stamp.as_nanos())?, *truth.get(&scan.stamp.as_nanos())?);
         let scan = Scan { range_max: scan.range_max - 0.01, ..scan };
         Some(Record { odometry, scan, truth, is_scored: true })
     };
-    let records = bag.messages("/base_scan").filter_map(BagMessage::scan).filter_map(record).collect();
-    Ok(Recording { records, mount: MOUNT })
+    Ok(Recording { records: scans.into_iter().filter_map(record).collect(), mount: MOUNT })
 }

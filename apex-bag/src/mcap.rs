@@ -3,14 +3,16 @@
 //! Checksums and the statistics at the end of the file are compared with what was read, so that a file without an error
 //! is complete and unchanged.
 
-use super::{
-    file::LZ4,
+use crate::{
+    Channel, Message,
+    format::{
+        CHANNEL_NAME, DROPPED, GOES_ON, LZ4, MAGIC, MESSAGES, MESSAGES_OF_ROS1, NEXT, NUMBER, PROGRAM, SHAPE, THREADS,
+        ZSTD, op,
+    },
+    packed::{Packing, unpack},
     records::{Record, Statistics},
-    sink::{CHANNEL_NAME, DROPPED, GOES_ON, MESSAGES, NEXT, NUMBER, PROGRAM, SHAPE, THREADS},
 };
 use crc32fast::Hasher;
-use lz4_flex::frame::FrameDecoder;
-use mcap::{MAGIC, records::op};
 use std::{
     collections::BTreeMap,
     fs::File,
@@ -47,38 +49,11 @@ const SUMMARY: [u8; 7] = [
     op::SUMMARY_OFFSET,
 ];
 
-/// Channel of a file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FileChannel {
-    /// Name of the channel: that of the port and its node, or the topic in a file of another program.
-    pub name: String,
-    /// Topic of the channel.
-    pub topic: String,
-    /// Name of its schema.
-    pub schema: String,
-    /// Shape of its tokens: the definition of their message, or the description of their type; `None` if the recording
-    /// has none.
-    pub shape: Option<String>,
-    /// Encoding of its messages.
-    pub encoding: String,
-}
-
-/// Message of a file.
-#[derive(Debug)]
-pub struct FileMessage {
-    /// Number of its channel.
-    pub channel: u16,
-    /// Time in ns.
-    pub time: u64,
-    /// Sequence number.
-    pub sequence: u32,
-    /// Bytes of the message.
-    pub data: Vec<u8>,
-}
-
-/// A file that is being read.
-pub struct Source {
+/// MCAP file that is being read.
+pub struct Mcap {
     path: PathBuf,
+    /// The process for which the ends of files are waited for.
+    follows: Option<u32>,
     file: Summed,
     /// Number of chunks and of messages in each channel that were read.
     chunks: u32,
@@ -88,7 +63,7 @@ pub struct Source {
     /// Name and shape of each schema.
     schemas: BTreeMap<u16, (String, Option<String>)>,
     /// Channels that were read, by their number.
-    pub channels: BTreeMap<u16, FileChannel>,
+    pub channels: BTreeMap<u16, Channel>,
     /// Name of the recorded program, once it was read.
     pub program: Option<String>,
     /// Number of the first file that was read in a recording that is divided, and of the present one.
@@ -113,8 +88,7 @@ struct Positioned {
 }
 
 impl Positioned {
-    fn open(path: &Path) -> io::Result<Self> {
-        let follows = crate::is_shadow().then(parent);
+    fn open(path: &Path, follows: Option<u32>) -> io::Result<Self> {
         Ok(Self { file: File::open(path)?, at: 0, follows })
     }
 
@@ -155,11 +129,11 @@ struct Summed {
 }
 
 impl Summed {
-    fn open(path: &Path) -> io::Result<Self> {
+    fn open(path: &Path, follows: Option<u32>) -> io::Result<Self> {
         if path.is_dir() {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
         }
-        let mut file = Self { file: BufReader::new(Positioned::open(path)?), sum: Hasher::new() };
+        let mut file = Self { file: BufReader::new(Positioned::open(path, follows)?), sum: Hasher::new() };
         let mut magic = vec![];
         (&mut file).take(MAGIC.len() as u64).read_to_end(&mut magic)?;
         if !MAGIC.starts_with(&magic) {
@@ -190,15 +164,28 @@ enum Stop {
     Io(io::Error),
 }
 
-impl Source {
+impl Mcap {
     /// Opens a file.
     ///
     /// # Errors
     /// The file cannot be read, or is not an MCAP file.
     pub fn open(path: &Path) -> io::Result<Self> {
+        Self::of(path, None)
+    }
+
+    /// Opens a file that the parent of this process writes: its end is waited for as long as that process runs.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is not an MCAP file.
+    pub fn follow(path: &Path) -> io::Result<Self> {
+        Self::of(path, Some(parent()))
+    }
+
+    fn of(path: &Path, follows: Option<u32>) -> io::Result<Self> {
         Ok(Self {
             path: path.to_owned(),
-            file: Summed::open(path)?,
+            follows,
+            file: Summed::open(path, follows)?,
             chunks: 0,
             counts: BTreeMap::new(),
             chunk: io::Cursor::default(),
@@ -218,7 +205,7 @@ impl Source {
     ///
     /// # Errors
     /// The file cannot be read.
-    pub fn next(&mut self) -> io::Result<Option<FileMessage>> {
+    pub fn next_message(&mut self) -> io::Result<Option<Message>> {
         while !self.over {
             match self.next_record().and_then(|record| self.record(record)) {
                 Ok(Some(message)) => return Ok(Some(message)),
@@ -256,7 +243,7 @@ impl Source {
     fn go_on(&mut self, name: &str) {
         // A name with a folder in it is not one of a recording.
         let path = self.path.with_file_name(Path::new(name).file_name().unwrap_or_default());
-        match Summed::open(&path) {
+        match Summed::open(&path, self.follows) {
             Ok(file) => {
                 (self.path, self.file, self.over) = (path, file, false);
                 self.chunks = 0;
@@ -328,7 +315,7 @@ impl Source {
         self.file.read_exact(&mut magic).map_err(stop)?;
         self.file.file.get_mut().follows = None;
         let is_end = self.file.read(&mut [0]).map_err(Stop::Io)? == 0;
-        match length as usize == places.len() + sum.len() && magic == MAGIC && is_end {
+        match length as usize == places.len() + sum.len() && magic == *MAGIC && is_end {
             true => Ok(()),
             false => Err(Stop::Damage("its end is not that of an MCAP file".to_owned())),
         }
@@ -363,9 +350,10 @@ impl Source {
         let (name, rest) = rest.split_first_chunk::<4>().ok_or(Stop::Cut)?;
         let name_length = u32::from_le_bytes(*name) as usize;
         let (name, rest) = rest.split_at_checked(name_length).ok_or(Stop::Cut)?;
-        let is_compressed = match name {
-            [] => false,
-            name if name == LZ4.as_bytes() => true,
+        let packing = match name {
+            [] => Packing::None,
+            name if name == LZ4.as_bytes() => Packing::Lz4,
+            name if name == ZSTD.as_bytes() => Packing::Zstd,
             name => {
                 let name = String::from_utf8_lossy(&name[..name.len().min(20)]);
                 let why = "which is not supported: write it again with `mcap compress --compression lz4`";
@@ -375,10 +363,10 @@ impl Source {
         let (size, records) = rest.split_first_chunk::<8>().ok_or(Stop::Cut)?;
         let (is_whole, size_here) = (body.len() as u64 == length, u64::from_le_bytes(*size));
         let (plain_size, head_size) = (number(&head[16..]), CHUNK_HEAD + name_length as u64);
-        if !is_compressed && plain_size != size_here || size_here.checked_add(head_size) != Some(length) {
+        if packing == Packing::None && plain_size != size_here || size_here.checked_add(head_size) != Some(length) {
             return Err(Stop::Damage("a chunk has two different lengths".to_owned()));
         }
-        let records = if is_compressed { plain(records, plain_size, is_whole)? } else { records.to_vec() };
+        let records = unpack(packing, records, plain_size, is_whole).map_err(Stop::Damage)?;
         let sum = u32::from_le_bytes(*sum);
         if is_whole && sum != 0 && crc32fast::hash(&records) != sum {
             return Err(Stop::Damage("the checksum of a chunk is wrong".to_owned()));
@@ -388,21 +376,22 @@ impl Source {
         if self.chunk.get_ref().is_empty() && !is_whole { Err(Stop::Cut) } else { Ok(()) }
     }
 
-    fn record(&mut self, record: Record) -> Result<Option<FileMessage>, Stop> {
+    fn record(&mut self, record: Record) -> Result<Option<Message>, Stop> {
         match record {
             Record::Schema { id, name, encoding, data } => {
                 // Earlier versions wrote nothing for types that are not messages. Other programs may write none for
                 // messages, or write them in another language.
                 let text = String::from_utf8_lossy(&data).into_owned();
                 let is_empty = text.is_empty() && name != EMPTY;
-                let shape = Some(text).filter(|_| !is_empty && [MESSAGES, SHAPE].contains(&&*encoding));
+                let shape =
+                    Some(text).filter(|_| !is_empty && [MESSAGES, MESSAGES_OF_ROS1, SHAPE].contains(&&*encoding));
                 self.schemas.insert(id, (name, shape));
             }
             Record::Channel { id, schema, topic, encoding, mut metadata } => {
                 let (schema, shape) = self.schemas.get(&schema).cloned().unwrap_or_default();
                 // Earlier versions wrote the name as the topic.
                 let name = metadata.remove(CHANNEL_NAME).unwrap_or_else(|| topic.clone());
-                let before = self.channels.insert(id, FileChannel { name, topic, schema, shape, encoding });
+                let before = self.channels.insert(id, Channel { name, topic, schema, shape, encoding });
                 if before.is_some_and(|before| Some(&before) != self.channels.get(&id)) {
                     return Err(Stop::Damage("its channels are not those of the file before".to_owned()));
                 }
@@ -418,7 +407,7 @@ impl Source {
             }
             Record::Message { channel, sequence, time, data } => {
                 *self.counts.entry(channel).or_default() += 1;
-                return Ok(Some(FileMessage { channel, time, sequence, data }));
+                return Ok(Some(Message { channel, time, sequence, data }));
             }
             Record::DataEnd(_) => {
                 self.read_summary()?;
@@ -430,20 +419,6 @@ impl Source {
             _ => {}
         }
         Ok(None)
-    }
-}
-
-/// Returns the records of a compressed chunk, of `size` bytes; of one that is cut off, those that can be read.
-fn plain(compressed: &[u8], size: u64, is_whole: bool) -> Result<Vec<u8>, Stop> {
-    let (mut records, damage) = (vec![], |what: &str| Err(Stop::Damage(format!("a chunk {what}"))));
-    if size > LARGEST {
-        return damage(&format!("claims a length of {size} bytes"));
-    }
-    let read = FrameDecoder::new(compressed).take(size + 1).read_to_end(&mut records);
-    match read {
-        Ok(_) if records.len() as u64 == size => Ok(records),
-        _ if !is_whole && records.len() as u64 <= size => Ok(records),
-        _ => damage("cannot be decompressed"),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Records of an MCAP file. Nothing is reserved for what a length in the file promises.
 
-use mcap::records::op;
+use crate::format::op;
 use std::collections::BTreeMap;
 
 /// Content of a record that is used.

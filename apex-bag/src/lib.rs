@@ -1,0 +1,131 @@
+//! Reader of recordings: MCAP files, of Apex and of other programs, and bags of ROS 1.
+//!
+//! A [`Recording`] is read from its beginning, one message after the other, so that it needs neither an index nor
+//! statistics, and can be cut off. Chunks may be compressed (LZ4, Zstandard, bzip2) and are unpacked in Rust.
+//! [`Contents`] are what a recording has: topics, types, numbers, rates, gaps. The bytes of a message are interpreted
+//! elsewhere.
+
+mod contents;
+pub mod format;
+mod mcap;
+mod packed;
+mod records;
+mod ros1;
+
+pub use contents::{Contents, Topic};
+pub use mcap::{CUT, Mcap};
+pub use packed::message;
+pub use ros1::{ENCODING as ROS1, Ros1};
+
+use std::{
+    collections::BTreeMap,
+    fs::File,
+    io::{self, Read},
+    path::Path,
+};
+
+/// Channel of a recording.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Channel {
+    /// Name of the channel: that of the port and its node, or the topic in a file of another program.
+    pub name: String,
+    /// Topic of the channel.
+    pub topic: String,
+    /// Name of the type of its messages: `sensor_msgs/msg/LaserScan`.
+    pub schema: String,
+    /// Shape of its tokens: the definition of their message, or the description of their type; `None` if the recording
+    /// has none.
+    pub shape: Option<String>,
+    /// Encoding of its messages: `cdr`, `ros1`, `postcard`.
+    pub encoding: String,
+}
+
+/// Message of a recording.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Message {
+    /// Number of its channel.
+    pub channel: u16,
+    /// Time in ns.
+    pub time: u64,
+    /// Sequence number.
+    pub sequence: u32,
+    /// Bytes of the message.
+    pub data: Vec<u8>,
+}
+
+/// Recording that is being read.
+pub enum Recording {
+    /// MCAP file.
+    Mcap(Box<Mcap>),
+    /// Bag of ROS 1.
+    Ros1(Ros1),
+}
+
+impl Recording {
+    /// Opens a recording of any kind.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is not a recording.
+    pub fn open(path: &Path) -> io::Result<Self> {
+        let mut magic = vec![];
+        if !path.is_dir() {
+            File::open(path)?.take(16).read_to_end(&mut magic)?;
+        }
+        let refuse = |why: &str| Err(io::Error::new(io::ErrorKind::InvalidData, why));
+        match magic.as_slice() {
+            [b'S', b'Q', b'L', b'i', b't', b'e', ..] => {
+                refuse("it is a database of rosbag2 (SQLite): convert it with `ros2 bag convert` or `rosbags-convert`")
+            }
+            magic if magic.starts_with(packed::MAGIC_OF_ZSTD) => {
+                refuse("it is compressed as a whole: `zstd -d` unpacks it")
+            }
+            [0x1f, 0x8b, ..] => refuse("it is compressed as a whole: `gunzip` unpacks it"),
+            magic if magic.starts_with(ros1::MAGIC_OF_ALL) => Ros1::open(path).map(Self::Ros1),
+            _ => Mcap::open(path).map(|file| Self::Mcap(Box::new(file))),
+        }
+    }
+
+    /// Channels that were read, by their number.
+    pub fn channels(&self) -> &BTreeMap<u16, Channel> {
+        match self {
+            Self::Mcap(file) => &file.channels,
+            Self::Ros1(bag) => &bag.channels,
+        }
+    }
+
+    /// Returns the next message; `None` at the end, or where the file is cut off or damaged.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn next_message(&mut self) -> io::Result<Option<Message>> {
+        match self {
+            Self::Mcap(file) => file.next_message(),
+            Self::Ros1(bag) => bag.next_message(),
+        }
+    }
+
+    /// Reason why the file could not be read to its end.
+    pub fn cut(&self) -> Option<&str> {
+        match self {
+            Self::Mcap(file) => file.cut.as_deref(),
+            Self::Ros1(bag) => bag.cut.as_deref(),
+        }
+    }
+
+    /// Name of the recorded program of Apex; `None` if another program has written the file.
+    pub fn program(&self) -> Option<&str> {
+        match self {
+            Self::Mcap(file) => file.program.as_deref(),
+            Self::Ros1(_) => None,
+        }
+    }
+
+    /// Returns `true` if times are counted from the first message: in the recordings of other programs, which may begin
+    /// in 1970, and in a later file of a recording that is divided.
+    pub fn begins_late(&self) -> bool {
+        match self {
+            Self::Mcap(file) => file.program.is_none() || matches!(file.files, Some((2.., _))),
+            Self::Ros1(_) => true,
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! MCAP files as other programs write them: compressed chunks, no index, no statistics, cut off. And their contents.
+
+use apex_bag::{CUT, Contents, Message, Recording};
+use mcap::{WriteOptions, records::MessageHeader};
+use ruzstd::encoding::{CompressionLevel, compress_to_vec};
+use std::{
+    collections::BTreeMap,
+    fs,
+    io::{self, Write as _},
+    path::PathBuf,
+    time::Duration,
+};
+
+/// Time of the first message: since 1970, as ROS 2 has it, in ns.
+const BEGIN: u64 = 1_700_000_000_000_000_000;
+/// Number of bytes of a record before its body, and of a chunk before its checksum.
+const HEAD: usize = 9;
+const TIMES_AND_SIZE: usize = 24;
+
+/// File in the temporary folder, which is removed at the end.
+struct Temporary(PathBuf);
+
+impl Temporary {
+    fn new(name: &str, bytes: &[u8]) -> Self {
+        let path = std::env::temp_dir().join(format!("apex-mcap-{}-{name}", std::process::id()));
+        fs::write(&path, bytes).expect("room");
+        Self(path)
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+/// File with `count` messages of a scanner, every 100 ms with a pause of a second in the middle, and one of another
+/// topic.
+fn file(count: u32, options: WriteOptions) -> Vec<u8> {
+    let mut writer = options.compression(None).create(io::Cursor::new(vec![])).expect("a file");
+    let schema = writer.add_schema("std_msgs/msg/Float64", "ros2msg", b"float64 data").expect("room");
+    let none = BTreeMap::new();
+    let [scan, other] = ["/scan", "/other"].map(|topic| writer.add_channel(schema, topic, "cdr", &none).expect("room"));
+    let mut write = |channel_id, sequence: u32, time: u64| {
+        let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
+        writer.write_to_known_channel(&header, &[7; 12]).expect("room");
+    };
+    for i in 0..count {
+        let pause = if i < count / 2 { 0 } else { 900_000_000 };
+        write(scan, i, BEGIN + u64::from(i) * 100_000_000 + pause);
+    }
+    write(other, 0, BEGIN + 1);
+    writer.finish().expect("room");
+    writer.into_inner().into_inner()
+}
+
+/// The same file with its chunk compressed, and without checksums and everything behind the chunk.
+fn packed(plain: &[u8], name: &str, pack: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
+    let chunk = (8..plain.len()).find(|at| plain[*at] == 6 && plain[at + 1 + 8 + 28..].starts_with(&[0; 4]));
+    let chunk = chunk.expect("a chunk");
+    let length = u64::from_le_bytes(plain[chunk + 1..chunk + HEAD].try_into().expect("eight bytes")) as usize;
+    let body = &plain[chunk + HEAD..chunk + HEAD + length];
+    let records = pack(&body[TIMES_AND_SIZE + 4 + 4 + 8..]);
+    let body = [
+        &body[..TIMES_AND_SIZE],
+        &[0; 4],
+        &(name.len() as u32).to_le_bytes(),
+        name.as_bytes(),
+        &(records.len() as u64).to_le_bytes(),
+        &records,
+    ]
+    .concat();
+    [&plain[..chunk], &[6], &(body.len() as u64).to_le_bytes(), &body].concat()
+}
+
+fn zstd(bytes: &[u8]) -> Vec<u8> {
+    compress_to_vec(bytes, CompressionLevel::Fastest)
+}
+
+fn lz4(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = lz4_flex::frame::FrameEncoder::new(vec![]);
+    encoder.write_all(bytes).expect("room");
+    encoder.finish().expect("room")
+}
+
+/// Messages of a file, and the reason for their end.
+fn read(name: &str, bytes: &[u8]) -> (Vec<Message>, Option<String>) {
+    let file = Temporary::new(name, bytes);
+    let mut recording = Recording::open(&file.0).expect("a recording");
+    let mut messages = vec![];
+    while let Some(message) = recording.next_message().expect("a readable file") {
+        messages.push(message);
+    }
+    (messages, recording.cut().map(str::to_owned))
+}
+
+#[test]
+fn compressed_chunks_have_the_same_messages() {
+    let plain = file(500, WriteOptions::new());
+    let (messages, cut) = read("plain.mcap", &plain);
+    assert_eq!((messages.len(), cut), (501, None));
+    for (name, bytes) in [("zstd", packed(&plain, "zstd", zstd)), ("lz4", packed(&plain, "lz4", lz4))] {
+        // A recorder that loses its power writes nothing behind the last chunk.
+        assert_eq!(read(name, &bytes), (messages.clone(), Some(CUT.to_owned())), "{name}");
+        for length in (100..bytes.len()).step_by(7) {
+            let (part, cut) = read(name, &bytes[..length]);
+            assert!(messages.starts_with(&part) && cut.as_deref() == Some(CUT), "{name} {length}: {cut:?}");
+        }
+    }
+    let damaged = packed(&plain, "zstd", |bytes| zstd(&bytes[1..]));
+    assert!(read("bad", &damaged).1.is_some_and(|why| why == "it is damaged: a chunk cannot be decompressed"));
+}
+
+#[test]
+fn a_file_without_index_and_statistics_is_whole() {
+    let bare = WriteOptions::new().emit_statistics(false).emit_summary_records(false).use_chunks(false);
+    let (messages, cut) = read("bare.mcap", &file(10, bare));
+    assert_eq!((messages.len(), cut), (11, None));
+}
+
+#[test]
+fn contents_are_counted() {
+    let file = Temporary::new("contents.mcap", &file(10, WriteOptions::new()));
+    let contents = Contents::read(&file.0).expect("a recording");
+    assert_eq!((contents.program, contents.cut), (None, None));
+    assert_eq!(contents.times, Some((BEGIN, BEGIN + 1_800_000_000)));
+    let [other, scan] = contents.topics.as_slice() else { panic!("two topics") };
+    assert_eq!((other.count, other.gap, other.period, other.rate()), (1, None, None, None));
+    assert_eq!((&*scan.channel.topic, scan.count, scan.bytes), ("/scan", 10, 120));
+    assert_eq!(scan.gap, Some((Duration::from_secs(1), BEGIN + 400_000_000)));
+    assert_eq!((scan.period, scan.rate()), (Some(Duration::from_millis(100)), Some(5.0)));
+}
+
+#[test]
+fn what_is_not_a_recording_is_named() {
+    for (bytes, why) in [
+        (&b"SQLite format 3\0"[..], "ros2 bag convert"),
+        (&[0x28, 0xb5, 0x2f, 0xfd, 0], "`zstd -d`"),
+        (&[0x1f, 0x8b, 8, 0], "`gunzip`"),
+        (b"#ROSBAG V1.2\n", "rosbag fix"),
+        (b"time,x\n", "not an MCAP file"),
+    ] {
+        let file = Temporary::new("other", bytes);
+        let error = Recording::open(&file.0).map(|_| ()).expect_err(why);
+        assert!(error.to_string().contains(why), "{error}");
+    }
+    assert!(Recording::open(&std::env::temp_dir()).is_err_and(|error| error.to_string() == "it is a folder"));
+}

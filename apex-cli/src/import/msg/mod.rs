@@ -1,0 +1,182 @@
+//! `apex import --msg`: reads definitions of messages, services and actions of ROS 2 (`.msg`, `.srv`, `.action`), and
+//! writes Rust structs that are encoded as these messages.
+//!
+//! A definition file becomes [`Type`]s ([`parse`]): a service is two messages, an action eight. [`Types`] are all of
+//! them, with those of the crate `apex-messages`, to which they may refer. They give the complete definition of a type
+//! and its hash ([`hash`]). Each package becomes a Rust module ([`rust`]).
+
+mod hash;
+mod parse;
+mod rust;
+
+use crate::{project, replace};
+use apex_host::read_text;
+use parse::{Kind, Type};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+/// Maximum size of a definition file in bytes.
+const MAX_BYTES: usize = 1 << 20;
+/// Maximum depth of folders.
+const MAX_DEPTH: usize = 16;
+
+/// Writes the Rust code of all definitions in `paths`, files or folders, to `output`, or prints it. If a file has an
+/// error, nothing is written.
+pub fn run(paths: &[PathBuf], output: Option<&Path>) -> Result<ExitCode, String> {
+    let mut files = BTreeSet::new();
+    for path in paths {
+        find(path, 0, &mut files)?;
+    }
+    if files.is_empty() {
+        return Err("there is no `.msg`, `.srv` or `.action` file in it".to_owned());
+    }
+    let (mut types, mut has_errors) = (Types::common(), false);
+    for file in &files {
+        if let Err(message) = add(file, &mut types) {
+            project::print_error(&format!("error: {message}"));
+            has_errors = true;
+        }
+    }
+    let rust = if has_errors { None } else { report(types.rust()) };
+    let Some(rust) = rust else { return Ok(ExitCode::from(1)) };
+    match output {
+        Some(path) => replace::write(path, &rust)?,
+        None => project::write(&rust)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Prints an error of a definition.
+fn report(result: Result<String, String>) -> Option<String> {
+    result.inspect_err(|message| project::print_error(&format!("error: {message}"))).ok()
+}
+
+/// Adds the definition files in a folder, or the file.
+fn find(path: &Path, depth: usize, files: &mut BTreeSet<PathBuf>) -> Result<(), String> {
+    let cannot_read = |error| format!("cannot read `{}`: {error}", path.display());
+    if path.is_dir() {
+        if depth < MAX_DEPTH {
+            for entry in fs::read_dir(path).map_err(cannot_read)? {
+                let entry = entry.map_err(cannot_read)?.path();
+                if entry.is_dir() || kind(&entry).is_some() {
+                    find(&entry, depth + 1, files)?;
+                }
+            }
+        }
+    } else if kind(path).is_some() {
+        files.insert(path.to_owned());
+    } else {
+        return Err(format!("`{}` is not a `.msg`, `.srv` or `.action` file", path.display()));
+    }
+    Ok(())
+}
+
+fn kind(path: &Path) -> Option<Kind> {
+    match path.extension()?.to_str()? {
+        "msg" => Some(Kind::Message),
+        "srv" => Some(Kind::Service),
+        "action" => Some(Kind::Action),
+        _ => None,
+    }
+}
+
+/// Adds the types of a file, which is in a folder `msg`, `srv` or `action` of its package, or in the package itself.
+fn add(file: &Path, types: &mut Types) -> Result<(), String> {
+    let at = |message: String| format!("{}:{message}", file.display());
+    let text = read_text(file, MAX_BYTES).map_err(|reason| format!("cannot read `{}`: {reason}", file.display()))?;
+    let whole = file.canonicalize().unwrap_or_else(|_| file.to_owned());
+    let folders = whole.ancestors().skip(1).filter_map(Path::file_name).filter_map(|name| name.to_str());
+    let package = folders.into_iter().find(|name| !["msg", "srv", "action"].contains(name));
+    let package = package.ok_or_else(|| at(" the folder of a package is missing around it".to_owned()))?;
+    let name = file.file_stem().and_then(|name| name.to_str()).unwrap_or_default();
+    let kind = kind(file).unwrap_or(Kind::Message);
+    for ty in
+        parse::read(&text, package, name, kind).map_err(|wrong| at(format!("{}: {}", wrong.line, wrong.message)))?
+    {
+        types.add(ty).map_err(|message| at(format!(" {message}")))?;
+    }
+    Ok(())
+}
+
+/// Types by their names: `sensor_msgs/msg/LaserScan`.
+#[derive(Default)]
+pub struct Types {
+    /// Types that are written.
+    own: BTreeMap<String, Type>,
+    /// Types of `apex-messages`.
+    common: BTreeMap<String, Type>,
+}
+
+impl Types {
+    /// The types of `apex-messages`.
+    fn common() -> Self {
+        let mut types = Self::default();
+        for known in apex_messages::ALL {
+            let Some((package, ty)) = known.name.split_once("/msg/") else { continue };
+            // The definitions of the messages in it follow.
+            let own = known.definition.split("\n===").next().unwrap_or_default();
+            let read = parse::read(own, package, ty, Kind::Message).unwrap_or_default();
+            types.common.extend(read.into_iter().map(|ty| (ty.name.clone(), ty)));
+        }
+        types
+    }
+
+    fn add(&mut self, ty: Type) -> Result<(), String> {
+        let same = |other: &&Type| other.package() == ty.package() && other.rust_name() == ty.rust_name();
+        if let Some(other) = self.own.values().find(same) {
+            return Err(format!("`{}` and `{}` would be the same struct: rename one", ty.name, other.name));
+        }
+        self.own.insert(ty.name.clone(), ty);
+        Ok(())
+    }
+
+    /// Type of this name.
+    fn get(&self, name: &str) -> Result<&Type, String> {
+        self.own.get(name).or_else(|| self.common.get(name)).ok_or_else(|| {
+            let package = name.split('/').next().unwrap_or_default();
+            format!("unknown type `{name}`: name the folder of `{package}`, too")
+        })
+    }
+
+    /// Types in a type, in the order in which they are used, each once.
+    fn parts<'a>(&'a self, ty: &'a Type) -> Result<Vec<&'a Type>, String> {
+        let (mut parts, mut path) = (vec![], vec![&*ty.name]);
+        self.add_parts(ty, &mut parts, &mut path)?;
+        Ok(parts)
+    }
+
+    fn add_parts<'a>(&'a self, ty: &'a Type, parts: &mut Vec<&'a Type>, path: &mut Vec<&'a str>) -> Result<(), String> {
+        for name in ty.fields.iter().filter_map(|field| field.message()) {
+            if path.contains(&name) {
+                return Err(format!("`{}` contains itself", ty.name));
+            }
+            let part = self.get(name).map_err(|message| format!("`{}` has a field of an {message}", ty.name))?;
+            if !parts.iter().any(|known| known.name == part.name) {
+                parts.push(part);
+                path.push(&part.name);
+                self.add_parts(part, parts, path)?;
+                path.pop();
+            }
+        }
+        Ok(())
+    }
+
+    /// Definition of a type with those of its parts.
+    fn definition(&self, ty: &Type) -> Result<String, String> {
+        let mut text = ty.text();
+        for part in self.parts(ty)? {
+            let name = part.name.replacen("/msg/", "/", 1);
+            text.push_str(&format!("\n{}\nMSG: {name}\n{}", "=".repeat(80), part.text()));
+        }
+        Ok(text)
+    }
+
+    /// Rust code of all own types.
+    fn rust(&self) -> Result<String, String> {
+        rust::write(self)
+    }
+}
