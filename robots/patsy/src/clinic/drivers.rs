@@ -276,10 +276,13 @@ impl Dispatch {
         Self { clinic: clinic.clone() }
     }
 
-    /// Sends the next order. With `false` the last one is given back.
+    /// Sends the next order. With `true` the last one is done: people then believe that the container is at its
+    /// destination. With `false` it is given back.
     #[slot]
     fn ask(&mut self, is_done: &bool, order: Event<Order>) {
-        if !is_done {
+        if *is_done {
+            self.clinic.confirm();
+        } else {
             self.clinic.refuse();
         }
         if let Some(next) = self.clinic.next_order() {

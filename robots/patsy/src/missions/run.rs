@@ -1,3 +1,4 @@
+use super::losses::{Limits, Losses};
 use crate::{
     clinic::{Clinic, Drivers, Options, Report, Snapshot},
     vehicle::{Patsy, PatsyParts},
@@ -5,7 +6,7 @@ use crate::{
 use apex_nodes::map::VectorMap;
 use apex_rt::{
     Clock as _, Next, Observer, Program, SimClock, Time, UntilStopped,
-    record::{Recorder, Tap, WhenFull},
+    record::{Codec, Recorder, Tap, WhenFull},
 };
 use std::{
     fmt,
@@ -27,6 +28,8 @@ pub struct Run {
     pub failures: Vec<String>,
     /// Nodes that were active, and for how long, in the order of the program.
     pub activity: Vec<(&'static str, Duration)>,
+    /// Time lost to each cause.
+    pub losses: Losses,
     /// State at the beginning and at the end.
     pub ends: [Snapshot; 2],
     /// Walls of the building.
@@ -80,10 +83,12 @@ pub(super) fn run_seen(
         return Err(format!("stopped by a signal after {} of the run", clock.now()));
     }
     clinic.advance(end);
+    let activity = watch.activity.at(end);
     Ok(Run {
         options: options.clone(),
         report: clinic.report(),
-        activity: watch.activity.at(end),
+        losses: watch.limits.losses(&activity),
+        activity,
         failures: watch.failures,
         ends: [first, clinic.snapshot()],
         plan: clinic.building().plan,
@@ -101,6 +106,7 @@ fn vehicle(clinic: &Clinic) -> Patsy {
 struct Watch {
     failures: Vec<String>,
     activity: Activity,
+    limits: Limits,
     tap: Option<Tap>,
 }
 
@@ -134,7 +140,8 @@ impl Activity {
 impl Watch {
     fn new(tap: Option<Tap>) -> Self {
         let nodes = vec![(Duration::ZERO, None); <Patsy as Program>::INFO.nodes.len()];
-        Self { failures: vec![], activity: Activity { now: Time::ZERO, nodes }, tap }
+        let limits = Limits::new(&<Patsy as Program>::channels());
+        Self { failures: vec![], activity: Activity { now: Time::ZERO, nodes }, limits, tap }
     }
 
     fn note(&mut self, failure: String) {
@@ -159,6 +166,19 @@ impl Observer for Watch {
 
     fn claim_failed(&mut self, claim: usize) {
         self.note(format!("the claim `{}` does not hold", <Patsy as Program>::INFO.claims[claim]));
+    }
+
+    fn wants(&mut self, channel: usize) -> bool {
+        self.limits.wants(channel) || self.tap.as_mut().is_some_and(|tap| tap.wants(channel))
+    }
+
+    fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
+        self.limits.sent(self.activity.now, channel, codec, token);
+        if let Some(tap) = self.tap.as_mut()
+            && tap.wants(channel)
+        {
+            tap.sent(channel, codec, token);
+        }
     }
 
     fn tap(&mut self) -> Option<&mut Tap> {
