@@ -28,6 +28,8 @@ pub struct Run {
     pub failures: Vec<String>,
     /// Nodes that were active, and for how long, in the order of the program.
     pub activity: Vec<(&'static str, Duration)>,
+    /// Activity of the nodes in the order in which it ended.
+    pub timeline: Vec<Spell>,
     /// Time lost to each cause.
     pub losses: Losses,
     /// State at the beginning and at the end.
@@ -89,6 +91,7 @@ pub(super) fn run_seen(
         report: clinic.report(),
         losses: watch.limits.losses(&activity),
         activity,
+        timeline: watch.activity.spells,
         failures: watch.failures,
         ends: [first, clinic.snapshot()],
         plan: clinic.building().plan,
@@ -100,6 +103,17 @@ pub(super) fn run_seen(
 fn vehicle(clinic: &Clinic) -> Patsy {
     let Drivers { scanner, rear, wheels, camera, motors, lift, dispatch } = Drivers::new(clinic);
     Patsy::new(PatsyParts { scanner, rear, wheels, camera, motors, lift, dispatch })
+}
+
+/// Time in which a node was active without a break.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spell {
+    /// Name of the node.
+    pub node: &'static str,
+    /// Beginning.
+    pub from: Time,
+    /// End.
+    pub until: Time,
 }
 
 /// Notes failures and activity, and records.
@@ -115,6 +129,7 @@ struct Activity {
     now: Time,
     /// Time for which each node was active before, and since when it is now.
     nodes: Vec<(Duration, Option<Time>)>,
+    spells: Vec<Spell>,
 }
 
 impl Activity {
@@ -124,6 +139,8 @@ impl Activity {
             since.get_or_insert(self.now);
         } else if let Some(since) = since.take() {
             *before += self.now.since(since);
+            let node = <Patsy as Program>::INFO.nodes[node].name;
+            self.spells.push(Spell { node, from: since, until: self.now });
         }
     }
 
@@ -141,7 +158,7 @@ impl Watch {
     fn new(tap: Option<Tap>) -> Self {
         let nodes = vec![(Duration::ZERO, None); <Patsy as Program>::INFO.nodes.len()];
         let limits = Limits::new(&<Patsy as Program>::channels());
-        Self { failures: vec![], activity: Activity { now: Time::ZERO, nodes }, limits, tap }
+        Self { failures: vec![], activity: Activity { now: Time::ZERO, nodes, spells: vec![] }, limits, tap }
     }
 
     fn note(&mut self, failure: String) {
@@ -192,7 +209,7 @@ mod tests {
 
     #[test]
     fn activity_is_added_up_to_the_end() {
-        let mut activity = Activity { now: Time::ZERO, nodes: vec![(Duration::ZERO, None); 3] };
+        let mut activity = Activity { now: Time::ZERO, nodes: vec![(Duration::ZERO, None); 3], spells: vec![] };
         for (second, node, active) in [(1, 0, true), (3, 0, false), (4, 1, true), (5, 0, true), (5, 1, false)] {
             activity.now = Time::from_secs(second);
             activity.change(node, active);
