@@ -18,9 +18,12 @@ const FAST: f32 = 0.3;
 const SLOW: f32 = 0.03;
 /// Number of used scans in a row that have to agree before the pose counts as known: a single one fits many places.
 const CONFIRMATIONS: u32 = 5;
-/// Number of scans that are used after a given pose before the robot has moved: enough to confirm it, unless they do not
-/// agree.
+/// Number of scans that are used after a given pose before the robot has moved: enough to confirm it, unless they do
+/// not agree.
 const AT_START: u32 = 2 * CONFIRMATIONS;
+/// Standard deviations by which the particles spread before each of them, in m and rad: without a motion, none would
+/// come nearer to the true pose than the best one of the start.
+const AT_REST: (f32, f32) = (0.03, 0.02);
 /// Maximum distance between the estimate and its prediction by odometry while the pose is known, in m.
 const JUMP: f32 = 1.0;
 /// Maximum share of particles that are replaced by poses found by the search, and their number.
@@ -194,8 +197,8 @@ impl Filter {
         (self.is_localized, self.confirmed, self.at_start) = (false, 0, 0);
     }
 
-    /// Begins at a known pose with standard deviations in m and rad. The robot is not localized until scans agree, which
-    /// may be before it moves.
+    /// Begins at a known pose with standard deviations in m and rad. The robot is not localized until scans agree,
+    /// which may be before it moves.
     pub fn begin(&mut self, pose: &Pose2, odometry: &Pose2, deviation: (f32, f32)) {
         self.particles.clear();
         let count = self.settings.particles[1].min(4 * self.settings.particles[0]);
@@ -208,8 +211,8 @@ impl Filter {
         self.estimate = PoseEstimate::of(&self.particles, &mut self.bins);
     }
 
-    /// Returns `true` if a scan at this odometry would be used: the first one, those that confirm a given pose, and then
-    /// if the robot has moved.
+    /// Returns `true` if a scan at this odometry would be used: the first one, those that confirm a given pose, and
+    /// then if the robot has moved.
     pub fn is_due(&self, odometry: &Pose2) -> bool {
         let step = odometry.relative_to(&self.odometry);
         self.particles.is_empty()
@@ -231,6 +234,7 @@ impl Filter {
             // A blind scanner: the estimate follows odometry.
             return None;
         }
+        let is_at_start = self.at_start > 0;
         self.at_start = self.at_start.saturating_sub(1);
         let predicted = self.pose_at(odometry);
         self.odometry = *odometry;
@@ -242,6 +246,9 @@ impl Filter {
         } else {
             let Self { particles, random, settings, .. } = self;
             particles.iter_mut().for_each(|p| p.pose = settings.motion.moved(&p.pose, &step, random));
+            if is_at_start && !self.is_localized {
+                particles.iter_mut().for_each(|p| p.pose = nearby(&p.pose, AT_REST, random));
+            }
             self.weigh();
         }
         self.judge(&predicted)
@@ -478,7 +485,7 @@ mod tests {
         let (mut filter, at) = (filter(settings()), Pose2::default());
         let truth = Pose2::new(6.0, 5.0, 0.3);
         let mut known = |given: &Pose2| {
-            filter.begin(given, &at, (0.2, 0.1));
+            filter.begin(given, &at, (0.2, 0.2));
             let mut random = Random::new(3);
             let changes: Vec<Option<Change>> = (0..30)
                 .map(|_| {
