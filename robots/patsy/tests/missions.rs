@@ -16,6 +16,7 @@ fn the_vehicle_leaves_for_its_first_container_the_same_way_each_time() {
     let options = Options { people: 2, ..Options::default() };
     let runs = [of(&options, 15), of(&options, 15)];
     let report = &runs[0].report;
+    assert_eq!(runs[0].losses.blind, 0.0, "it knows where its dock is");
     assert!(report.distance > 2.0, "{} m", report.distance);
     assert!(runs[0].failures.is_empty(), "{:?}", runs[0].failures);
     assert_eq!(report.contacts, []);

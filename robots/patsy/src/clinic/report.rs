@@ -6,8 +6,8 @@ use std::time::Duration;
 /// Events of the vehicle in the clinic.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Report {
-    /// Containers that were set down, at their destination or elsewhere. One that is lifted again before the vehicle has
-    /// left it does not count.
+    /// Containers that were set down, at their destination or elsewhere. One that is lifted again before the vehicle
+    /// has left it does not count.
     pub deliveries: Vec<Delivery>,
     /// Times at which the lift began to rise beneath nothing.
     pub empty_lifts: Vec<Time>,

@@ -166,6 +166,11 @@ impl State {
         self.body.lift.position
     }
 
+    /// Returns `true` while a container is on the lift.
+    pub fn is_loaded(&self) -> bool {
+        self.body.load.is_some()
+    }
+
     pub fn wheels(&self) -> Pose2 {
         self.wheels
     }
@@ -300,6 +305,7 @@ impl State {
                 }
                 None => self.report.empty_lifts.push(self.now),
             }
+            self.look_around();
         }
         if before > 0.0
             && after == 0.0
@@ -307,6 +313,14 @@ impl State {
         {
             self.set_down(number);
         }
+    }
+
+    /// Collects what the vehicle may touch: not its load.
+    fn look_around(&mut self) {
+        self.near.take_near(&self.site.building.world, self.body.tractor.base.pose.position(), TOUCH);
+        let load = self.body.load.map(|(number, _)| number);
+        let others = self.site.carts.iter().enumerate().filter(|(number, _)| Some(*number) != load);
+        others.for_each(|(_, cart)| cart.add_to(&mut self.near));
     }
 
     fn set_down(&mut self, number: usize) {
@@ -348,10 +362,7 @@ impl State {
         let is_over = self.command_timeout.is_some_and(|timeout| self.now.since(at) > timeout);
         let command = if is_over { Twist::ZERO } else { twist };
         if self.now.as_nanos() % 100_000_000 == 0 {
-            self.near.take_near(&self.site.building.world, self.body.tractor.base.pose.position(), TOUCH);
-            let load = self.body.load.map(|(number, _)| number);
-            let others = self.site.carts.iter().enumerate().filter(|(number, _)| Some(*number) != load);
-            others.for_each(|(_, cart)| cart.add_to(&mut self.near));
+            self.look_around();
         }
         let touches = self.body.drive(&command, dt, &self.near);
         if touches && !self.bumped {

@@ -2,7 +2,7 @@ use super::Run;
 use crate::clinic::Delivery;
 use apex_rt::Time;
 
-/// What happened in a run, with the times in s: a line for each time in which a node was active, and one for each
+/// Events and activity of a run, with the times in s: a line for each time in which a node was active, and one for each
 /// event of the report.
 pub fn timeline(run: &Run) -> String {
     let report = &run.report;
