@@ -23,6 +23,14 @@ fn the_vehicle_leaves_for_its_first_container_the_same_way_each_time() {
     assert_eq!(report, &runs[1].report);
 }
 
+/// The whole way of an order: approach, lift, bring, set down, and leave.
+#[test]
+fn the_vehicle_delivers_a_container() {
+    let Run { report, failures, .. } = of(&Options { people: 0, ..Options::default() }, 150);
+    assert!(report.delivered() > 0, "{:?}", report.deliveries);
+    assert_eq!((report.empty_lifts, report.wedges, failures), (vec![], vec![], vec![]));
+}
+
 const BLIND: [FaultKind; 4] =
     [FaultKind::CameraBlack, FaultKind::CameraFrozen, FaultKind::CameraNan, FaultKind::ScannerFrozen];
 

@@ -25,7 +25,7 @@ pub struct Losses {
 
 /// Stage of a motion: the wanted one, and that after each limiter.
 const STAGES: [&str; 4] = ["wanted.out", "careful.caution.out", "careful.sweep.out", "careful.safety.out"];
-const PLANNING: [&str; 4] = ["request", "path_planner", "pause", "give_way"];
+const PLANNING: [&str; 5] = ["request", "path_planner", "pause", "give_way", "make_room"];
 const BLIND: [&str; 2] = ["onward", "aside"];
 
 /// Compares the outputs of the limiters of all motions.
@@ -84,7 +84,8 @@ impl Limits {
     pub fn losses(&self, activity: &[(&str, Duration)]) -> Losses {
         let active = |names: &[&str]| {
             let is_one = |name: &str| name.rsplit('.').next().is_some_and(|last| names.contains(&last));
-            activity.iter().filter(|(name, _)| is_one(name)).map(|(_, time)| time.as_secs_f32()).sum()
+            let times = activity.iter().filter(|(name, _)| is_one(name)).map(|(_, time)| *time);
+            times.sum::<Duration>().as_secs_f32()
         };
         let [persons, hazards, field] = self.lost;
         Losses { persons, hazards, field, planning: active(&PLANNING), blind: active(&BLIND) }
