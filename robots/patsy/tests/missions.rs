@@ -26,7 +26,7 @@ fn the_vehicle_leaves_for_its_first_container_the_same_way_each_time() {
 /// The whole way of an order: approach, lift, bring, set down, and leave.
 #[test]
 fn the_vehicle_delivers_a_container() {
-    let Run { report, failures, .. } = of(&Options { people: 0, ..Options::default() }, 150);
+    let Run { report, failures, .. } = of(&Options { seed: 93004, people: 0, ..Options::default() }, 130);
     assert!(report.delivered() > 0, "{:?}", report.deliveries);
     assert_eq!((report.empty_lifts, report.wedges, failures), (vec![], vec![], vec![]));
 }
