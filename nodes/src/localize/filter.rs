@@ -18,6 +18,12 @@ const FAST: f32 = 0.3;
 const SLOW: f32 = 0.03;
 /// Number of used scans in a row that have to agree before the pose counts as known: a single one fits many places.
 const CONFIRMATIONS: u32 = 5;
+/// Number of scans that are used after a given pose before the robot has moved: enough to confirm it, unless they do
+/// not agree.
+const AT_START: u32 = 2 * CONFIRMATIONS;
+/// Standard deviations by which the particles spread before each of them, in m and rad: without a motion, none would
+/// come nearer to the true pose than the best one of the start.
+const AT_REST: (f32, f32) = (0.03, 0.02);
 /// Maximum distance between the estimate and its prediction by odometry while the pose is known, in m.
 const JUMP: f32 = 1.0;
 /// Maximum share of particles that are replaced by poses found by the search, and their number.
@@ -123,6 +129,8 @@ pub struct Filter {
     is_localized: bool,
     /// Number of used scans in a row that agreed.
     confirmed: u32,
+    /// Number of scans that are still used without a motion.
+    at_start: u32,
     /// Short and long mean of the agreement.
     fast: f32,
     slow: f32,
@@ -151,6 +159,7 @@ impl Filter {
             estimate: PoseEstimate::default(),
             is_localized: false,
             confirmed: 0,
+            at_start: 0,
             fast: 0.0,
             slow: 0.0,
             updates: 0,
@@ -185,10 +194,11 @@ impl Filter {
     /// Forgets the pose: the robot is anywhere inside of the building.
     pub fn restart(&mut self) {
         self.particles.clear();
-        (self.is_localized, self.confirmed) = (false, 0);
+        (self.is_localized, self.confirmed, self.at_start) = (false, 0, 0);
     }
 
-    /// Begins at a known pose with standard deviations in m and rad. The robot is not localized until scans agree.
+    /// Begins at a known pose with standard deviations in m and rad. The robot is not localized until scans agree,
+    /// which may be before it moves.
     pub fn begin(&mut self, pose: &Pose2, odometry: &Pose2, deviation: (f32, f32)) {
         self.particles.clear();
         let count = self.settings.particles[1].min(4 * self.settings.particles[0]);
@@ -196,20 +206,22 @@ impl Filter {
         let mut near = || Particle { pose: nearby(pose, deviation, random), weight: 1.0 / count as f32 };
         self.particles.extend((0..count).map(|_| near()));
         self.odometry = *odometry;
-        (self.is_localized, self.confirmed) = (false, 0);
+        (self.is_localized, self.confirmed, self.at_start) = (false, 0, AT_START);
         (self.fast, self.slow) = (0.0, 0.0);
         self.estimate = PoseEstimate::of(&self.particles, &mut self.bins);
     }
 
-    /// Returns `true` if a scan at this odometry would be used: the first one, and then if the robot has moved.
+    /// Returns `true` if a scan at this odometry would be used: the first one, those that confirm a given pose, and
+    /// then if the robot has moved.
     pub fn is_due(&self, odometry: &Pose2) -> bool {
         let step = odometry.relative_to(&self.odometry);
         self.particles.is_empty()
+            || (self.at_start > 0 && !self.is_localized)
             || step.position().norm() >= self.settings.travel
             || step.theta.abs() >= self.settings.turn
     }
 
-    /// Takes the odometry and a scan. The scan is used if the robot has moved since the last used one. Returns a change
+    /// Takes the odometry and a scan. The scan is used if it [is due](Self::is_due). Returns a change
     /// of what is known about the pose.
     pub fn update(&mut self, odometry: &Pose2, scan: &Scan) -> Option<Change> {
         let step = odometry.relative_to(&self.odometry);
@@ -222,6 +234,8 @@ impl Filter {
             // A blind scanner: the estimate follows odometry.
             return None;
         }
+        let is_at_start = self.at_start > 0;
+        self.at_start = self.at_start.saturating_sub(1);
         let predicted = self.pose_at(odometry);
         self.odometry = *odometry;
         if is_first {
@@ -232,6 +246,9 @@ impl Filter {
         } else {
             let Self { particles, random, settings, .. } = self;
             particles.iter_mut().for_each(|p| p.pose = settings.motion.moved(&p.pose, &step, random));
+            if is_at_start && !self.is_localized {
+                particles.iter_mut().for_each(|p| p.pose = nearby(&p.pose, AT_REST, random));
+            }
             self.weigh();
         }
         self.judge(&predicted)
@@ -317,6 +334,8 @@ impl Filter {
     fn inject(&mut self) {
         let worse = if self.slow > 0.0 { 1.0 - self.fast / self.slow } else { 0.0 };
         let share = match self.is_localized {
+            // Only the given pose is asked for: other places may look alike until the robot moves.
+            false if self.at_start > 0 => 0.0,
             // Much furniture, or a person beside the scanner: the pose is kept.
             true if self.estimate.hits >= self.settings.agreement => 0.0,
             true => worse - 0.2,
@@ -459,6 +478,28 @@ mod tests {
         assert!(is_right(&drive(&mut filter, &truth, 25)));
         filter.restart();
         assert!(!filter.is_localized());
+    }
+
+    #[test]
+    fn a_given_pose_that_scans_confirm_is_known_before_the_robot_moves() {
+        let (mut filter, at) = (filter(settings()), Pose2::default());
+        let truth = Pose2::new(6.0, 5.0, 0.3);
+        let mut known = |given: &Pose2| {
+            filter.begin(given, &at, (0.2, 0.2));
+            let mut random = Random::new(3);
+            let changes: Vec<Option<Change>> = (0..30)
+                .map(|_| {
+                    let scan = scan(&filter, &truth, &mut random);
+                    filter.update(&at, &scan)
+                })
+                .collect();
+            let error = (filter.pose_at(&at).position() - truth.position()).norm();
+            (changes.iter().position(|change| *change == Some(Change::Localized)), error)
+        };
+        let (after, error) = known(&truth.compose(&Pose2::new(0.15, -0.1, 0.05)));
+        assert!(after.is_some_and(|scans| scans < 10) && error < 0.1, "{after:?}, {error} m");
+        // A wrong one is not believed.
+        assert_eq!(known(&Pose2::new(14.0, 6.0, 1.0)).0, None);
     }
 
     #[test]

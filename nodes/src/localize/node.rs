@@ -38,7 +38,8 @@ impl core::error::Error for LocalizerError {}
 ///
 /// `odometry` is the pose of the robot at the time of the scan, in any frame without jumps. `pose` is the pose on the
 /// plan; it is ⊥ while the robot does not know it. `estimate` is the best guess, also then, with its covariance.
-/// Without an `initial` pose the robot begins anywhere in the building, and has to drive some metres. `localized` comes
+/// Without an `initial` pose the robot begins anywhere in the building, and has to drive some metres. With one that
+/// scans confirm the pose is known after some scans, before the robot moves. `localized` comes
 /// with the pose as soon as it is known; `lost` if scans no longer agree with the plan, for example because the robot
 /// was carried away. Then it searches the whole plan. If odometry is not a number or more than 1000 km away, both
 /// outputs are ⊥.

@@ -176,6 +176,12 @@ impl<T: Clone> Grid<T> {
 }
 
 impl<T> Grid<T> {
+    /// Map without cells.
+    pub const EMPTY: Self = Self {
+        raster: Raster { corner: Point2::new(0.0, 0.0), resolution: 1.0, width: 0, height: 0 },
+        cells: Vec::new(),
+    };
+
     /// Raster of the cells.
     #[inline]
     pub const fn raster(&self) -> &Raster {
@@ -232,7 +238,7 @@ impl<T: Clone> Clone for Grid<T> {
 /// A grid without cells.
 impl<T> Default for Grid<T> {
     fn default() -> Self {
-        Self { raster: Raster::default(), cells: Vec::new() }
+        Self::EMPTY
     }
 }
 

@@ -18,11 +18,17 @@ const MAX_KEPT: usize = 8;
 const SAME: f32 = 0.5;
 /// Distance for which the motion of the robot is predicted, in m.
 const STEP: f32 = 0.1;
+/// Number of times within the horizon at which places are compared.
+const TIMES: u8 = 10;
 /// Share of this distance by which persons are farther away then, if the robot drives away from them.
 const LEFT: f32 = 0.5;
 
 /// Slows a tractor with a trailer down near persons (thesis 6.8), the more the nearer they are, also behind and beside
 /// it.
+///
+/// With a `horizon` it looks ahead: persons and vehicle go on at their velocities. A speed at which none of them comes
+/// within `keep`, and `spread` more for each second, or nearer than now, is not too fast. So persons who walk away, or
+/// past the vehicle, do not count.
 ///
 /// Distances are those of the middle of a person from the outline of the vehicle with its load. `persons`, `pose` of
 /// the tractor and `trailer` are in one frame. Without them, for example before the first scan, the robot keeps to
@@ -64,6 +70,15 @@ pub struct PersonCaution {
     /// Additional speed per metre of distance beyond `near`.
     #[param(unit = "1/s", default = 0.3, range = 0.0..=100.0)]
     gain: f32,
+    /// Time that is looked ahead; 0 if only distances count.
+    #[param(unit = "s", default = 0.0, range = 0.0..=10.0)]
+    horizon: f32,
+    /// Distance that is kept from persons within this time.
+    #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
+    keep: f32,
+    /// Growth of this distance with time: who walks does not keep a velocity.
+    #[param(unit = "m/s", default = 0.05, range = 0.0..=10.0)]
+    spread: f32,
     /// Maximum age of a twist, and of persons and poses by the time at which they were computed.
     #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
     max_age: f32,
@@ -113,10 +128,27 @@ impl PersonCaution {
                 let _ = self.kept.push(Kept { place: person.position, seen: time });
             }
             if !(self.stands(person) && is_left(person.position)) {
-                speed = fminf(speed, self.speed_at(distance, person));
+                let predicted = if distance < self.beside { 0.0 } else { self.foreseen(twist, &outline, &now, person) };
+                speed = fminf(speed, fmaxf(self.speed_at(distance, person), predicted));
             }
         }
         speed
+    }
+
+    /// Highest speed up to that of a twist at which a person is not too near within the horizon; 0 if there is none.
+    fn foreseen(&self, twist: &Twist, outline: &Outline, now: &Axes, person: &Person) -> f32 {
+        let (speed, time) = (twist.velocity().norm(), self.horizon / f32::from(TIMES));
+        let before = outline.distance(now, person.position);
+        let is_free = |share: f32| {
+            let times = (1..=TIMES).map(|k| f32::from(k) * time);
+            let places = self.vehicle.places(now, twist, share * speed * time);
+            times.zip(places).all(|(t, axes)| {
+                let distance = outline.distance(&axes, person.position + person.velocity.scaled(t));
+                distance >= fminf(self.keep + self.spread * t, before)
+            })
+        };
+        let shares = [1.0, 0.75, 0.5, 0.25].into_iter().filter(|_| self.horizon > 0.0);
+        shares.filter(|share| is_free(*share)).fold(0.0, fmaxf) * speed
     }
 
     /// Highest speed at a distance from a person.
@@ -149,7 +181,22 @@ mod tests {
     /// At most 0.1 m/s within 0.5 m, 0.3 m/s beside those who stand but not within 0.2 m, and 0.4 m/s more at each
     /// further metre.
     fn node([length, width]: [f32; 2]) -> PersonCaution {
-        PersonCaution::construct((Articulated::PATSY, length, width, 0.5, 0.1, 0.3, 0.2, 2.0, 0.2, 0.4, 0.5))
+        PersonCaution::construct((
+            Articulated::PATSY,
+            length,
+            width,
+            0.5,
+            0.1,
+            0.3,
+            0.2,
+            2.0,
+            0.2,
+            0.4,
+            0.0,
+            0.4,
+            0.05,
+            0.5,
+        ))
     }
 
     /// Person at a place in the frame of the tractor, who walks at `velocity` m/s.
@@ -234,5 +281,26 @@ mod tests {
         assert_eq!([speed(0, &[0.35]), speed(1900, &[]), speed(2100, &[])], [0.1, 0.1, 1.0]);
         // One who has stepped aside is seen there, and one who was not close is not remembered.
         assert_eq!([speed(3000, &[0.35]), speed(3100, &[0.45]), speed(3200, &[])], [0.1, 0.3, 1.0]);
+    }
+
+    #[test]
+    fn only_those_who_come_near_count_if_it_looks_ahead() {
+        let speed = |twist: f32, place: Point2, velocity: Point2| {
+            let mut node = PersonCaution { horizon: 2.5, ..node(LOAD) };
+            let (base, twist) = (Pose2::default(), Twist::new(twist, 0.0, 0.0));
+            let trailer = Articulated::PATSY.trailer(&base, 0.0);
+            let persons: Persons = [Person { position: place, velocity, ..Person::default() }].into_iter().collect();
+            let ctx = Ctx::new(Time::ZERO);
+            node.process(&ctx, Some(&twist), Some(&base), Some(&trailer), Some(&persons)).expect("a command").x
+        };
+        let p = Point2::new;
+        // Away behind, away ahead, and past it in a corridor.
+        assert_eq!(speed(0.7, p(-1.5, 0.0), p(-1.0, 0.0)), 0.7);
+        assert_eq!(speed(0.7, p(0.9, 0.0), p(1.0, 0.0)), 0.7);
+        assert_eq!(speed(0.7, p(1.5, 0.95), p(-1.2, 0.0)), 0.7);
+        // Towards it, across its way, and beside it.
+        assert!(speed(0.7, p(1.2, 0.0), p(-1.0, 0.0)) < 0.3);
+        assert!(speed(0.7, p(1.2, 1.2), p(0.0, -0.8)) < 0.5);
+        assert!(speed(0.7, p(-0.3, 0.5), p(-0.5, 0.0)) < 0.2);
     }
 }

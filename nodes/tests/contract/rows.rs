@@ -144,11 +144,11 @@ pub const ROWS: &[Row] = &[
         make: || {
             let sizes = (1.2, 0.7, 0.43, 0.05);
             let mut node = PlannedApproach::construct((
-                0.8, 1.0, 0.5, 0.03, 0.2, PATSY, sizes.0, sizes.1, sizes.2, sizes.3, 0.05, 0.05, 0.5,
+                0.8, 1.0, 0.5, 0.03, 0.2, PATSY, sizes.0, sizes.1, sizes.2, sizes.3, 0.05, 0.05, 0.05, 0.5,
             ));
             Box::new(move |ctx, i| {
                 fire(["reached", "missed"], |[a, b]| {
-                    node.process(ctx, get(i, "base"), get(i, "trailer"), get(i, "container"), a, b)
+                    node.process(ctx, get(i, "base"), get(i, "trailer"), get(i, "container"), None, a, b)
                 })
             })
         },
@@ -221,7 +221,8 @@ pub const ROWS: &[Row] = &[
         needs: &["twist"],
         max_age: 0.5,
         make: || {
-            let mut node = PersonCaution::construct((PATSY, 0.0, 0.0, 0.7, 0.15, 0.15, 0.0, 0.0, 0.3, 0.3, 0.5));
+            let mut node =
+                PersonCaution::construct((PATSY, 0.0, 0.0, 0.7, 0.15, 0.15, 0.0, 0.0, 0.3, 0.3, 0.0, 0.4, 0.05, 0.5));
             Box::new(move |ctx, i| {
                 let axes = (get(i, "pose"), get(i, "trailer"));
                 fire([], |[]| Ok(node.process(ctx, get(i, "twist"), axes.0, axes.1, get(i, "persons"))))

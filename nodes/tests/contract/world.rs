@@ -49,7 +49,7 @@ impl World {
             ("container", "Pose2") => Box::new(Pose2::new(WALL, 0.0, 0.0)),
             ("target", "Pose2") => Box::new(Pose2::new(WALL, 0.0, std::f32::consts::PI).relative_to(&self.base)),
             ("scan" | "ahead" | "behind", "Scan") => Box::new(self.scan(port != "behind")),
-            ("map", "Grid") => Box::new(self.map.clone()),
+            ("map" | "ground", "Grid") => Box::new(self.map.clone()),
             ("hazard", "Hazard") => {
                 Box::new(Hazard { kind: HazardKind::Obstacle, position: Point2::new(WALL - self.base.x, 0.0) })
             }

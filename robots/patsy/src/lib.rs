@@ -16,6 +16,7 @@ mod mission_control;
 pub mod missions;
 mod motion;
 pub mod obstacles;
+mod placed;
 mod progress;
 mod referee;
 mod report;
@@ -42,6 +43,7 @@ pub use file::write_file;
 pub use finder::{Finder, Search};
 pub use mission_control::{MissionControl, ahead};
 pub use motion::Scenario;
+pub use placed::Placed;
 pub use progress::Progress;
 pub use referee::{Ends, Referee};
 pub use report::{RECORDED_SCANNER, Report};
@@ -56,6 +58,18 @@ pub mod programs {
 /// The vehicle in the clinic: `clinic.afg`.
 pub mod vehicle {
     apex_macros::graph!("clinic.afg");
+}
+
+/// The collection of a container, with the tests of `collect.afg`.
+#[cfg(test)]
+mod collect {
+    apex_macros::graph!("collect.afg");
+}
+
+/// The delivery of a container, with the tests of `bring.afg`.
+#[cfg(test)]
+mod bring {
+    apex_macros::graph!("bring.afg");
 }
 
 /// The mission on its own, with the tests of `mission.afg`.

@@ -52,6 +52,13 @@ impl MissionControl {
         ask.emit(true);
     }
 
+    /// The container is no longer on the lift: nothing can be brought.
+    #[slot]
+    fn dropped(&mut self, ask: Event<bool>) {
+        (self.order, self.is_loaded) = (None, false);
+        ask.emit(false);
+    }
+
     /// The container could not be collected, or not be brought.
     #[slot]
     fn failed(&mut self, get_container: Event<Pose2>, bring: Event<Pose2>, ask: Event<bool>) {
@@ -122,6 +129,14 @@ mod tests {
         assert_eq!([fail(&mut node), fail(&mut node), fail(&mut node)], [[false, true, false]; 3]);
         node.delivered(event(&mut ask));
         assert_eq!((ask, fail(&mut node)), (Some(true), [false, false, true]));
+    }
+
+    #[test]
+    fn a_load_that_is_gone_is_not_brought() {
+        let (mut node, mut bring, mut ask) = (ordered(), None, None);
+        node.loaded(event(&mut bring));
+        node.dropped(event(&mut ask));
+        assert_eq!((ask, fail(&mut node)), (Some(false), [false, false, true]));
     }
 
     #[test]

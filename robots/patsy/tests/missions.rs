@@ -16,10 +16,19 @@ fn the_vehicle_leaves_for_its_first_container_the_same_way_each_time() {
     let options = Options { people: 2, ..Options::default() };
     let runs = [of(&options, 15), of(&options, 15)];
     let report = &runs[0].report;
+    assert_eq!(runs[0].losses.blind, 0.0, "it knows where its dock is");
     assert!(report.distance > 2.0, "{} m", report.distance);
     assert!(runs[0].failures.is_empty(), "{:?}", runs[0].failures);
     assert_eq!(report.contacts, []);
     assert_eq!(report, &runs[1].report);
+}
+
+/// The whole way of an order: approach, lift, bring, set down, and leave.
+#[test]
+fn the_vehicle_delivers_a_container() {
+    let Run { report, failures, .. } = of(&Options { seed: 93004, people: 0, ..Options::default() }, 130);
+    assert!(report.delivered() > 0, "{:?}", report.deliveries);
+    assert_eq!((report.empty_lifts, report.wedges, failures), (vec![], vec![], vec![]));
 }
 
 const BLIND: [FaultKind; 4] =

@@ -35,6 +35,8 @@ pub struct CurveDrive {
     /// Rate at which the angle to the trailer approaches the wanted one when the vehicle backs up, in 1/m; 0 for a
     /// vehicle that only drives forward.
     pub backing_gain: f32,
+    /// Longest straight line before a goal, in m, on which the trailer comes into line; 0 if it may be bent there.
+    pub straight: f32,
 }
 
 impl CurveDrive {
@@ -138,17 +140,14 @@ impl Drive<'_> {
         self.ground.floor.is_none_or(|floor| points.all(|point| floor.is_known(point)))
     }
 
-    /// Returns `true` if nothing is touched on a curve.
-    pub fn is_free(&self, curve: &Curve, mut trailer: f32) -> bool {
+    /// Heading of the trailer at the end of a curve, or `None` if something is touched on it.
+    pub fn at_end(&self, curve: &Curve, mut trailer: f32) -> Option<f32> {
         let mut pose = curve.start;
-        for (curvature, length) in curve.parts {
-            if length > 0.0 {
-                let Some((_, heading)) = self.arc(&pose, trailer, curvature, length) else { return false };
-                trailer = heading;
-                pose = advanced(&pose, curvature, length);
-            }
+        for (curvature, length) in curve.parts.into_iter().filter(|(_, length)| *length > 0.0) {
+            (_, trailer) = self.arc(&pose, trailer, curvature, length)?;
+            pose = advanced(&pose, curvature, length);
         }
-        true
+        Some(trailer)
     }
 
     /// Heading of the trailer after a step; that of the vehicle if there is none.
@@ -181,6 +180,6 @@ impl Drive<'_> {
 }
 
 /// Angle between a vehicle and its trailer, in rad.
-fn bend(pose: &Pose2, trailer: f32) -> f32 {
+pub(super) fn bend(pose: &Pose2, trailer: f32) -> f32 {
     remainderf(pose.theta - trailer, TAU).abs()
 }

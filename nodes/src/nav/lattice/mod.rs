@@ -16,7 +16,7 @@ use super::{
 };
 use crate::scan::{Point2, Pose2};
 use core::cmp::Ordering;
-use drive::{CHECK, Drive};
+use drive::{CHECK, Drive, bend};
 use estimate::Estimates;
 use states::States;
 use std::collections::BinaryHeap;
@@ -40,6 +40,10 @@ const ANGLED: [f32; 2] = [0.33, 0.3];
 /// between such tries.
 const NEAR: f32 = 4.0;
 const TRIES: usize = 8;
+/// Number of lengths of the straight line at the end that are tried, the longest of them whole.
+const LINES: u8 = 4;
+/// Largest angle between the vehicle and its trailer at a goal with a straight line before it, in rad.
+const IN_LINE: f32 = 0.05;
 /// Maximum number of expanded states.
 const MOST: usize = 60_000;
 /// Length of a way to nowhere.
@@ -214,16 +218,21 @@ impl CurveSearch {
         }
     }
 
-    /// Adds the shortest free Dubins curve from a node to a goal. Only its length counts: with costs, most ways to a
-    /// goal would be searched before one is found.
+    /// Adds the shortest free Dubins curve from a node to a goal, with a trailer that is in line at its end if the goal
+    /// asks for that. Only its length counts: with costs, most ways to a goal would be searched before one is found.
     fn try_to_end(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, goal: &Goal) {
         let node = self.nodes[before as usize];
         let drive = Drive { ground, vehicle, stands: &self.stands };
         let mut best: Option<Curve> = None;
-        for curve in curves(&node.pose, &goal.pose, vehicle.radius, 0.0) {
-            let is_shorter = best.is_none_or(|best| curve.length() < best.length());
-            if is_shorter && drive.is_free(&curve, node.trailer) {
-                best = Some(curve);
+        let lines = if vehicle.straight > 0.0 { LINES } else { 1 };
+        for straight in (0..lines).map(|i| vehicle.straight * f32::from(i) / f32::from(LINES - 1)) {
+            let begin = goal.pose.compose(&Pose2::new(-straight, 0.0, 0.0));
+            for curve in curves(&node.pose, &begin, vehicle.radius, straight) {
+                let is_shorter = best.is_none_or(|best| curve.length() < best.length());
+                let is_right = |trailer: f32| lines == 1 || bend(&goal.pose, trailer) <= IN_LINE;
+                if is_shorter && drive.at_end(&curve, node.trailer).is_some_and(is_right) {
+                    best = Some(curve);
+                }
             }
         }
         if let Some(curve) = best {
@@ -282,7 +291,8 @@ mod tests {
     };
     use core::f32::consts::{FRAC_PI_2, PI, TAU};
 
-    const VEHICLE: CurveDrive = CurveDrive { radius: 0.8, shape: Articulated::PATSY, body: &[], backing_gain: 0.0 };
+    const VEHICLE: CurveDrive =
+        CurveDrive { radius: 0.8, shape: Articulated::PATSY, body: &[], backing_gain: 0.0, straight: 0.0 };
 
     /// Room of 12 m × 8 m with a wall that ends at y = 5 m.
     fn room() -> Grid<Occupancy> {
@@ -359,6 +369,27 @@ mod tests {
         let is_way =
             |body: &'static [f32]| search(&terrain, &CurveDrive { body, ..VEHICLE }, &at(start, 0.0), &goals).is_ok();
         assert_eq!([is_way(&[]), is_way(&[0.0]), is_way(&[-4.0, -3.0, -2.0, 0.0])], [true, true, false]);
+    }
+
+    #[test]
+    fn a_trailer_is_in_line_at_a_goal_that_asks_for_it() {
+        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 120, height: 80 };
+        let map = Grid::new(raster, Occupancy::Free).expect("small");
+        let ground = Ground { terrain: Terrain { map: &map, costs: None, unknown_is_open: false }, floor: None };
+        let bend_at_end = |straight: f32, start: Pose2, heading: f32| {
+            let vehicle = CurveDrive { body: &[0.0, 0.4], straight, backing_gain: 2.5, ..VEHICLE };
+            let goals = [free(Pose2::new(6.0, 4.0, 0.0))];
+            let way = CurveSearch::default().plan(&ground, &vehicle, &at(start, heading), &goals).expect("a way");
+            let last = way.nodes[way.nodes.len() - 1];
+            let drive = Drive { ground: &ground, vehicle: &vehicle, stands: &[] };
+            bend(&goals[0].pose, drive.at_end(&way.end, last.trailer).expect("it is free"))
+        };
+        let from_the_side = Pose2::new(5.0, 2.5, FRAC_PI_2);
+        assert!(bend_at_end(0.0, from_the_side, FRAC_PI_2) > 0.3);
+        for (start, heading) in [(from_the_side, FRAC_PI_2), (Pose2::new(5.7, 4.0, 0.0), 0.6)] {
+            let bend = bend_at_end(1.5, start, heading);
+            assert!(bend <= IN_LINE, "{bend} rad from {start:?}");
+        }
     }
 
     #[test]

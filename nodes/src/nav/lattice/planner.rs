@@ -43,6 +43,10 @@ pub struct CurvePlanner {
     /// Additional cost of `other`.
     #[param(unit = "m", default = 0.0, range = 0.0..=1000.0)]
     other_cost: f32,
+    /// Longest straight line before a goal, on which the trailer comes into line with the vehicle: within 3° of the
+    /// goal's heading at the end. 0 if the trailer may be bent at the goal.
+    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
+    straight: f32,
     /// Limit of the next way.
     next: Limit,
     search: CurveSearch,
@@ -77,10 +81,10 @@ impl CurvePlanner {
     ) {
         let terrain = Terrain { map, costs, unknown_is_open: false };
         let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry] });
-        let Self { radius, vehicle: shape, body, .. } = *self;
+        let Self { radius, vehicle: shape, body, straight, .. } = *self;
         let limit = core::mem::take(&mut self.next);
         let backing_gain = if limit == Limit::StaysForward { 0.0 } else { self.backing_gain };
-        let vehicle = CurveDrive { radius, shape, body, backing_gain };
+        let vehicle = CurveDrive { radius, shape, body, backing_gain, straight };
         let trailer = start.theta + trailer.filter(|pose| pose.is_finite()).map_or(0.0, |pose| pose.theta);
         let start = Start { pose: *start, trailer, is_back: limit == Limit::BeginsBack };
         let other_goal = Goal { pose: *other.unwrap_or(goal), cost: self.other_cost };

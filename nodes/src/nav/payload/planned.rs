@@ -3,6 +3,7 @@ use super::{
     vehicle::{Arrival, Articulated, approach_speed, arrival},
 };
 use crate::{
+    map::{Grid, Occupancy},
     math::normalize_angle,
     nav::{
         Twist,
@@ -12,7 +13,7 @@ use crate::{
     scan::{FarFromOrigin, Point2, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
-use libm::sinf;
+use libm::{fminf, sinf};
 
 /// Step of the prediction of the trailer, in m.
 const STEP: f32 = 0.1;
@@ -26,6 +27,10 @@ const LINES: (u8, f32) = (13, 0.25);
 const GAINS: [f32; 2] = [8.0, 5.0];
 /// Largest offset of the trailer's rear from the centre line at the end of a plan, in m.
 const STRAIGHT: f32 = 0.02;
+/// Distance between the places of the front that are looked up on the map, in m, and the distance that is kept from
+/// obstacles at its sides: a little more than the safety fields keep.
+const FRONT: f32 = 0.05;
+const BESIDE: f32 = 0.16;
 /// Largest offset from the curve, in m. Farther away, another one is planned.
 const OFF_CURVE: f32 = 0.2;
 
@@ -36,7 +41,12 @@ const OFF_CURVE: f32 = 0.2;
 /// curves to a line before the container, on which the predicted trailer comes into line, is never bent by more than
 /// `max_bend`, and touches nothing of the container but the free strip between its wheels. `missed` comes if there is
 /// no such curve, or if the vehicle is beside its goal at the end. Without both poses, or with poses older than
-/// `max_age`, the vehicle stands still. Obstacles are the task of the safety field behind this node.
+/// `max_age`, the vehicle stands still.
+///
+/// `ground` is a map in the frame of `base`, in which the place of the container is free. It may be ⊥, as clouds come
+/// less often than poses. If the front of the vehicle would meet an obstacle of it on the rest of the curve, another
+/// curve is planned that leads around, if there is one. That the vehicle stops before obstacles is the task of the
+/// safety fields behind this node.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PlannedApproach {
@@ -73,9 +83,12 @@ pub struct PlannedApproach {
     /// Maximum change of the container's pose without another plan, in position (m) and in heading (rad).
     #[param(default = 0.05, range = 0.001..=1.0)]
     replan: f32,
-    /// Maximum offset of the vehicle from the middle of the container at the end, along and across.
+    /// Maximum offset of the vehicle from the middle of the container at the end, along its axis.
     #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
     tolerance: f32,
+    /// Maximum offset across.
+    #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
+    across: f32,
     /// Maximum age of the poses.
     #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
     max_age: f32,
@@ -102,13 +115,14 @@ impl PlannedApproach {
         base: Option<&Pose2>,
         trailer: Option<&Pose2>,
         container: Option<&Pose2>,
+        ground: Option<&Grid<Occupancy>>,
         reached: Event<()>,
         #[failure] missed: Event<()>,
     ) -> Result<Option<Twist>, FarFromOrigin> {
         if ctx.active() && any_far([base, trailer, container]) {
             return self.halt.far();
         }
-        Ok(self.step(ctx, [base, trailer], container, [reached, missed]))
+        Ok(self.step(ctx, [base, trailer], container, ground, [reached, missed]))
     }
 
     fn step(
@@ -116,6 +130,7 @@ impl PlannedApproach {
         ctx: &Ctx,
         [base, trailer]: [Option<&Pose2>; 2],
         container: Option<&Pose2>,
+        ground: Option<&Grid<Occupancy>>,
         [reached, missed]: [Event<()>; 2],
     ) -> Option<Twist> {
         if !ctx.active() {
@@ -128,7 +143,7 @@ impl PlannedApproach {
         };
         let vehicle = &self.vehicle;
         let rear = container.to_inner(vehicle.rear_most(trailer));
-        match arrival(&base.relative_to(&container), rear, vehicle.axis(), self.tolerance) {
+        match arrival(&base.relative_to(&container), rear, vehicle.axis(), [self.tolerance, self.across]) {
             Arrival::Reached => {
                 reached.emit(());
                 return self.halt.drive(Twist::ZERO);
@@ -139,7 +154,7 @@ impl PlannedApproach {
             }
             _ => {}
         }
-        let Some(plan) = self.planned(base, trailer.theta, container) else {
+        let Some(plan) = self.planned(base, trailer.theta, container, ground) else {
             missed.emit(());
             return self.halt.drive(Twist::ZERO);
         };
@@ -162,36 +177,53 @@ impl PlannedApproach {
     }
 
     /// The plan for the present pose, or `None` if there is no way.
-    fn planned(&self, base: &Pose2, trailer: f32, container: Pose2) -> Option<Plan> {
+    fn planned(&self, base: &Pose2, trailer: f32, container: Pose2, ground: Option<&Grid<Occupancy>>) -> Option<Plan> {
         if let Some(mut plan) = self.plan {
             plan.driven = nearest(&plan.curve, plan.driven, base);
             let off = base.relative_to(&plan.curve.at(plan.driven).0);
             let moved = container.relative_to(&plan.container);
             let is_same = moved.position().norm() <= self.replan && moved.theta.abs() <= self.replan;
-            if is_same && off.position().norm() <= OFF_CURVE {
+            if is_same && off.position().norm() <= OFF_CURVE && self.is_open(&plan.curve, plan.driven, ground) {
                 return Some(plan);
             }
             // Near the goal only straight lines are left; without one, the old curve is the best that there is.
-            return self.plan(base, trailer, container).or(Some(plan));
+            return self.plan(base, trailer, container, ground).or(Some(plan));
         }
-        self.plan(base, trailer, container)
+        self.plan(base, trailer, container, ground)
     }
 
-    /// Shortest curve beneath the container on which the trailer fits.
-    fn plan(&self, base: &Pose2, trailer: f32, container: Pose2) -> Option<Plan> {
+    /// Shortest curve beneath the container on which the trailer fits, around obstacles if that is possible.
+    fn plan(&self, base: &Pose2, trailer: f32, container: Pose2, ground: Option<&Grid<Occupancy>>) -> Option<Plan> {
         let goal = self.vehicle.axis();
-        let mut best: Option<Curve> = None;
+        let (mut best, mut open): (Option<Curve>, Option<Curve>) = (None, None);
+        let is_shorter = |curve: &Curve, than: Option<Curve>| than.is_none_or(|than| curve.length() < than.length());
         for line in 0..LINES.0 {
             let straight = LINES.1 * f32::from(line);
             let begin = container.compose(&Pose2::new(goal - straight, 0.0, 0.0));
             for curve in curves(base, &begin, self.radius, straight) {
-                let is_shorter = best.is_none_or(|best| curve.length() < best.length());
-                if is_shorter && self.fits(&curve, trailer, &container) {
-                    best = Some(curve);
+                let [is_best, is_new] = [best, open].map(|than| is_shorter(&curve, than));
+                let is_open = is_new && self.is_open(&curve, 0.0, ground);
+                if (is_best || is_open) && self.fits(&curve, trailer, &container) {
+                    best = if is_best { Some(curve) } else { best };
+                    open = if is_open { Some(curve) } else { open };
                 }
             }
         }
-        best.map(|curve| Plan { container, curve, driven: 0.0 })
+        open.or(best).map(|curve| Plan { container, curve, driven: 0.0 })
+    }
+
+    /// Returns `true` if the front of the tractor meets no obstacle on the rest of a curve.
+    fn is_open(&self, curve: &Curve, driven: f32, ground: Option<&Grid<Occupancy>>) -> bool {
+        let Some(ground) = ground else { return true };
+        let (half, steps) = (0.5 * self.vehicle.width + BESIDE, libm::ceilf((curve.length() - driven) / FRONT));
+        let across = libm::ceilf(2.0 * half / FRONT);
+        (0..=steps as u16).all(|i| {
+            let pose = curve.at(fminf(driven + FRONT * f32::from(i), curve.length())).0;
+            (0..=across as u16).all(|k| {
+                let place = Point2::new(self.vehicle.front, half * (2.0 * f32::from(k) / across - 1.0));
+                ground.at(pose.to_outer(place)) != Some(&Occupancy::Occupied)
+            })
+        })
     }
 
     /// Returns `true` if tractor and trailer touch nothing on the curve and are in line at its end.
@@ -256,7 +288,10 @@ fn nearest(curve: &Curve, driven: f32, base: &Pose2) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::nav::payload::ReactiveApproach;
+    use crate::{
+        map::Raster,
+        nav::{outline::Outline, payload::ReactiveApproach},
+    };
     use apex_rt::{Construct, Time};
     use core::f32::consts::{FRAC_PI_2, PI};
 
@@ -273,6 +308,7 @@ mod tests {
             1.2,
             0.76,
             0.43,
+            0.05,
             0.05,
             0.05,
             0.05,
@@ -314,7 +350,7 @@ mod tests {
         let (ahead, to) = (Pose2::new(0.0, 0.0, 0.0), Some(&CONTAINER));
         for start in [ahead, Pose2::new(0.0, 0.2, 0.0), Pose2::new(-1.0, -0.5, 0.1)] {
             a.forget();
-            let (end, reached, _) = drive(|p, t, r, m| a.step(&active(), [Some(p), Some(t)], to, [r, m]), start);
+            let (end, reached, _) = drive(|p, t, r, m| a.step(&active(), [Some(p), Some(t)], to, None, [r, m]), start);
             assert!(reached && (end.x - 4.0 - Articulated::PATSY.axis()).abs() < 0.06, "{end:?}");
         }
         let (end, reached, _) =
@@ -330,7 +366,7 @@ mod tests {
             // The container is seen once.
             let mut container = Some(&CONTAINER);
             let (end, reached, _) =
-                drive(|p, t, r, m| node.step(&active(), [Some(p), Some(t)], container.take(), [r, m]), start);
+                drive(|p, t, r, m| node.step(&active(), [Some(p), Some(t)], container.take(), None, [r, m]), start);
             assert!(reached && end.y.abs() < 0.03 && end.theta.abs() < 0.03, "{end:?} from {start:?}");
         }
     }
@@ -343,7 +379,7 @@ mod tests {
             |p, t, r, m| {
                 firing += 1;
                 let container = if firing < 40 { CONTAINER } else { moved };
-                node.step(&active(), [Some(p), Some(t)], Some(&container), [r, m])
+                node.step(&active(), [Some(p), Some(t)], Some(&container), None, [r, m])
             },
             Pose2::new(0.0, 0.0, 0.0),
         );
@@ -357,19 +393,55 @@ mod tests {
         node.free_width = 0.3;
         let mut missed = None;
         let (to, here) = (Some(&CONTAINER), Some(&at));
-        let twist = node.step(&active(), [here; 2], to, [nothing(), apex_rt::event(&mut missed)]);
+        let twist = node.step(&active(), [here; 2], to, None, [nothing(), apex_rt::event(&mut missed)]);
         assert_eq!((twist, missed.is_some()), (Some(Twist::ZERO), true));
         let (mut a, mut b) = (planned(), reactive());
         for odd in [None, Some(&Pose2::new(f32::NAN, 0.0, 0.0))] {
             let stands = Some(Twist::ZERO);
-            assert_eq!(a.step(&active(), [odd, here], to, [nothing(), nothing()]), stands);
-            assert_eq!(a.step(&active(), [here, odd], to, [nothing(), nothing()]), stands);
+            assert_eq!(a.step(&active(), [odd, here], to, None, [nothing(), nothing()]), stands);
+            assert_eq!(a.step(&active(), [here, odd], to, None, [nothing(), nothing()]), stands);
             assert_eq!(b.process(&active(), here, here, odd, nothing(), nothing()), Ok(stands));
         }
         let inactive = Ctx::new(Time::ZERO);
-        assert_eq!(planned().step(&inactive, [here; 2], to, [nothing(), nothing()]), None);
-        assert_ne!(a.step(&active(), [here; 2], to, [nothing(), nothing()]), Some(Twist::ZERO));
-        let halted = a.step(&inactive, [None; 2], None, [nothing(), nothing()]);
+        assert_eq!(planned().step(&inactive, [here; 2], to, None, [nothing(), nothing()]), None);
+        assert_ne!(a.step(&active(), [here; 2], to, None, [nothing(), nothing()]), Some(Twist::ZERO));
+        let halted = a.step(&inactive, [None; 2], None, None, [nothing(), nothing()]);
         assert_eq!(halted, Some(Twist::ZERO), "it stops when it is interrupted");
+    }
+
+    #[test]
+    fn an_obstacle_before_the_container_is_driven_around() {
+        let raster = Raster { corner: Point2::new(-2.0, -3.0), resolution: 0.05, width: 140, height: 120 };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+        let thing = Point2::new(1.0, 0.02);
+        *map.get_mut(raster.cell(thing).expect("inside")).expect("inside") = Occupancy::Occupied;
+        let nearest = |ground: Option<&Grid<Occupancy>>| {
+            let (mut node, mut firing, mut nearest) = (planned(), 0, f32::INFINITY);
+            let (end, reached, _) = drive(
+                |p, t, r, m| {
+                    // A cloud with each third pose; the thing is seen when the vehicle has begun to drive.
+                    firing += 1;
+                    let ground = ground.filter(|_| firing % 3 == 2);
+                    nearest = nearest.min(Outline::new(Articulated::PATSY, [0.0; 2]).distance(&[*p, *t], thing));
+                    node.step(&active(), [Some(p), Some(t)], Some(&CONTAINER), ground, [r, m])
+                },
+                Pose2::new(-0.5, 0.0, 0.0),
+            );
+            assert!(reached && end.y.abs() < 0.05, "{end:?}");
+            nearest
+        };
+        let [without, with] = [None, Some(&map)].map(nearest);
+        assert!(without < 0.0 && with > 0.08, "{without} m, {with} m");
+    }
+
+    #[test]
+    fn the_tolerance_along_the_container_is_kept() {
+        let mut node = planned();
+        node.tolerance = 0.02;
+        let (end, reached, _) = drive(
+            |p, t, r, m| node.step(&active(), [Some(p), Some(t)], Some(&CONTAINER), None, [r, m]),
+            Pose2::new(0.0, 0.1, 0.0),
+        );
+        assert!(reached && (end.x - 4.0 - Articulated::PATSY.axis()).abs() <= 0.02, "{end:?}");
     }
 }

@@ -99,7 +99,7 @@ impl ReactiveApproach {
         };
         let vehicle = &self.vehicle;
         let (base_in, rear) = (base.relative_to(&container), container.to_inner(vehicle.rear_most(trailer)));
-        match arrival(&base_in, rear, vehicle.axis(), self.tolerance) {
+        match arrival(&base_in, rear, vehicle.axis(), [self.tolerance; 2]) {
             Arrival::Ahead => self.halt.drive(self.twist(&base_in, &trailer.relative_to(&container), rear)),
             Arrival::Reached => {
                 reached.emit(());

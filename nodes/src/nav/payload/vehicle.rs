@@ -132,12 +132,12 @@ pub(super) enum Arrival {
 }
 
 /// Compares a vehicle with its goal: `base` is the pose of the tractor and `rear` the rear-most point, both in the
-/// frame of the container, and `goal` is the x coordinate of the goal.
-pub(super) fn arrival(base: &Pose2, rear: Point2, goal: f32, tolerance: f32) -> Arrival {
-    if base.x < goal - 0.5 * tolerance {
+/// frame of the container, and `goal` is the x coordinate of the goal. The tolerances are those along and across, in m.
+pub(super) fn arrival(base: &Pose2, rear: Point2, goal: f32, [along, across]: [f32; 2]) -> Arrival {
+    if base.x < goal - 0.5 * along {
         return Arrival::Ahead;
     }
-    let is_there = base.x <= goal + tolerance && base.y.abs() <= tolerance && rear.y.abs() <= tolerance;
+    let is_there = base.x <= goal + along && base.y.abs() <= across && rear.y.abs() <= across;
     if is_there { Arrival::Reached } else { Arrival::Missed }
 }
 
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn the_goal_is_ahead_reached_or_missed() {
-        let at = |x, y, rear| arrival(&Pose2::new(x, y, 0.0), Point2::new(x - 0.8, rear), 0.3, 0.04);
+        let at = |x, y, rear| arrival(&Pose2::new(x, y, 0.0), Point2::new(x - 0.8, rear), 0.3, [0.04; 2]);
         assert_eq!(at(0.2, 0.5, 0.5), Arrival::Ahead);
         assert_eq!(at(0.3, 0.0, 0.0), Arrival::Reached);
         assert_eq!([at(0.3, 0.1, 0.0), at(0.3, 0.0, 0.1), at(0.5, 0.0, 0.0)], [Arrival::Missed; 3]);

@@ -101,6 +101,7 @@ impl Node {
                 0.05,
                 0.05,
                 0.05,
+                0.05,
                 0.5,
             ))),
         }
@@ -114,7 +115,7 @@ impl Node {
         let [r, m] = events;
         let twist = match self {
             Self::Reactive(node) => node.process(&ctx, Some(&base), Some(&trailer), Some(&CONTAINER), r, m),
-            Self::Planned(node) => node.process(&ctx, Some(&base), Some(&trailer), Some(&CONTAINER), r, m),
+            Self::Planned(node) => node.process(&ctx, Some(&base), Some(&trailer), Some(&CONTAINER), None, r, m),
         };
         let twist = twist.expect("the hall is near the origin").unwrap_or_default();
         (reached.is_none() && missed.is_none()).then_some(twist)

@@ -80,6 +80,12 @@ impl Body {
         });
     }
 
+    /// Points on the outline of tractor and trailer.
+    pub fn outline(&self) -> [Point2; 10] {
+        let Tractor { base, shape, .. } = &self.tractor;
+        shape.outline(&base.pose, self.tractor.trailer_pose().theta)
+    }
+
     pub fn speed(&self) -> f32 {
         self.tractor.base.twist.velocity().norm()
     }

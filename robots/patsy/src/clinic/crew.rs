@@ -62,6 +62,11 @@ impl Clinic {
         self.state().next_order()
     }
 
+    /// Notes that the vehicle has done its order, as it says.
+    pub fn confirm(&self) {
+        self.state().confirm();
+    }
+
     /// Notes that an order was given back.
     pub fn refuse(&self) {
         self.state().report_mut().refused += 1;

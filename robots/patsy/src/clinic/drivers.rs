@@ -232,11 +232,12 @@ impl LiftDrive {
         Self { clinic: clinic.clone(), target: None }
     }
 
-    /// Sends `true` while the lift is not at its lowest position. `done` comes when it arrives at the end that it was
-    /// told to move to.
-    fn process(&mut self, ctx: &Ctx, is_raised: &mut Out<bool>, done: Event<()>) {
-        let position = self.clinic.at(ctx.now()).lift_position();
-        is_raised.set(position > 0.0);
+    /// Sends `true` while a container presses the switch on the lift. `done` comes when the lift arrives at the end
+    /// that it was told to move to.
+    fn process(&mut self, ctx: &Ctx, is_loaded: &mut Out<bool>, done: Event<()>) {
+        let clinic = self.clinic.at(ctx.now());
+        let position = clinic.lift_position();
+        is_loaded.set(clinic.is_loaded());
         let end = self.target.map(|up| if up { 1.0 } else { 0.0 });
         if end == Some(position) {
             self.target = None;
@@ -276,10 +277,13 @@ impl Dispatch {
         Self { clinic: clinic.clone() }
     }
 
-    /// Sends the next order. With `false` the last one is given back.
+    /// Sends the next order. With `true` the last one is done: people then believe that the container is at its
+    /// destination. With `false` it is given back.
     #[slot]
     fn ask(&mut self, is_done: &bool, order: Event<Order>) {
-        if !is_done {
+        if *is_done {
+            self.clinic.confirm();
+        } else {
             self.clinic.refuse();
         }
         if let Some(next) = self.clinic.next_order() {

@@ -1,12 +1,14 @@
 use super::{
     Contact, DOCK, Delivery, Fault, FaultKind, Order, PEOPLE, Report, STAIRWELL,
     body::{Body, along},
+    report::WEDGED,
     site::{Site, area},
     view,
 };
 use crate::{Cart, obstacles::Thing};
 use apex_nodes::{
     io::ReadError,
+    math::normalize_angle,
     nav::Twist,
     scan::{Point2, Pose2},
 };
@@ -27,7 +29,11 @@ const TOUCH: f32 = 2.5;
 /// Distance up to which the scanner sees, in m.
 const SIGHT: f32 = 20.0;
 /// Speed from which on a contact is one that the vehicle causes, in m/s.
+const CONTACT: f32 = 0.01;
+/// Speed from which on a vehicle drives on after a bump, in m/s.
 const MOVES: f32 = 0.05;
+/// Distance by which a vehicle that is not wedged moves, in m.
+const FREE: f32 = 0.3;
 /// Radius of the body of a person above the legs, in m.
 const BODY: f32 = 0.18;
 
@@ -65,11 +71,18 @@ pub struct State {
     command_timeout: Option<Duration>,
     faults: Vec<Fault>,
     order: Option<Order>,
+    /// Number of the ordered container.
+    ordered: Option<usize>,
+    /// Poses of the containers as far as people know them: where they were, or where the last order wanted them.
+    known: Vec<Pose2>,
     orders: Random,
     report: Report,
     /// People that touch the vehicle, and `true` if it touches something else.
     touching: Vec<usize>,
     bumped: bool,
+    /// Place and time from which on the vehicle has been beneath a container without getting away, and `true` if that
+    /// has been counted.
+    beneath: Option<(Pose2, Time, bool)>,
     /// Surroundings of the vehicle, with the wheels of containers.
     near: World,
     /// All that is seen by the scanner.
@@ -101,6 +114,7 @@ impl State {
         let seed = options.seed;
         let mut random = stream(seed, 0);
         let site = Site::new(&mut random)?;
+        let known = site.carts.iter().map(Cart::pose).collect();
         let crowd = Crowd::new(view::walkable(&site.building), options.people, stream(seed, 1).bits());
         Ok(Self {
             now: Time::ZERO,
@@ -114,10 +128,13 @@ impl State {
             command_timeout: options.command_timeout,
             faults: options.faults.clone(),
             order: None,
+            ordered: None,
+            known,
             orders: stream(seed, 3),
             report: Report::default(),
             touching: vec![],
             bumped: false,
+            beneath: None,
             near: World::default(),
             seen: World::default(),
         })
@@ -147,6 +164,11 @@ impl State {
     /// Position of the lift, from 0 to 1.
     pub fn lift_position(&self) -> f32 {
         self.body.lift.position
+    }
+
+    /// Returns `true` while a container is on the lift.
+    pub fn is_loaded(&self) -> bool {
+        self.body.load.is_some()
     }
 
     pub fn wheels(&self) -> Pose2 {
@@ -195,7 +217,8 @@ impl State {
         self.body.tractor.base.twist
     }
 
-    /// Next order: a random container to a random place that is free. `None` if there is none.
+    /// Next order: a random container to a random place that is free. Its place is about that where people believe it
+    /// to be. `None` if there is none.
     pub fn next_order(&mut self) -> Option<Order> {
         let carts = &self.site.carts;
         let lifted = self.body.load.map(|(number, _)| number);
@@ -203,14 +226,22 @@ impl State {
         let is_free = |place: &&Pose2| carts.iter().all(|c| (c.pose().position() - place.position()).norm() > 3.0);
         let to: Vec<Pose2> = self.site.places.iter().filter(is_free).copied().collect();
         let pick = |random: &mut Random, count: usize| (random.bits() % count.max(1) as u64) as usize;
-        let cart = carts.get(*from.get(pick(&mut self.orders, from.len()))?)?.pose();
+        let number = *from.get(pick(&mut self.orders, from.len()))?;
+        let cart = *self.known.get(number)?;
         let destination = *to.get(pick(&mut self.orders, to.len()))?;
         let lane = if cart.y < 15.0 { 0.0 } else { core::f32::consts::PI };
         let mut off = |most: f32| self.orders.uniform(-most, most);
         let known = Pose2::new(off(0.2), off(0.08), off(0.02));
         let container = Pose2 { theta: along(cart.theta, lane), ..cart }.compose(&known);
-        self.order = Some(Order { container, destination });
+        (self.order, self.ordered) = (Some(Order { container, destination }), Some(number));
         self.order
+    }
+
+    /// Notes that the vehicle has done its order, as it says: people look for the container at its destination.
+    pub fn confirm(&mut self) {
+        if let Some((order, number)) = self.order.zip(self.ordered.take()) {
+            self.known[number] = order.destination;
+        }
     }
 
     /// World that the scanner sees.
@@ -250,6 +281,7 @@ impl State {
         self.move_body(dt);
         self.touch_people();
         self.watch_floor();
+        self.watch_containers();
         self.wheels = self.odometry.measure(&before, &self.pose());
         self.report.distance += (self.pose().position() - before.position()).norm();
         if self.now.as_nanos() % 200_000_000 == 0 {
@@ -266,20 +298,59 @@ impl State {
         let after = self.body.lift.position;
         if before == 0.0 && after > 0.0 {
             self.body.catch(&self.site.carts);
+            match self.body.load {
+                // It does not stand where it was set down.
+                Some((number, _)) => {
+                    self.report.deliveries.retain(|other| other.left.is_some() || other.container != number);
+                }
+                None => self.report.empty_lifts.push(self.now),
+            }
+            self.look_around();
         }
-        if before > 0.0 && after == 0.0 && self.body.load.take().is_some() {
-            self.set_down();
+        if before > 0.0
+            && after == 0.0
+            && let Some((number, _)) = self.body.load.take()
+        {
+            self.set_down(number);
         }
     }
 
-    fn set_down(&mut self) {
-        let Some(order) = self.order else { return };
-        let carts = self.site.carts.iter().map(|cart| (cart.pose().position() - self.pose().position()).norm());
-        let nearest = carts.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-        if let Some((number, _)) = nearest {
-            let at = self.site.carts[number].pose().position();
-            let offset = (at - order.destination.position()).norm();
-            self.report.deliveries.push(Delivery { at: self.now, offset });
+    /// Collects what the vehicle may touch: not its load.
+    fn look_around(&mut self) {
+        self.near.take_near(&self.site.building.world, self.body.tractor.base.pose.position(), TOUCH);
+        let load = self.body.load.map(|(number, _)| number);
+        let others = self.site.carts.iter().enumerate().filter(|(number, _)| Some(*number) != load);
+        others.for_each(|(_, cart)| cart.add_to(&mut self.near));
+    }
+
+    fn set_down(&mut self, number: usize) {
+        let Some(destination) = self.order.map(|order| order.destination) else { return };
+        let is_ordered = self.ordered == Some(number);
+        let off = self.site.carts[number].pose().relative_to(&destination);
+        let offset = if is_ordered { off.position().norm() } else { f32::INFINITY };
+        let turn = 0.5 * normalize_angle(&(2.0 * off.theta));
+        self.report.deliveries.push(Delivery { at: self.now, container: number, offset, turn, left: None });
+    }
+
+    /// Notices when the vehicle has left a container, and when it is wedged beneath one.
+    fn watch_containers(&mut self) {
+        let load = self.body.load.map(|(number, _)| number);
+        let outline = self.body.outline();
+        let is_above = |number: usize| outline.iter().any(|p| area(&self.site.carts[number]).distance(*p) <= 0.0);
+        for delivery in self.report.deliveries.iter_mut().filter(|delivery| delivery.left.is_none()) {
+            if load.is_none() && !is_above(delivery.container) {
+                delivery.left = Some(self.now);
+            }
+        }
+        let here = self.body.tractor.base.pose;
+        let is_beneath = (0..self.site.carts.len()).any(|number| Some(number) != load && is_above(number));
+        let since = self.beneath.filter(|(at, ..)| (at.position() - here.position()).norm() < FREE);
+        self.beneath = is_beneath.then(|| since.unwrap_or((here, self.now, false)));
+        if let Some((_, since, is_counted @ false)) = &mut self.beneath
+            && self.now.since(*since) >= WEDGED
+        {
+            *is_counted = true;
+            self.report.wedges.push(self.now);
         }
     }
 
@@ -291,10 +362,7 @@ impl State {
         let is_over = self.command_timeout.is_some_and(|timeout| self.now.since(at) > timeout);
         let command = if is_over { Twist::ZERO } else { twist };
         if self.now.as_nanos() % 100_000_000 == 0 {
-            self.near.take_near(&self.site.building.world, self.body.tractor.base.pose.position(), TOUCH);
-            let load = self.body.load.map(|(number, _)| number);
-            let others = self.site.carts.iter().enumerate().filter(|(number, _)| Some(*number) != load);
-            others.for_each(|(_, cart)| cart.add_to(&mut self.near));
+            self.look_around();
         }
         let touches = self.body.drive(&command, dt, &self.near);
         if touches && !self.bumped {
@@ -324,7 +392,7 @@ impl State {
                 self.touching.retain(|other| *other != person || deepest > -0.05);
                 continue;
             }
-            if self.body.speed() > MOVES && !self.touching.contains(&person) {
+            if self.body.speed() > CONTACT && !self.touching.contains(&person) {
                 self.touching.push(person);
                 let contact = Contact { at: self.now, person, pose: self.pose() };
                 self.report.contacts.push(contact);

@@ -3,7 +3,9 @@ use apex_sim::{OutageTable, in_order, say};
 use lexopt::{Parser, prelude::Long};
 use patsy::{
     clinic::{FaultKind, Options, PEOPLE},
-    missions::{Row, Run, activity_table, fault_at, fault_of, faults_table, picture, run, run_with_outages, summary},
+    missions::{
+        Row, Run, activity_table, fault_at, fault_of, faults_table, picture, run, run_with_outages, summary, timeline,
+    },
     write_file,
 };
 use std::{path::PathBuf, process::ExitCode, time::Duration};
@@ -18,6 +20,7 @@ struct Missions {
     outages: bool,
     out: PathBuf,
     record: Option<PathBuf>,
+    timeline: Option<PathBuf>,
 }
 
 /// Runs the vehicle in many clinics, also with faults, and counts what came of it.
@@ -54,6 +57,9 @@ pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
         say(&format!("{}\n", faults_table(without, with)))?;
     }
     write_file(&missions.out, &picture(&without[0]))?;
+    if let Some(path) = &missions.timeline {
+        write_file(path, &timeline(&without[0]))?;
+    }
     let (first, last) = (seeds[0], seeds[seeds.len() - 1]);
     say(&format!("seeds {first} to {last}; picture: {}\n", missions.out.display()))?;
     Ok(if runs.iter().all(|run| run.failures.is_empty()) { ExitCode::SUCCESS } else { ExitCode::from(1) })
@@ -94,6 +100,7 @@ fn read(parser: &mut Parser) -> Result<Missions, String> {
         outages: false,
         out: PathBuf::from("out/patsy/clinic.svg"),
         record: None,
+        timeline: None,
     };
     while let Some(arg) = next(parser)? {
         match arg {
@@ -104,6 +111,7 @@ fn read(parser: &mut Parser) -> Result<Missions, String> {
             Long("outages") => missions.outages = true,
             Long("out") => missions.out = path(parser)?,
             Long("record") => missions.record = Some(path(parser)?),
+            Long("timeline") => missions.timeline = Some(path(parser)?),
             arg => {
                 let (option, message) = seeds_option(arg);
                 missions.seeds.read(parser, option, message)?;

@@ -20,7 +20,7 @@ Usage: patsy [--log FILE [--container pallet|cart] [--labels FILE] [--table FILE
        patsy accuracy [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
        patsy approach [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
        patsy missions [--first-seed N] [--seeds N] [--jobs N] [--minutes N] [--people N] [--faults] [--outages]
-                      [--keeps-twist] [--out FILE] [--record FILE]
+                      [--keeps-twist] [--out FILE] [--record FILE] [--timeline FILE]
        patsy times [--first-seed N] [--seeds N]
        patsy validate --with FILE --labels FILE --without FILE [--folds N] [--jobs N]
 
@@ -58,6 +58,7 @@ delivered and touched. It draws the first run.
   --keeps-twist     motors without a command time-out: they keep the last twist until the next one
   --out FILE        the picture (default out/patsy/clinic.svg)
   --record FILE     recording of the first run, for `apex replay` and viewers
+  --timeline FILE   what happened in the first run, and when: active nodes, containers set down, bumps
 
 `times` measures the computing time of the search in simulated rooms, on one thread.
 

@@ -1,11 +1,15 @@
 //! Runs of the vehicle in the simulated clinic, what came of them, and the cost of faults (thesis 8.2).
 
+mod losses;
 mod outages;
 mod picture;
 mod run;
 mod table;
+mod timeline;
 
+pub use losses::Losses;
 pub use outages::{fault_of, run_with_outages};
 pub use picture::picture;
-pub use run::{Run, run};
+pub use run::{Run, Spell, run};
 pub use table::{Row, activity_table, fault_at, faults_table, summary, table};
+pub use timeline::timeline;

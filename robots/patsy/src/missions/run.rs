@@ -1,3 +1,4 @@
+use super::losses::{Limits, Losses};
 use crate::{
     clinic::{Clinic, Drivers, Options, Report, Snapshot},
     vehicle::{Patsy, PatsyParts},
@@ -5,7 +6,7 @@ use crate::{
 use apex_nodes::map::VectorMap;
 use apex_rt::{
     Clock as _, Next, Observer, Program, SimClock, Time, UntilStopped,
-    record::{Recorder, Tap, WhenFull},
+    record::{Codec, Recorder, Tap, WhenFull},
 };
 use std::{
     fmt,
@@ -27,6 +28,10 @@ pub struct Run {
     pub failures: Vec<String>,
     /// Nodes that were active, and for how long, in the order of the program.
     pub activity: Vec<(&'static str, Duration)>,
+    /// Activity of the nodes in the order in which it ended.
+    pub timeline: Vec<Spell>,
+    /// Time lost to each cause.
+    pub losses: Losses,
     /// State at the beginning and at the end.
     pub ends: [Snapshot; 2],
     /// Walls of the building.
@@ -80,10 +85,13 @@ pub(super) fn run_seen(
         return Err(format!("stopped by a signal after {} of the run", clock.now()));
     }
     clinic.advance(end);
+    let activity = watch.activity.at(end);
     Ok(Run {
         options: options.clone(),
         report: clinic.report(),
-        activity: watch.activity.at(end),
+        losses: watch.limits.losses(&activity),
+        activity,
+        timeline: watch.activity.spells,
         failures: watch.failures,
         ends: [first, clinic.snapshot()],
         plan: clinic.building().plan,
@@ -97,10 +105,22 @@ fn vehicle(clinic: &Clinic) -> Patsy {
     Patsy::new(PatsyParts { scanner, rear, wheels, camera, motors, lift, dispatch })
 }
 
+/// Time in which a node was active without a break.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spell {
+    /// Name of the node.
+    pub node: &'static str,
+    /// Beginning.
+    pub from: Time,
+    /// End.
+    pub until: Time,
+}
+
 /// Notes failures and activity, and records.
 struct Watch {
     failures: Vec<String>,
     activity: Activity,
+    limits: Limits,
     tap: Option<Tap>,
 }
 
@@ -109,6 +129,7 @@ struct Activity {
     now: Time,
     /// Time for which each node was active before, and since when it is now.
     nodes: Vec<(Duration, Option<Time>)>,
+    spells: Vec<Spell>,
 }
 
 impl Activity {
@@ -118,6 +139,8 @@ impl Activity {
             since.get_or_insert(self.now);
         } else if let Some(since) = since.take() {
             *before += self.now.since(since);
+            let node = <Patsy as Program>::INFO.nodes[node].name;
+            self.spells.push(Spell { node, from: since, until: self.now });
         }
     }
 
@@ -134,7 +157,8 @@ impl Activity {
 impl Watch {
     fn new(tap: Option<Tap>) -> Self {
         let nodes = vec![(Duration::ZERO, None); <Patsy as Program>::INFO.nodes.len()];
-        Self { failures: vec![], activity: Activity { now: Time::ZERO, nodes }, tap }
+        let limits = Limits::new(&<Patsy as Program>::channels());
+        Self { failures: vec![], activity: Activity { now: Time::ZERO, nodes, spells: vec![] }, limits, tap }
     }
 
     fn note(&mut self, failure: String) {
@@ -161,6 +185,19 @@ impl Observer for Watch {
         self.note(format!("the claim `{}` does not hold", <Patsy as Program>::INFO.claims[claim]));
     }
 
+    fn wants(&mut self, channel: usize) -> bool {
+        self.limits.wants(channel) || self.tap.as_mut().is_some_and(|tap| tap.wants(channel))
+    }
+
+    fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
+        self.limits.sent(self.activity.now, channel, codec, token);
+        if let Some(tap) = self.tap.as_mut()
+            && tap.wants(channel)
+        {
+            tap.sent(channel, codec, token);
+        }
+    }
+
     fn tap(&mut self) -> Option<&mut Tap> {
         self.tap.as_mut()
     }
@@ -172,7 +209,7 @@ mod tests {
 
     #[test]
     fn activity_is_added_up_to_the_end() {
-        let mut activity = Activity { now: Time::ZERO, nodes: vec![(Duration::ZERO, None); 3] };
+        let mut activity = Activity { now: Time::ZERO, nodes: vec![(Duration::ZERO, None); 3], spells: vec![] };
         for (second, node, active) in [(1, 0, true), (3, 0, false), (4, 1, true), (5, 0, true), (5, 1, false)] {
             activity.now = Time::from_secs(second);
             activity.change(node, active);

@@ -1,4 +1,4 @@
-use super::Run;
+use super::{Losses, Run};
 use crate::clinic::{Fault, FaultKind};
 use apex_rt::Time;
 use apex_sim::Random;
@@ -21,17 +21,20 @@ pub fn fault_at(kind: FaultKind, seed: u64, duration: Duration) -> Fault {
 
 impl Row<'_> {
     /// Names of the columns.
-    pub const HEAD: &'static str =
-        "  seed  delivered  misplaced  given back  contacts  falls  run over  bumps  distance      took  failures";
+    pub const HEAD: &'static str = "  seed  delivered  misplaced  given back  contacts  falls  run over  bumps  empty lifts  wedges  distance\
+         \u{20}  persons  hazards    field  planning    blind      took  failures";
 }
 
 impl fmt::Display for Row<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Run { options, report, failures, took, .. } = self.0;
+        let Run { options, report, failures, took, losses, .. } = self.0;
         let (delivered, misplaced) = (report.delivered(), report.deliveries.len() - report.delivered());
         write!(f, "{:>6}{delivered:>11}{misplaced:>11}{:>12}", options.seed, report.refused)?;
         write!(f, "{:>10}{:>7}{:>10}", report.contacts.len(), report.falls.len(), report.run_over.len())?;
-        write!(f, "{:>7}{:>8.0} m", report.bumps.len(), report.distance)?;
+        write!(f, "{:>7}{:>13}{:>8}", report.bumps.len(), report.empty_lifts.len(), report.wedges.len())?;
+        write!(f, "{:>8.0} m", report.distance)?;
+        let Losses { persons, hazards, field, planning, blind } = losses;
+        write!(f, "{persons:>7.0} s{hazards:>7.0} s{field:>7.0} s{planning:>8.0} s{blind:>7.0} s")?;
         write!(f, "{:>8.1} s{:>10}", took.as_secs_f32(), failures.len())?;
         options.faults.iter().try_for_each(|fault| write!(f, "  {fault}"))?;
         failures.iter().try_for_each(|failure| write!(f, "\n        {failure}"))
@@ -47,19 +50,34 @@ pub fn table(runs: &[Run]) -> String {
 pub fn summary(runs: &[Run]) -> String {
     let [least, median, most] = delivered(runs);
     let sum = |value: fn(&Run) -> usize| runs.iter().map(value).sum::<usize>();
+    let lost =
+        |value: fn(&Losses) -> f32| runs.iter().map(|run| value(&run.losses)).sum::<f32>() / runs.len().max(1) as f32;
     format!(
         "containers delivered     {median} (median), {least} to {most}, {:.1} on average\n\
          contacts with people     {}\n\
          falls                    {}\n\
          small things run over    {}\n\
          bumps against the rest   {}\n\
-         failures                 {}\n",
+         empty lifts              {}\n\
+         wedges                   {}\n\
+         orders given back        {}\n\
+         failures                 {}\n\
+         seconds lost in a run to persons {:.0}, hazards {:.0}, the field of the scans {:.0}, planning {:.0}, an unknown \
+         pose {:.0}\n",
         mean(runs),
         sum(|run| run.report.contacts.len()),
         sum(|run| run.report.falls.len()),
         sum(|run| run.report.run_over.len()),
         sum(|run| run.report.bumps.len()),
+        sum(|run| run.report.empty_lifts.len()),
+        sum(|run| run.report.wedges.len()),
+        sum(|run| run.report.refused),
         sum(|run| run.failures.len()),
+        lost(|losses| losses.persons),
+        lost(|losses| losses.hazards),
+        lost(|losses| losses.field),
+        lost(|losses| losses.planning),
+        lost(|losses| losses.blind),
     )
 }
 
