@@ -1,5 +1,5 @@
-//! Random source files with their Rust code. If the compiler accepts a source file, rustc accepts it, and its tests run.
-//! If the compiler rejects it, its first error is in the source file.
+//! Random source files with their Rust code. What the compiler accepts, rustc accepts, too, and its tests end. If the
+//! compiler rejects a source file, its first error is in it.
 //!
 //! `APEX_TEXTS` is the number of cases (100), `APEX_TEXTS_SEED` the first seed. With `APEX_TEXTS_RAW`, failing cases
 //! are shown without reduction. `APEX_TEXTS_OUT` is a folder for all failing cases.

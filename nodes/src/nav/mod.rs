@@ -62,9 +62,9 @@ pub use law::FollowingLaw;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
 #[cfg(feature = "std")]
 pub use path::{Path, Projection};
-pub use payload::{Articulated, BackUp, PlannedApproach, ReactiveApproach};
+pub use payload::{Articulated, BackUp, ReactiveApproach};
 #[cfg(feature = "std")]
-pub use payload::{BackFollower, BackPath, BackPiece};
+pub use payload::{BackFollower, BackPath, BackPiece, PlannedApproach};
 #[cfg(feature = "std")]
 pub use plan::{PathPlanner, Planner, Smoothing};
 pub use pose::{compose, relative, shift, turned};

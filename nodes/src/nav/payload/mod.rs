@@ -3,7 +3,9 @@
 mod back;
 #[cfg(feature = "std")]
 mod back_path;
+#[cfg(feature = "std")]
 pub(super) mod dubins;
+#[cfg(feature = "std")]
 mod planned;
 mod reactive;
 mod vehicle;
@@ -13,6 +15,7 @@ pub use back::BackUp;
 pub(super) use back_path::tests::Backing;
 #[cfg(feature = "std")]
 pub use back_path::{BackFollower, BackPath, BackPiece};
+#[cfg(feature = "std")]
 pub use planned::PlannedApproach;
 pub use reactive::ReactiveApproach;
 pub use vehicle::Articulated;
