@@ -23,7 +23,8 @@ fn text(file: &Path, contents: &Contents) -> String {
     let messages: u64 = contents.topics.iter().map(|topic| topic.count).sum();
     let (first, last) = contents.times.unwrap_or_default();
     let lasts = Duration::from_nanos(last - first);
-    let mut text = format!("`{}`: {} messages in {}", file.display(), messages, seconds(lasts));
+    let many = if messages == 1 { "" } else { "s" };
+    let mut text = format!("`{}`: {messages} message{many} in {}", file.display(), seconds(lasts));
     if first >= SINCE_1970 {
         let _ = write!(text, ", from {} UTC", date(first));
     }
