@@ -43,7 +43,7 @@ pub struct Ros1 {
     over: bool,
 }
 
-/// Reason why there is no next record.
+/// Reason for the end of the records.
 enum Stop {
     End,
     Cut,

@@ -1,6 +1,6 @@
 //! `apex bag`: topics of a recording with their types, numbers, rates and gaps.
 
-use crate::answer::Answer;
+use crate::{answer::Answer, project::counted};
 use apex_bag::{Contents, Topic};
 use serde_json::{Value, json};
 use std::{fmt::Write as _, path::Path, process::ExitCode, time::Duration};
@@ -20,11 +20,10 @@ pub fn run(file: &Path, answer: &mut Answer) -> Result<ExitCode, String> {
 
 // Writing into a string cannot fail.
 fn text(file: &Path, contents: &Contents) -> String {
-    let messages: u64 = contents.topics.iter().map(|topic| topic.count).sum();
+    let messages: usize = contents.topics.iter().map(|topic| topic.count as usize).sum();
     let (first, last) = contents.times.unwrap_or_default();
     let lasts = Duration::from_nanos(last - first);
-    let many = if messages == 1 { "" } else { "s" };
-    let mut text = format!("`{}`: {messages} message{many} in {}", file.display(), seconds(lasts));
+    let mut text = format!("`{}`: {} in {}", file.display(), counted(messages, "message"), seconds(lasts));
     if first >= SINCE_1970 {
         let _ = write!(text, ", from {} UTC", date(first));
     }

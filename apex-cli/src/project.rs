@@ -191,6 +191,11 @@ pub fn write_bytes(bytes: &[u8]) -> Result<(), String> {
     }
 }
 
+/// Number of things in words: `1 message`, `2 messages`.
+pub fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
+}
+
 /// Prints a line to standard error.
 pub fn print_error(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");

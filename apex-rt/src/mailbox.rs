@@ -41,13 +41,17 @@ impl Arrival {
 
 /// Returns the place of the token that was put in first; of those that came together, the first place.
 pub fn first_arrival(arrivals: &[Option<Arrival>]) -> Option<usize> {
-    let waiting = arrivals.iter().enumerate().filter_map(|(place, arrival)| Some((place, (*arrival)?)));
-    waiting.reduce(|first, next| if next.1.is_before(first.1) { next } else { first }).map(|(place, _)| place)
+    first(arrivals.iter().copied().enumerate()).map(|(place, _)| place)
 }
 
 /// Returns the event whose token was put in first, and the number of the token.
 pub fn untaken(events: &[(&'static str, Option<Arrival>)]) -> Option<(&'static str, Arrival)> {
-    let waiting = events.iter().filter_map(|(event, arrival)| Some((*event, (*arrival)?)));
+    first(events.iter().copied())
+}
+
+/// Returns the item whose token was put in first, and the number of the token.
+fn first<T>(items: impl Iterator<Item = (T, Option<Arrival>)>) -> Option<(T, Arrival)> {
+    let waiting = items.filter_map(|(item, arrival)| Some((item, arrival?)));
     waiting.reduce(|first, next| if next.1.is_before(first.1) { next } else { first })
 }
 

@@ -54,7 +54,7 @@ impl Observer for Said {
 }
 
 #[test]
-fn an_event_that_nobody_takes_is_told_once_after_a_second() {
+fn an_event_that_is_not_taken_is_told_once_after_a_second() {
     let mut said = Said::default();
     drive_with(Heart::new(), SimClock::until(Time::from_secs(10)), &mut said);
     assert_eq!(said.0, [("beat", Duration::from_secs(1))]);

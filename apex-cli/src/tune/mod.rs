@@ -321,8 +321,11 @@ impl Run<'_> {
         if shows {
             let (name, known) = (&self.script.name, journal.len());
             let known = if known > 0 { format!("; {known} runs are known") } else { String::new() };
-            let (p, g, s) =
-                (counted(parameters.len(), "parameter"), counted(goals.len(), "goal"), counted(seeds.len(), "seed"));
+            let (p, g, s) = (
+                project::counted(parameters.len(), "parameter"),
+                project::counted(goals.len(), "goal"),
+                project::counted(seeds.len(), "seed"),
+            );
             project::print_error(&format!("`{name}`: {p}, {g}, {s}, {searches} × {candidates} candidates{known}"));
             project::print_error(&format!("`apex studio {}` shows it", self.output.display()));
         }
@@ -391,8 +394,4 @@ fn warn_of_damage(journal: &Journal, what: &str) {
             named.join(", ")
         ));
     }
-}
-
-fn counted(count: usize, what: &str) -> String {
-    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }

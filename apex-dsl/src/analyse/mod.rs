@@ -54,7 +54,7 @@ pub use rates::has_rates;
 pub use schedule::{Block, Run, Step};
 pub use silences::{Silence, parameter as silence_parameter};
 pub use stamps::Stamps;
-pub use stuck::{Liveness, Stuck, blockers, is_possible as may_get_stuck, liveness};
+pub use stuck::{Stuck, blockers, find as find_stuck, is_live, is_possible as may_get_stuck};
 
 /// Results of the analysis of a graph.
 #[derive(Debug)]

@@ -28,18 +28,6 @@ pub struct Stuck {
     pub waits: Vec<(ConnectionId, ConnectionId)>,
 }
 
-/// Answer to the question whether tokens may wait for one another.
-#[derive(Debug)]
-pub enum Liveness {
-    /// They never do.
-    Holds,
-    /// They may, after this run.
-    Fails(Stuck),
-    /// They may, if slots that ask whether their node is active send tokens nevertheless, or after more steps than were
-    /// searched, or on several threads.
-    Unknown,
-}
-
 /// Result of a search.
 enum Found {
     Nothing,
@@ -56,14 +44,18 @@ struct Visited {
 
 /// Searches for a shortest run to tokens that wait for one another. Slots that ask whether their node is active are
 /// taken to send nothing in it.
-pub fn liveness(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Liveness {
+pub fn find(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Stuck> {
     match search(graph, analysis, &|token| asks_for_activity(graph, analysis, catalog, token)) {
-        Found::Stuck(stuck) => Liveness::Fails(stuck),
-        // Threads take their steps at the same time.
-        _ if graph.has_several_groups() && is_cyclic(graph, &analysis.links) => Liveness::Unknown,
-        _ if is_possible(graph, analysis) => Liveness::Unknown,
-        _ => Liveness::Holds,
+        Found::Stuck(stuck) => Some(stuck),
+        Found::Nothing | Found::TooMany => None,
     }
+}
+
+/// Returns `true` if tokens certainly never wait for one another, whatever their slots ask.
+pub fn is_live(graph: &Graph, analysis: &Analysis) -> bool {
+    // Threads take their steps at the same time.
+    let meets = graph.has_several_groups() && is_cyclic(graph, &analysis.links);
+    !meets && !is_possible(graph, analysis)
 }
 
 /// Returns `true` if tokens may wait for one another, whatever their slots ask.

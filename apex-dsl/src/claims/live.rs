@@ -1,35 +1,36 @@
 //! The claim that tokens never wait for one another, and a warning where nothing is claimed.
 
-use super::Verdict;
+use super::{Verdict, how_checked};
 use crate::{
-    analyse::{Analysis, Liveness, Stuck, liveness},
+    analyse::{Analysis, Stuck, find_stuck, is_live},
     catalog::Catalog,
     graph::{Claim, ClaimKind, ConnectionId, Graph},
     report::{Diagnostic, Diagnostics},
 };
 
-/// Decides `claim live`, and warns where it is not claimed and does not hold.
-pub fn live(graph: &Graph, analysis: &Analysis, catalog: &Catalog, diagnostics: &mut Diagnostics) -> Verdict {
+/// Decides `claim live`, if it is claimed, and warns where it is not claimed and does not hold.
+pub fn live(graph: &Graph, analysis: &Analysis, catalog: &Catalog, diagnostics: &mut Diagnostics) -> Option<Verdict> {
     let claim = graph.claims.iter().find(|claim| claim.kind == ClaimKind::Live);
-    let liveness = liveness(graph, analysis, catalog);
-    let message = match (&liveness, claim) {
-        (Liveness::Fails(stuck), Some(claim)) => {
-            Some(explain(graph, stuck, |message, _| Diagnostic::error("claim-fails", claim.span, message)))
-        }
-        (Liveness::Fails(stuck), None) => Some(explain(graph, stuck, |message, first| {
-            let to = &graph.nodes[graph.connections[first].to.node];
-            let warning = Diagnostic::warning("stuck", graph.connections[first].span, message);
-            warning.inside(graph.scope_path(to.scope))
-        })),
-        (Liveness::Unknown, Some(claim)) => Some(unknown(graph, claim)),
-        _ => None,
-    };
-    message.into_iter().for_each(|message| diagnostics.push_once(message));
-    match liveness {
-        Liveness::Holds => Verdict::Holds,
-        Liveness::Fails(_) => Verdict::Fails,
-        Liveness::Unknown => Verdict::undecided(graph),
+    let stuck = find_stuck(graph, analysis, catalog);
+    if let Some(stuck) = &stuck {
+        diagnostics.push_once(explain(graph, stuck, |message, first| match claim {
+            Some(claim) => Diagnostic::error("claim-fails", claim.span, message),
+            None => {
+                let to = &graph.nodes[graph.connections[first].to.node];
+                let warning = Diagnostic::warning("stuck", graph.connections[first].span, message);
+                warning.inside(graph.scope_path(to.scope))
+            }
+        }));
     }
+    let claim = claim?;
+    if stuck.is_some() {
+        return Some(Verdict::Fails);
+    }
+    if is_live(graph, analysis) {
+        return Some(Verdict::Holds);
+    }
+    diagnostics.push_once(unknown(graph, claim));
+    Some(Verdict::undecided(graph))
 }
 
 /// A message about tokens that wait for one another, with the run to them. `begin` gets its text, and the connection of
@@ -58,7 +59,6 @@ fn explain(graph: &Graph, stuck: &Stuck, begin: impl FnOnce(String, ConnectionId
 
 fn unknown(graph: &Graph, claim: &Claim) -> Diagnostic {
     let message = "`live` is undecided: tokens may wait for one another, or events of several threads lead in a circle";
-    let warning = Diagnostic::warning("claim-undecided", claim.span, message);
-    let warning = Verdict::undecided(graph).notes().iter().fold(warning, |warning, note| warning.note(*note));
+    let warning = Diagnostic::warning("claim-undecided", claim.span, message).note(how_checked(graph));
     warning.note("let events lead in no circle from slot to slot, or send a token on through a `delay`")
 }

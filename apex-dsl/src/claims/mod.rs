@@ -48,16 +48,14 @@ impl Verdict {
     fn undecided(graph: &Graph) -> Self {
         if graph.has_several_groups() { Self::Unchecked } else { Self::Undecided }
     }
+}
 
-    /// Notes for a message about it.
-    fn notes(self) -> &'static [&'static str] {
-        match self {
-            Self::Holds | Self::Fails => &[],
-            Self::Undecided => {
-                &["the program checks it at run time and reports a violation to `Observer::claim_failed`"]
-            }
-            Self::Unchecked => &["it is not checked at run time either: the program runs on several threads"],
-        }
+/// Note about a claim of `graph` that is not decided: whether the program checks it.
+fn how_checked(graph: &Graph) -> &'static str {
+    if graph.has_several_groups() {
+        "it is not checked at run time either: the program runs on several threads"
+    } else {
+        "the program checks it at run time and reports a violation to `Observer::claim_failed`"
     }
 }
 
@@ -116,8 +114,11 @@ pub fn decide(
         }
     }
     for (number, (claim, (run, complete))) in graph.claims.iter().zip(&found).enumerate() {
+        if let (ClaimKind::Live, Some(verdict)) = (claim.kind, live) {
+            decided.verdicts.push(verdict);
+            continue;
+        }
         decided.verdicts.push(match run {
-            _ if claim.kind == ClaimKind::Live => live,
             Some(run) => {
                 diagnostics.push_once(failure(graph, &model, claim, run));
                 Verdict::Fails
@@ -196,7 +197,6 @@ fn open(graph: &Graph, claim: &Claim, states: usize) -> Diagnostic {
         "`{}` is undecided: activity has more than the {states} states that were searched",
         graph.claim_text(claim)
     );
-    let warning = Diagnostic::warning("claim-undecided", claim.span, message);
-    let warning = Verdict::undecided(graph).notes().iter().fold(warning, |warning, note| warning.note(*note));
+    let warning = Diagnostic::warning("claim-undecided", claim.span, message).note(how_checked(graph));
     warning.note("to reduce the number of states, let fewer nodes be active at the same time, or make the claim in a smaller graph")
 }

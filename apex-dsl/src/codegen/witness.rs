@@ -317,7 +317,7 @@ impl Generator<'_> {
                 ),
             });
             items.extend(quote! { #message trait #name {} impl #name for ::apex_rt::record::Recordable {} });
-            asked.extend(quote! {{ fn is<T: #name>(_: T) {} is(::apex_rt::__recordable!(#ty)); }});
+            asked.extend(quote! {{ fn is<T: #name>(_: T) {} is(::apex_rt::__kind!(#ty, is_recordable)); }});
         }
         let function = (!asked.is_empty()).then(|| quote! { fn asked_of_recording() { #asked } });
         quote! { #items #function }

@@ -5,21 +5,14 @@ use crate::{Failure, Time};
 use apex_messages::{
     Foreign, Message, Reason, builtin_interfaces,
     cdr::{Reader, Writer},
+    std_msgs,
 };
 use core::{any::type_name, marker::PhantomData};
 use serde::{Serialize, de::DeserializeOwned};
 use std::{borrow::Cow, iter};
 
-/// Definition of `std_msgs/Header` and of its contents.
-const STD_HEADER: &str = "
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec";
+/// Line between the definitions of messages.
+const LINE: &str = "================================================================================";
 
 /// Reason for bytes that serde cannot read.
 const WRONG: Reason = Cow::Borrowed("bytes are missing, or are those of another type");
@@ -42,8 +35,10 @@ impl Schema {
     pub fn complete_definition(&self) -> String {
         let lacks_header =
             self.definition.starts_with("std_msgs/Header ") && !self.definition.contains("MSG: std_msgs/Header");
-        let header = if lacks_header { STD_HEADER } else { "" };
-        format!("{}{header}", self.definition)
+        if !lacks_header {
+            return self.definition.to_owned();
+        }
+        format!("{}\n{LINE}\nMSG: std_msgs/Header\n{}", self.definition, std_msgs::Header::DEFINITION)
     }
 }
 

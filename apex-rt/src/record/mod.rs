@@ -94,26 +94,24 @@ pub struct Format {
 /// The table of all channels of a program. The crate of generated code may not name the standard library.
 pub type Channels = std::vec::Vec<Channel>;
 
-/// Returns the codec of a type of tokens, for generated code.
+/// Asks a type of tokens for its `codec`, or whether it `is_recordable`, for generated code.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! __codec {
-    ($ty:ty) => {{
+macro_rules! __kind {
+    ($ty:ty, $asked:ident) => {{
         #[allow(unused_imports, reason = "only one of them is right for a type")]
         use $crate::record::{ByMessage as _, ByNothing as _, ByReference as _, BySerde as _};
-        (&&&&$crate::record::Kind::<$ty>::NEW).codec()
+        (&&&&$crate::record::Kind::<$ty>::NEW).$asked()
     }};
 }
 
-/// Returns whether tokens of a type can be recorded, as a type, for generated code.
+/// Returns the codec of a type of tokens.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! __recordable {
-    ($ty:ty) => {{
-        #[allow(unused_imports, reason = "only one of them is right for a type")]
-        use $crate::record::{ByMessage as _, ByNothing as _, ByReference as _, BySerde as _};
-        (&&&&$crate::record::Kind::<$ty>::NEW).is_recordable()
-    }};
+macro_rules! __codec {
+    ($ty:ty) => {
+        $crate::__kind!($ty, codec)
+    };
 }
 
 /// Defines the functions that return the codec and the format of a type of tokens, for generated code.

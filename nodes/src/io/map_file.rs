@@ -3,7 +3,7 @@ use super::{
     pixels::{Pixels, is_transparent, read_pixels},
 };
 use crate::{
-    map::{Grid, Occupancy, Raster},
+    map::{Grid, Occupancy, Raster, check_level},
     scan::Point2,
 };
 use apex_rt::{Out, node};
@@ -15,11 +15,6 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Angle up to which an origin is along the axes, in rad.
-const LEVEL: f32 = 1e-6;
-/// Values in % up to which a cell is free, and from which on it is occupied, as in messages of maps.
-const MOSTLY_FREE: f32 = 19.0;
-const MOSTLY_OCCUPIED: f32 = 65.0;
 /// Grey values of the pixels that are written, as map servers of ROS have them.
 const FREE: u8 = 254;
 const UNKNOWN: u8 = 205;
@@ -63,10 +58,7 @@ pub fn read_map_file(path: impl AsRef<Path>) -> Result<Grid<Occupancy>, ReadErro
     let text = fs::read_to_string(path).map_err(|e| error(e.to_string()))?;
     let description = Description::read(&text).map_err(error)?;
     let [x, y, yaw] = description.origin;
-    if yaw.abs() > LEVEL {
-        let turn = yaw.to_degrees();
-        return Err(error(format!("its origin is turned by {turn:.1}°: only maps along the axes can be read")));
-    }
+    check_level(yaw).map_err(error)?;
     let image = path.with_file_name("").join(&description.image);
     let pixels = read_pixels(&image).map_err(|message| ReadError::open(&image, message))?;
     let Pixels { width, height, .. } = pixels;
@@ -126,11 +118,7 @@ impl Description {
             Mode::Trinary => None,
             Mode::Scale => Some(1.0 + 98.0 * (occupied - self.free) / (self.occupied - self.free)),
         };
-        match percent {
-            Some(percent) if percent >= MOSTLY_OCCUPIED => Occupancy::Occupied,
-            Some(percent) if percent <= MOSTLY_FREE => Occupancy::Free,
-            _ => Occupancy::Unknown,
-        }
+        percent.map_or(Occupancy::Unknown, Occupancy::of_percent)
     }
 }
 

@@ -45,6 +45,35 @@ pub enum Occupancy {
     Occupied,
 }
 
+/// Probabilities of an obstacle in % up to which a cell is free, and from which on it is occupied, as map servers of
+/// ROS have it.
+const MOSTLY_FREE: f32 = 19.0;
+const MOSTLY_OCCUPIED: f32 = 65.0;
+/// Angle up to which an origin is along the axes, in rad.
+const LEVEL: f32 = 1e-6;
+
+impl Occupancy {
+    /// State of a cell with this probability of an obstacle, in %.
+    pub(crate) fn of_percent(percent: f32) -> Self {
+        if percent >= MOSTLY_OCCUPIED {
+            Self::Occupied
+        } else if percent <= MOSTLY_FREE {
+            Self::Free
+        } else {
+            Self::Unknown
+        }
+    }
+}
+
+/// Refuses a map of another program whose origin is turned by `yaw`, in rad.
+pub(crate) fn check_level(yaw: f32) -> Result<(), String> {
+    if yaw.abs() > LEVEL {
+        let turn = yaw.to_degrees();
+        return Err(format!("its origin is turned by {turn:.1}°: only maps along the axes can be read"));
+    }
+    Ok(())
+}
+
 /// Error of a raster that has too many cells, or cells without a positive size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TooManyCells(pub Raster);

@@ -1,6 +1,6 @@
 //! ROS 2 and Foxglove messages of maps, which Foxglove and Python can show.
 
-use super::{Grid, Occupancy, Raster};
+use super::{Grid, Occupancy, Raster, check_level};
 use crate::scan::{Pose2, message::FRAME};
 use apex_messages::{
     Reason, builtin_interfaces, converted,
@@ -11,15 +11,10 @@ use apex_messages::{
 };
 use apex_rt::Time;
 
-/// Values of the cells of an occupancy grid: −1 if unknown, otherwise the probability of an obstacle in %. Of other
-/// programs, cells from 65 on are occupied and those up to 19 free, as map servers of ROS have it.
+/// Values of the cells of an occupancy grid: −1 if unknown, otherwise the probability of an obstacle in %.
 const UNKNOWN: i8 = -1;
 const FREE: i8 = 0;
-const MOSTLY_FREE: i8 = 19;
-const MOSTLY_OCCUPIED: i8 = 65;
 const OCCUPIED: i8 = 100;
-/// Angle up to which an origin is along the axes, in rad.
-const LEVEL: f32 = 1e-6;
 
 impl From<&Grid<Occupancy>> for OccupancyGrid {
     fn from(grid: &Grid<Occupancy>) -> Self {
@@ -48,15 +43,10 @@ impl TryFrom<OccupancyGrid> for Grid<Occupancy> {
 
     fn try_from(OccupancyGrid { info, data, .. }: OccupancyGrid) -> Result<Self, Reason> {
         let origin = Pose2::from(&info.origin);
-        if origin.theta.abs() > LEVEL {
-            let turn = origin.theta.to_degrees();
-            return Err(format!("its origin is turned by {turn:.1}°: only maps along the axes can be read").into());
-        }
+        check_level(origin.theta)?;
         let cells = data.into_iter().map(|cell| match cell {
             UNKNOWN => Ok(Occupancy::Unknown),
-            FREE..=MOSTLY_FREE => Ok(Occupancy::Free),
-            MOSTLY_OCCUPIED..=OCCUPIED => Ok(Occupancy::Occupied),
-            between if (FREE..OCCUPIED).contains(&between) => Ok(Occupancy::Unknown),
+            FREE..=OCCUPIED => Ok(Occupancy::of_percent(f32::from(cell))),
             other => Err(format!("a cell is {other}, not in -1..=100")),
         });
         grid(raster(&origin, info.resolution, info.width, info.height), cells.collect::<Result<_, _>>()?)

@@ -18,6 +18,7 @@ mod vector;
 pub use clear::ClearBox;
 pub use containers::MarkContainers;
 pub use distance::DistanceTransform;
+pub(crate) use grid::check_level;
 pub use grid::{Cell, Grid, MAX_CELLS, Occupancy, Raster, TooManyCells};
 pub use mark::MarkScan;
 pub use morphology::{CloseUnknown, GrowObstacles, UnknownRegions, grow};
