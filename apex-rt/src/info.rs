@@ -7,7 +7,7 @@ pub struct Info {
     pub docs: &'static str,
     /// Paths of the source files.
     pub files: &'static [&'static str],
-    /// All nodes in the order of the source file.
+    /// All nodes in the order of the source file, and then the states of state machines, which are of the kind `state`.
     pub nodes: &'static [NodeInfo],
     /// The kinds of nodes: those that have the same node type and the same types of tokens are of one kind.
     pub kinds: &'static [KindInfo],
@@ -56,7 +56,8 @@ pub struct Place {
 /// A kind of nodes.
 #[derive(Debug)]
 pub struct KindInfo {
-    /// The node type as written in the source file, or the role of a node that the compiler adds: `input`, `delay`.
+    /// The node type as written in the source file, or the role of a node that the compiler adds: `input`, `delay`,
+    /// `state`.
     pub name: &'static str,
     /// First sentence of the documentation of the node type.
     pub docs: &'static str,

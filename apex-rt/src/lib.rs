@@ -82,6 +82,8 @@ pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, 
 pub use observer::Observer;
 #[cfg(feature = "std")]
 pub use observer::StdErr;
+#[doc(hidden)]
+pub use observer::turned;
 pub use out::Out;
 pub use parallel::par_map;
 pub use params::Parameters;

@@ -41,7 +41,7 @@ pub trait Observer {
         let _ = connection;
     }
 
-    /// Called when node `node` becomes active or inactive.
+    /// Called when node `node` becomes active or inactive. Each state of a state machine is a node, too.
     #[inline(always)]
     fn activity(&mut self, node: usize, active: bool) {
         let _ = (node, active);
@@ -150,6 +150,16 @@ pub trait Observer {
     #[inline(always)]
     fn tap(&mut self) -> Option<&mut crate::record::Tap> {
         None
+    }
+}
+
+/// A state machine was called. It was in state `before`, and is in `after`: both are indices in
+/// [`Info::nodes`](crate::Info::nodes).
+#[inline(always)]
+pub fn turned(observer: &mut impl Observer, before: usize, after: usize) {
+    if before != after {
+        observer.activity(before, false);
+        observer.activity(after, true);
     }
 }
 

@@ -81,13 +81,13 @@ export class Picture {
     for (const button of element("views").children) button.setAttribute("aria-pressed", String(button.dataset.view === view));
     this.place.dataset.view = view;
     this.place.replaceChildren(/** @type {any} */ (this.svg));
-    // Names are unique; a node inside a graph also lets the graph appear active.
-    const names = robot.about?.nodes.map((node) => node.name) ?? [];
+    // Names are unique; a node inside a graph also lets the graph appear active. A state machine is always in a state.
+    const nodes = robot.about?.nodes ?? [];
     this.items.clear();
     for (const element of this.svg?.querySelectorAll("[data-item]") ?? []) {
       const path = element.getAttribute("data-item") ?? "";
-      const inside = (/** @type {string} */ name) => name === path || name.startsWith(`${path}.`);
-      if (path !== "") this.items.set(path, this.item(element, path, names.flatMap((name, at) => (inside(name) ? [at] : []))));
+      const inside = (/** @type {typeof nodes[0]} */ { name, kind }) => name === path || (kind !== "state" && name.startsWith(`${path}.`));
+      if (path !== "") this.items.set(path, this.item(element, path, nodes.flatMap((node, at) => (inside(node) ? [at] : []))));
       element.classList.toggle("can-open", graphs.includes(path));
     }
     this.lines = [...(this.svg?.querySelectorAll("[data-from]") ?? [])].map((element) => ({

@@ -1,6 +1,6 @@
 //! The picture of a robot without its text, from what it says about itself: nodes in the graphs that their names tell.
 
-use crate::kinds::is_inserted;
+use crate::kinds::{is_inserted, is_state};
 use apex_diagram::{Anchor, Flow, Frame, Item, Line, Port, Shape, Side, joined};
 use apex_rt::studio::message::{About, AboutConnection, PortRole};
 use std::collections::BTreeMap;
@@ -12,7 +12,9 @@ const MAX_RELAYS: usize = 64;
 pub fn drawn(about: &About) -> Item {
     let mut graphs = Graphs { all: vec![Graph::new(&about.name, None)], place: BTreeMap::new() };
     for (at, node) in about.nodes.iter().enumerate() {
-        if !is_inserted(&node.kind) {
+        if is_state(&node.kind) {
+            graphs.state(about, &node.name);
+        } else if !is_inserted(&node.kind) {
             graphs.add(at, &node.name, &node.kind, &node.docs);
         }
     }
@@ -96,6 +98,17 @@ impl Graphs {
         docs.clone_into(&mut item.docs);
         self.place.insert(node, (graph, self.all[graph].items.len()));
         self.all[graph].items.push(Member::Node(item));
+    }
+
+    /// A state of a state machine, which comes before it. What leads from one to another is not known.
+    fn state(&mut self, about: &About, name: &str) {
+        let inside = |at: &usize| name.strip_prefix(&about.nodes[*at].name).and_then(|rest| rest.strip_prefix('.'));
+        let machine = self.place.iter().find_map(|(at, place)| Some((*place, inside(at)?)));
+        let Some(((graph, at), state)) = machine else { return };
+        if let Member::Node(item) = &mut self.all[graph].items[at] {
+            let states = item.states.get_or_insert_default();
+            states.items.push(Item { active: true, ..Item::new(Shape::State, state) });
+        }
     }
 
     fn connect(&mut self, about: &About, connection: &AboutConnection, to: (usize, &str), takes: PortRole) {
@@ -206,6 +219,18 @@ mod tests {
         samples::{node, robot},
     };
     use apex_rt::studio::message::AboutNode;
+
+    #[test]
+    fn states_are_in_their_machines() {
+        let mut about = robot(&[]);
+        about.nodes = vec![node("a.m", "Mission"), node("a.m.fetch.drive", "state"), node("a.m.wait", "state")];
+        let picture = Picture::new(drawn(&about));
+        assert_eq!(picture.states(&about), [0, 1, 2]);
+        let (svg, _) = picture.drawn(View::Activity, &picture.first_open(View::Activity), &about);
+        for name in ["a.m.fetch.drive", "a.m.wait"] {
+            assert!(svg.contains(&format!("data-item=\"{name}\"")), "{name}: {svg}");
+        }
+    }
 
     #[test]
     fn nodes_are_in_the_graphs_of_their_names_and_lines_lead_to_their_connections() {

@@ -2,6 +2,7 @@
 
 use apex_macros::graph;
 use apex_rt::prelude::*;
+use apex_tests::{Log, active};
 
 graph!("machines.afg");
 
@@ -63,4 +64,23 @@ fn a_machine_resumes_what_it_left() {
     assert_eq!(["low", "go"].map(&mut at), [Charge, WorkIdle], "without `resume`, it begins anew");
     assert_eq!(program.nodes().steps.seen, [10, 20, 20, 30, 30, 20, 30, 20]);
     assert_eq!(program.nodes().lamps.seen, [1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1]);
+}
+
+#[test]
+fn observers_see_states_like_active_nodes() {
+    let mut program = Machine::new();
+    let mut log = Log::of(&program);
+    program.react_with(Time::ZERO, &mut log);
+    assert_eq!(active(&program), "mission.waiting");
+    program.inputs().go.put(()).unwrap();
+    program.react_with(Time::ZERO, &mut log);
+    assert_eq!(active(&program), "mission.fetch.plan");
+    // It stays in its state.
+    program.inputs().arrived.put(1).unwrap();
+    program.react_with(Time::ZERO, &mut log);
+    program.inputs().failed.put(()).unwrap();
+    program.react_with(Time::ZERO, &mut log);
+    let [waiting, plan] = ["mission.waiting", "mission.fetch.plan"];
+    let expected = [(waiting, true), (waiting, false), (plan, true), (plan, false), (waiting, true)];
+    assert_eq!(log.activity, expected);
 }

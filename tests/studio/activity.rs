@@ -1,7 +1,7 @@
 //! The picture of the robot: its activity, which anybody can read, and its wiring, in which one finds one's way.
 
 use crate::{
-    Tends,
+    Pumps, Tends,
     browser::Browser,
     page::{RUNNING, Started, start_of, studio_for_file, wiring},
 };
@@ -65,6 +65,24 @@ fn the_page_says_what_the_robot_does_and_since_when() {
     page.value("import('./studio.js').then(({ picture }) => picture.jump('second.two'))");
     page.wait_for("document.querySelector('[data-item=\"second.two\"].is-selected')");
     assert_eq!(page.value("document.getElementById('picture').dataset.view"), "wiring");
+    assert_eq!(page.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn the_state_of_a_state_machine_is_lit() {
+    let _robot = start_of("pump", Pumps::new, 3600);
+    let Some(mut page) = Browser::open(&studio_for_file("pump", "studio/pump.afg")) else { return };
+    page.size(1000, 700, false);
+    page.wait_for(RUNNING);
+    for state in ["rest", "run.fill", "run.settle"] {
+        page.wait_for(&format!("document.querySelector('[data-item=\"pump.{state}\"].is-active')"));
+        assert_eq!(page.value("document.querySelectorAll('[data-item^=\"pump.\"].is-active').length"), 1);
+        page.wait_for("document.getElementById('does').textContent.includes('pump')");
+    }
+    // The machine itself is always in a state: it would always be lit.
+    assert_eq!(page.value("document.querySelector('[data-item=pump]').classList.contains('is-active')"), false);
+    page.click("document.querySelector('[data-item=\"pump.run.settle\"]')");
+    page.wait_for("document.querySelector('[data-item=\"pump.run.settle\"].is-selected')");
     assert_eq!(page.complaints, Vec::<String>::new());
 }
 

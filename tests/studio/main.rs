@@ -27,6 +27,7 @@ use std::{env, path::PathBuf};
 
 graph!("studio/counts.afg");
 graph!("studio/counts_moment.afg");
+graph!("studio/pump.afg");
 graph!("studio/tends.afg");
 
 /// A socket for the program of a test.

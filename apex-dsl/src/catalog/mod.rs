@@ -26,7 +26,7 @@ pub use constants::{Constant, is_path};
 pub use docs::{first_sentence, linkless};
 pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
 pub use reach::Site;
-pub use signature::{ArgSig, ParamSig, PortSig, ReturnSig, Signature, SignatureId, SlotSig};
+pub use signature::{ArgSig, MachineSig, ParamSig, PortSig, ReturnSig, Signature, SignatureId, SlotSig};
 pub use structs::{Field, Struct, Structure};
 pub use traits::Trait;
 pub use tree::{DefId, ModuleId, Need};
@@ -242,7 +242,7 @@ impl Catalog {
             on_activate: methods.iter().find_map(|m| m.on_activate.clone()),
             on_deactivate: methods.iter().find_map(|m| m.on_deactivate.clone()),
             on_stop: methods.iter().find_map(|m| m.on_stop.clone()),
-            moved: None,
+            machine: None,
             deactivates: node.deactivates,
             computed: node.computed,
         }

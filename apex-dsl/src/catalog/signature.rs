@@ -50,15 +50,24 @@ pub struct Signature {
     pub on_deactivate: Option<String>,
     /// Method that is called when the program ends.
     pub on_stop: Option<String>,
-    /// For a state machine: the numbers of the events that its `exit`s and `entry`s trigger, which are the arguments of
-    /// the methods by which `reset`, `cancel` and `resume` move it to another state.
-    pub moved: Option<Vec<usize>>,
+    /// What a state machine has besides.
+    pub machine: Option<MachineSig>,
     /// `true` if its tokens take activity away instead of passing it on.
     pub deactivates: bool,
     /// `true` if nothing in its tokens comes from outside of the program, also if it has no inputs.
     pub computed: bool,
     /// Part of the Rust libraries that the node needs, and the reason.
     pub needs: Option<(Need, String)>,
+}
+
+/// What the node type of a state machine has besides.
+#[derive(Debug, Clone)]
+pub struct MachineSig {
+    /// The innermost states, by path. The first one is the initial state.
+    pub states: Vec<String>,
+    /// The numbers of the events that its `exit`s and `entry`s trigger, which are the arguments of the methods by which
+    /// `reset`, `cancel` and `resume` move it to another state.
+    pub moved: Vec<usize>,
 }
 
 /// A slot of a node type.

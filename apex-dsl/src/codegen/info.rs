@@ -1,6 +1,6 @@
 //! The table that describes a program.
 
-use super::{Generator, distinct::Distinct, threads::end_if_hung, types::nanos};
+use super::{Generator, distinct::Distinct, names::machines, threads::end_if_hung, types::nanos};
 use crate::{
     analyse::Analysis,
     catalog::{first_sentence, linkless},
@@ -33,6 +33,7 @@ impl Generator<'_> {
         let (name, docs) = (&graph.name, &graph.docs);
         let mut rows = Rows::default();
         self.rows(graph, analysis, "", &mut rows);
+        self.state_rows(graph, &mut rows);
         let Rows { nodes, connections, kinds, files } = rows;
         let files = files.iter().map(|file| self.sources.get(*file).path.display().to_string());
         let kinds = kinds.rows();
@@ -81,6 +82,19 @@ impl Generator<'_> {
             if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
                 let prefix = format!("{prefix}{}.", graph.path(id));
                 self.inside(graph, id).rows(&each.body, body, &prefix, rows);
+            }
+        }
+    }
+
+    /// Adds the states of all state machines.
+    fn state_rows(&self, graph: &Graph, rows: &mut Rows) {
+        for (id, machine) in machines(graph, self.catalog) {
+            let kind = rows.kinds.number(quote!(::apex_rt::KindInfo::new("state", "", &[])));
+            let (kind, path) = (Literal::usize_unsuffixed(kind), graph.path(id));
+            let place = self.place_row(graph.nodes[id].span, &mut rows.files);
+            for state in &machine.states {
+                let name = format!("{path}.{state}");
+                rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, false, false)));
             }
         }
     }

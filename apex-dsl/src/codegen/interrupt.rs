@@ -115,13 +115,14 @@ impl Generator<'_> {
     /// Moves a state machine to another state, and sends its events. Nothing for other nodes.
     pub fn move_machine(&self, view: ProgramView<'_>, node: NodeId, how: Move) -> TokenStream {
         let NodeKind::Library(library) = &view.graph.nodes[node].kind else { return quote!() };
-        let Some(moved) = &self.catalog.signatures[library.signature].moved else { return quote!() };
-        let events = moved.iter().map(|port| self.event(view, PortId { node, port: *port }));
+        let Some(machine) = &self.catalog.signatures[library.signature].machine else { return quote!() };
+        let events = machine.moved.iter().map(|port| self.event(view, PortId { node, port: *port }));
         let (place, method) = (self.node_place(view.graph, node), ident(how.method()));
         // Its other events may still be on their way.
         let comes = |end: PortId| view.graph.port(end).comes_with_moves;
         let (clear, emit) = (self.clear(view, node, &comes), self.emit_from(view, node, &comes));
-        quote! { #clear #place.#method(#(#events),*); #emit }
+        let call = self.states_told(view.graph, node, quote! { #place.#method(#(#events),*); });
+        quote! { #clear #call #emit }
     }
 
     /// Remembers the nodes among `nodes` to which the activity of `node` is given back.

@@ -34,6 +34,7 @@ mod test;
 mod text;
 mod threads;
 mod timers;
+mod told_states;
 mod types;
 mod wiring;
 mod witness;
@@ -97,7 +98,7 @@ fn program(
     let graph = &program.graph;
     let bugs = Bugs::new(graph.span);
     let mut used = BTreeSet::new();
-    let names = Names::new(graph, "", &mut 0, &mut used);
+    let names = Names::new(graph, catalog, &mut used);
     let cells = program.split.as_ref().map_or(&[][..], |split| &split.cells);
     let parts = program.split.as_ref().map_or(&[][..], |split| &split.parts);
     let channels = record::Channels::new(graph, &program.analysis, catalog, parts);
@@ -140,7 +141,7 @@ fn each_part(
 ) {
     let graph = &program.graph;
     let mut used = BTreeSet::new();
-    let names = Names::new(graph, "", &mut 0, &mut used);
+    let names = Names::new(graph, catalog, &mut used);
     let bugs = Bugs::new(graph.span);
     let place = |_| proc_macro2::Span::call_site();
     let generator = Generator {
@@ -160,7 +161,7 @@ fn each_part(
         let wiring = Wiring::new(&generator, graph, &program.analysis);
         return visit(&generator, ProgramView::new(graph, &program.analysis, &wiring), None);
     };
-    for (part, number) in split.parts.iter().zip(names.count()..) {
+    for (part, number) in split.parts.iter().zip(names.beyond..) {
         let names = names.of_part(part, number, &mut used);
         let generator = Generator { names: &names, part: Some((graph, part)), cells: &split.cells, ..generator };
         let wiring = Wiring::new(&generator, &part.graph, &part.analysis);

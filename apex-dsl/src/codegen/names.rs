@@ -2,6 +2,7 @@
 
 use super::{Generator, types::ident};
 use crate::{
+    catalog::{Catalog, MachineSig},
     graph::{Graph, Node, NodeId, NodeKind, PortId},
     index::IdVec,
     threads::{Origin, Part},
@@ -16,16 +17,33 @@ pub struct Names {
     pub number: usize,
     /// The number of each node in the table of all nodes.
     pub numbers: IdVec<NodeId, usize>,
+    /// The number of the first state of each state machine in the table of all nodes, where its states come behind the
+    /// nodes. A machine in the body of an `each` has none: it is in several states at once.
+    pub states: BTreeMap<NodeId, usize>,
     tokens: BTreeMap<PortId, String>,
     /// Fields of the tokens that delays hold.
     held: BTreeMap<NodeId, String>,
     /// Fields of the activity of these tokens.
     held_activity: BTreeMap<NodeId, String>,
     pub inner: BTreeMap<NodeId, Names>,
+    /// More than any number of a program.
+    pub beyond: usize,
 }
 
 impl Names {
-    pub fn new(graph: &Graph, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
+    /// The names of a program and the bodies of its `each`.
+    pub fn new(graph: &Graph, catalog: &Catalog, used: &mut BTreeSet<String>) -> Self {
+        let mut count = 0;
+        let mut names = Self::of_graph(graph, "", &mut count, used);
+        for (node, machine) in machines(graph, catalog) {
+            names.states.insert(node, count);
+            count += machine.states.len();
+        }
+        names.beyond = count;
+        names
+    }
+
+    fn of_graph(graph: &Graph, prefix: &str, count: &mut usize, used: &mut BTreeSet<String>) -> Self {
         // No other graph has nodes with these numbers.
         let mut names = Self { number: *count, ..Self::default() };
         names.numbers = (*count..*count + graph.nodes.len()).collect();
@@ -34,16 +52,10 @@ impl Names {
             let path = format!("{prefix}{}", graph.path(node).replace('.', "_"));
             names.add(node, n, &path, used);
             if let NodeKind::Each(each) = &n.kind {
-                names.inner.insert(node, Self::new(&each.body, &format!("{path}_"), count, used));
+                names.inner.insert(node, Self::of_graph(&each.body, &format!("{path}_"), count, used));
             }
         }
         names
-    }
-
-    /// More than any number in it.
-    pub fn count(&self) -> usize {
-        let inner = self.inner.values().map(Self::count).max().unwrap_or(0);
-        self.numbers.iter().map(|number| number + 1).max().unwrap_or(0).max(inner)
     }
 
     /// The names of a node and its tokens.
@@ -70,7 +82,7 @@ impl Names {
         for (node, n) in part.graph.nodes.iter_enumerated() {
             let Origin::Node(origin) = part.origins[node] else {
                 // It is not a node of the program: its number lies beyond those that observers know.
-                names.numbers.push(self.count() + node.index());
+                names.numbers.push(self.beyond + node.index());
                 names.add(node, n, &format!("cell_{}", node.index()), used);
                 continue;
             };
@@ -80,6 +92,7 @@ impl Names {
             names.tokens.extend(tokens.map(|(end, name)| (PortId { node, port: end.port }, name.clone())));
             names.held.extend(self.held.get(&origin).map(|name| (node, name.clone())));
             names.held_activity.extend(self.held_activity.get(&origin).map(|name| (node, name.clone())));
+            names.states.extend(self.states.get(&origin).map(|first| (node, *first)));
             names.inner.extend(self.inner.get(&origin).map(|inner| (node, inner.clone())));
         }
         names
@@ -126,6 +139,15 @@ pub fn item(program: &Graph, part: Option<&Part>, kind: &str) -> Ident {
     let name = format!("{group}{kind}");
     // The program has the name that the text gives it.
     ident(&if name == program.name { name + "_" } else { name })
+}
+
+/// The state machines of a graph.
+pub fn machines<'a>(graph: &'a Graph, catalog: &'a Catalog) -> impl Iterator<Item = (NodeId, &'a MachineSig)> {
+    let machine = |node: &Node| match &node.kind {
+        NodeKind::Library(library) => catalog.signatures[library.signature].machine.as_ref(),
+        _ => None,
+    };
+    graph.nodes.iter_enumerated().filter_map(move |(id, node)| Some((id, machine(node)?)))
 }
 
 impl Generator<'_> {

@@ -324,13 +324,17 @@ impl Generator<'_> {
 
     /// Function that tells if a node is active, by its index.
     pub fn is_active(&self, view: ProgramView<'_>) -> TokenStream {
-        if view.analysis.active.is_empty() {
-            return quote!();
-        }
-        if view.analysis.active.iter().all(|node| view.graph.nodes[*node].is_delay()) {
-            return quote!();
-        }
-        quote! { fn is_active(&self, node: usize) -> bool { self.state.active.has(node) } }
+        let states = self.is_in_state(view);
+        let is_active = match view.analysis.active.iter().all(|node| view.graph.nodes[*node].is_delay()) {
+            true if states.is_empty() => return quote!(),
+            true => quote!(false),
+            false => quote!(self.state.active.has(node)),
+        };
+        let is_active = match states.is_empty() {
+            true => is_active,
+            false => quote! { match node { #states _ => #is_active } },
+        };
+        quote! { fn is_active(&self, node: usize) -> bool { #is_active } }
     }
 }
 

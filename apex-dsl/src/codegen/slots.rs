@@ -295,7 +295,7 @@ impl Generator<'_> {
         } else {
             quote! { #call; #late }
         };
-        let call = self.recorded_slot(graph, node, call);
+        let call = self.recorded_slot(graph, node, self.states_told(graph, node, call));
         if graph.nodes[node].can_be_disabled() {
             let is_enabled = self.is_set(Flag::Enabled(node));
             quote! { if #is_enabled { #call } }
@@ -430,8 +430,8 @@ impl Generator<'_> {
     /// Code that runs once, before the first reaction.
     pub fn first(&self, view: ProgramView<'_>) -> TokenStream {
         let watches = view.graph.nodes.ids().map(|node| self.watch_silence(view, node));
-        let begin = self.begin(view);
-        quote! { #(#watches)* #begin }
+        let (initial, begin) = (self.initial_states(), self.begin(view));
+        quote! { #(#watches)* #initial #begin }
     }
 
     /// `reset`: nothing is active, no token under way carries activity, and `start` is triggered again.

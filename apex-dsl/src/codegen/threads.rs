@@ -34,7 +34,7 @@ impl Generator<'_> {
         split: &Split,
         used: &mut BTreeSet<String>,
     ) -> TokenStream {
-        let parts = split.parts.iter().zip(self.names.count()..);
+        let parts = split.parts.iter().zip(self.names.beyond..);
         let names: Vec<Names> = parts.map(|(part, number)| self.names.of_part(part, number, used)).collect();
         let of_part = |i: usize| Generator { names: &names[i], part: Some((graph, &split.parts[i])), ..*self };
         let all = Program { generator: self, graph, split, parts: (0..names.len()).map(of_part).collect() };

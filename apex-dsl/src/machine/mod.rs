@@ -6,7 +6,7 @@ mod translate;
 pub use translate::translation;
 
 use crate::{
-    catalog::{ArgSig, PortSig, Signature, SignatureId, SlotSig, Type},
+    catalog::{ArgSig, MachineSig, PortSig, Signature, SignatureId, SlotSig, Type},
     graph::{Condition, Value},
     syntax::tree::PortKind,
 };
@@ -166,7 +166,7 @@ impl Machine {
             computed: true,
             ports,
             slots,
-            moved: Some(self.moved()),
+            machine: Some(MachineSig { states: self.states.clone(), moved: self.moved() }),
             ..Signature::default()
         }
     }

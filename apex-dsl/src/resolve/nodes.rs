@@ -173,7 +173,7 @@ fn library_ports(signature: &Signature) -> Vec<Port> {
         element_of: p.any_number.then_some(i),
         parameter: None,
         standard: None,
-        comes_with_moves: signature.moved.as_ref().is_some_and(|moved| moved.contains(&i)),
+        comes_with_moves: signature.machine.as_ref().is_some_and(|machine| machine.moved.contains(&i)),
         docs: p.docs.clone(),
     });
     let params = signature.params.iter().enumerate().flat_map(|(i, p)| {
