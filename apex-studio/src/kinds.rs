@@ -1,4 +1,4 @@
-//! Kinds of nodes that are not those of a source: ports of the program, states, and nodes that the compiler has inserted.
+//! Kinds of nodes that are not in a source: ports of the program, states, and nodes that the compiler has inserted.
 
 /// `true` for a node that the compiler has inserted into a connection, and that pictures do not show.
 pub fn is_inserted(kind: &str) -> bool {

@@ -50,7 +50,7 @@ pub struct Signature {
     pub on_deactivate: Option<String>,
     /// Method that is called when the program ends.
     pub on_stop: Option<String>,
-    /// What a state machine has besides.
+    /// States and moves of a state machine.
     pub machine: Option<MachineSig>,
     /// `true` if its tokens take activity away instead of passing it on.
     pub deactivates: bool,
@@ -60,7 +60,7 @@ pub struct Signature {
     pub needs: Option<(Need, String)>,
 }
 
-/// What the node type of a state machine has besides.
+/// States and moves of the node type of a state machine.
 #[derive(Debug, Clone)]
 pub struct MachineSig {
     /// The innermost states, by path. The first one is the initial state.

@@ -1,5 +1,4 @@
-//! What observers are told of the states of state machines: each is like a node that is active while the machine is in
-//! it.
+//! Observation of state machines: each state is like a node that is active while the machine is in it.
 
 use super::{Generator, activity::ProgramView};
 use crate::graph::{Graph, NodeId};
