@@ -2,6 +2,7 @@
 
 use crate::{
     cargo::{Packages, call_of},
+    forms::{difference, forms, items},
     judge::Failure,
 };
 use apex_dsl::{
@@ -13,7 +14,9 @@ use apex_dsl::{
     source::{Sources, World},
 };
 use apex_host::{Disk, Seen};
+use apex_ide::View;
 use apex_tests::texts::{Call, Case, Shape};
+use proc_macro2::TokenStream;
 use rayon::prelude::*;
 use std::{
     any::Any,
@@ -104,25 +107,78 @@ fn compile(path: &Path, crates: Crates, (file, line): &(PathBuf, usize)) -> Chec
     let mut disk = Disk::new(None);
     let mut catalog = Catalog::load(crates, &mut disk);
     catalog.stand_at(file, *line);
-    let mut sources = Sources::default();
     let Ok(text) = disk.read(path) else { return Checked::Refused("file".to_owned()) };
-    let root = sources.add(path, text);
-    let mut diagnostics = Diagnostics::default();
-    let checked = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
-    let place = |_| proc_macro2::Span::call_site();
-    let passes::Checked { programs, texts, .. } = checked;
-    passes::generate(&programs, &texts.machines, &catalog, &sources, &place, true, &mut diagnostics);
-    for diagnostic in diagnostics.sorted() {
-        render(diagnostic, &sources, false);
-        json(diagnostic, &sources);
+    let written = Compiled::new(path, &text, &mut catalog, &mut disk);
+    for diagnostic in written.diagnostics.sorted() {
+        render(diagnostic, &written.sources, false);
+        json(diagnostic, &written.sources);
     }
-    let first = diagnostics.sorted().into_iter().find(|d| d.severity == Severity::Error);
-    match first {
-        Some(error) => refused(error, &sources),
-        None => programs
-            .iter()
-            .find_map(|p| unspelled(p, &catalog))
-            .unwrap_or_else(|| Checked::Accepted(programs.iter().flat_map(|p| node_names(&p.graph)).collect())),
+    if let Some(error) = written.error() {
+        let verdict = refused(error, &written.sources);
+        let form = accepted_form(&written, path, &text, &mut catalog, &mut disk);
+        return form.filter(|_| matches!(verdict, Checked::Refused(_))).unwrap_or(verdict);
+    }
+    let programs = &written.checked.programs;
+    if let Some(failed) = programs.iter().find_map(|program| unspelled(program, &catalog)) {
+        return failed;
+    }
+    let names = programs.iter().flat_map(|program| node_names(&program.graph)).collect();
+    for form in forms(&written.view(&catalog), &text) {
+        let other = Compiled::new(path, &form.text, &mut catalog, &mut disk);
+        let difference = match other.error() {
+            Some(error) => Some(format!("refused: {}", error.message)),
+            None => difference(&items(&written.code), &items(&other.code)),
+        };
+        if let Some(what) = difference {
+            let what = format!("{} text\n{what}\n{}", form.kind, form.text);
+            return Checked::Failed(Failure::Form(form.kind, what));
+        }
+    }
+    Checked::Accepted(names)
+}
+
+/// A form of a refused text that is not refused, although the text can be read.
+fn accepted_form(
+    written: &Compiled,
+    path: &Path,
+    text: &str,
+    catalog: &mut Catalog,
+    disk: &mut Disk,
+) -> Option<Checked> {
+    let kinds = ["reversed", "formatted"];
+    let is_readable = written.checked.texts.files.first().is_some_and(|(_, file)| !file.broken);
+    let forms = if is_readable { forms(&written.view(catalog), text) } else { vec![] };
+    forms.into_iter().filter(|form| kinds.contains(&form.kind)).find_map(|form| {
+        let other = Compiled::new(path, &form.text, catalog, disk);
+        let what = format!("{} text is accepted\n{}", form.kind, form.text);
+        other.error().is_none().then(|| Checked::Failed(Failure::Form(form.kind, what)))
+    })
+}
+
+/// Results of the compiler for a text.
+struct Compiled {
+    sources: Sources,
+    diagnostics: Diagnostics,
+    checked: passes::Checked,
+    code: TokenStream,
+}
+
+impl Compiled {
+    fn new(path: &Path, text: &str, catalog: &mut Catalog, disk: &mut Disk) -> Self {
+        let (mut sources, mut diagnostics) = (Sources::default(), Diagnostics::default());
+        let root = sources.add(path, text.to_owned());
+        let checked = passes::check(root, catalog, &mut sources, disk, &mut diagnostics);
+        let (place, machines) = (|_| proc_macro2::Span::call_site(), &checked.texts.machines);
+        let code = passes::generate(&checked.programs, machines, catalog, &sources, &place, true, &mut diagnostics);
+        Self { sources, diagnostics, checked, code }
+    }
+
+    fn error(&self) -> Option<&Diagnostic> {
+        self.diagnostics.sorted().into_iter().find(|d| d.severity == Severity::Error)
+    }
+
+    fn view<'a>(&'a self, catalog: &'a Catalog) -> View<'a> {
+        View { texts: &self.checked.texts, links: &self.checked.links, sources: &self.sources, catalog }
     }
 }
 

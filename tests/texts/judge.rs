@@ -22,6 +22,8 @@ pub enum Failure {
     Named(Vec<Message>),
     /// The Rust code beside the source file has an error, because of a mistake of the generator.
     Rust(Vec<Message>),
+    /// The same program in another form is refused, or compiled to something else.
+    Form(&'static str, String),
     /// Its tests do not end, differ from run to run, or end by a panic that is not one of their own.
     Run(String),
 }
@@ -38,6 +40,7 @@ impl Failure {
                 format!("rustc: {}", messages.first().map(class).unwrap_or_default())
             }
             Self::Rust(messages) => format!("RUST: {}", messages.first().map(class).unwrap_or_default()),
+            Self::Form(kind, _) => format!("form: {kind}"),
             Self::Run(why) => format!("run: {}", plain(why)),
         }
     }
@@ -49,6 +52,7 @@ impl fmt::Display for Failure {
             Self::Panic(text) | Self::Hang(text) | Self::Outside(text) | Self::Unspelled(text) | Self::Run(text) => {
                 write!(f, "{text}")
             }
+            Self::Form(_, text) => write!(f, "{text}"),
             Self::Rustc(messages) | Self::Named(messages) | Self::Rust(messages) => {
                 messages.iter().take(3).try_for_each(|m| write!(f, "{}", m.rendered))
             }

@@ -6,6 +6,7 @@
 
 mod cargo;
 mod check;
+mod forms;
 mod judge;
 
 use apex_tests::texts::{Case, Kind, Shape, generate};

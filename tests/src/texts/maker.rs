@@ -2,6 +2,7 @@
 
 use super::{
     case::{Call, Case, Item, Shape, Text},
+    extra,
     graph::Interface,
     kinds::{KINDS, Kind},
     machine, names,
@@ -67,6 +68,7 @@ pub fn generate(seed: u64) -> Case {
     if maker.dice.one_in(3) {
         variant::publish(&mut maker);
     }
+    extra::add(&mut maker);
     maker.case(seed)
 }
 

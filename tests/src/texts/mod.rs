@@ -2,6 +2,7 @@
 //! accepts a source file, rustc must accept it. If the compiler rejects it, its first error must be in the source file.
 
 mod case;
+mod extra;
 mod graph;
 mod kinds;
 mod machine;
