@@ -151,7 +151,7 @@ fn accepted_form(
     forms.into_iter().filter(|form| kinds.contains(&form.kind)).find_map(|form| {
         let other = Compiled::new(path, &form.text, catalog, disk);
         let what = format!("{} text is accepted\n{}", form.kind, form.text);
-        other.error().is_none().then(|| Checked::Failed(Failure::Form(form.kind, what)))
+        other.error().is_none().then_some(Checked::Failed(Failure::Form(form.kind, what)))
     })
 }
 

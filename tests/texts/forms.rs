@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 /// A source file in another form.
 pub struct Form {
-    /// What was done to it.
+    /// Name of the form.
     pub kind: &'static str,
     /// The text.
     pub text: String,
