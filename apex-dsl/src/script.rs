@@ -64,15 +64,24 @@ pub struct Varied {
     pub span: Span,
 }
 
+/// An observed token, or a field of it.
+#[derive(Debug, Clone)]
+pub struct Observed {
+    /// The probe at the port.
+    pub probe: NodeId,
+    /// The fields on the way from the token to what is observed; none for the token itself.
+    pub fields: Vec<String>,
+    /// Type of what is observed.
+    pub ty: Type,
+}
+
 /// A goal of a study: the last token of a run at a port.
 #[derive(Debug, Clone)]
 pub struct Goal {
     /// Name of the port, as written.
     pub name: String,
-    /// The probe at the port.
-    pub probe: NodeId,
-    /// Type of its tokens: a number or a time.
-    pub ty: Type,
+    /// The observed number or time.
+    pub of: Observed,
     /// Unit of its tokens.
     pub unit: Option<String>,
     /// `true` if greater is better.
@@ -141,6 +150,8 @@ pub struct Seen {
 pub enum What {
     /// A node or nested graph is active.
     Active(Subject),
+    /// A state machine is in one of these states, by their numbers.
+    InState(NodeId, Vec<usize>),
     /// A token arrives at a probe and satisfies the condition, if there is one.
-    Token(NodeId, Option<Condition>),
+    Token(Observed, Option<Condition>),
 }

@@ -300,6 +300,11 @@ impl Completer<'_> {
             Some(NodeType::Graph(inside)) if named == Named::Tested => {
                 found.extend(self.names(Some(inside), Named::Node, None))
             }
+            Some(NodeType::Machine(machine)) if named == Named::Tested => {
+                found.extend(self.view.state_paths(machine).iter().map(|state| {
+                    Completion::new(state, CompletionKind::Name, "", "In `active(…)`: the machine is in this state.")
+                }));
+            }
             Some(NodeType::Graph(_)) => found.extend(standard_ports(named, types.as_deref(), Standard::is_shared)),
             Some(_) => found.extend(standard_ports(named, types.as_deref(), |_| true)),
             None => {}
@@ -336,8 +341,12 @@ impl Completer<'_> {
         let mut found: Vec<Completion> = ports.collect();
         if !fed {
             found.extend(self.names(Some(id), Named::Node, None));
-            let active =
-                Completion::new("active", CompletionKind::Keyword, "", "True if a node or nested graph is active.");
+            let active = Completion::new(
+                "active",
+                CompletionKind::Keyword,
+                "",
+                "True if a node or nested graph is active, or a machine in a state.",
+            );
             found.push(Completion { snippet: Some("active($1)".to_owned()), ..active });
         }
         found

@@ -300,6 +300,18 @@ impl<'a> View<'a> {
         all
     }
 
+    /// The paths of all states of a machine: `fetch.drive`.
+    pub fn state_paths(&self, id: MachineId) -> Vec<String> {
+        let mut open: Vec<(String, &StateItem)> =
+            self.machine(id).states.iter().rev().map(|state| (state.name.text.clone(), state)).collect();
+        let mut all = vec![];
+        while let Some((path, state)) = open.pop() {
+            open.extend(state.states.iter().rev().map(|inner| (format!("{path}.{}", inner.name.text), inner)));
+            all.push(path);
+        }
+        all
+    }
+
     /// The place of a definition.
     pub fn origin(&self, definition: Definition) -> Option<Origin> {
         if let Some(name) = self.declared_name(definition) {

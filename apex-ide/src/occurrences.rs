@@ -274,7 +274,16 @@ impl<'a> Walker<'a, '_> {
     }
 
     /// A node or port of a graph. A test also refers to nodes inside nested graphs.
+    /// What `active(…)` names: a node, a nested graph, or a state of a machine, which may have the name of a port.
+    fn active(&mut self, graph: GraphId, reference: &PortRef) {
+        self.named(graph, reference, true);
+    }
+
     fn reference(&mut self, graph: GraphId, reference: &PortRef) {
+        self.named(graph, reference, false);
+    }
+
+    fn named(&mut self, graph: GraphId, reference: &PortRef, active: bool) {
         let mut graph = graph;
         let mut parts = reference.parts.as_slice();
         while let [first, rest @ ..] = parts {
@@ -285,6 +294,13 @@ impl<'a> Walker<'a, '_> {
             self.used(first, definition);
             let (Definition::Instance(id, node), [port, ..]) = (definition, rest) else { return };
             let made = self.made_of(id, node);
+            if let (Some(NodeType::Machine(id)), true) = (made, active) {
+                for name in rest {
+                    let state = self.declared.states[&id].get(name.text.as_str()).copied();
+                    state.iter().for_each(|state| self.used(name, *state));
+                }
+                return;
+            }
             if let Some(definition) = made.and_then(|made| self.port(made, &port.text)) {
                 return self.used(port, definition);
             }
@@ -505,6 +521,9 @@ impl<'a> Walker<'a, '_> {
                 TestStep::Feed(port, ..) | TestStep::FeedRecorded(port, ..) => {
                     let definition = self.declared.graphs[&id].get(port.text.as_str()).copied();
                     definition.iter().for_each(|d| self.used(port, *d));
+                }
+                TestStep::Expect(condition, _) | TestStep::Never(condition) if condition.active => {
+                    self.active(id, &condition.of);
                 }
                 TestStep::Expect(condition, _) | TestStep::Never(condition) => self.reference(id, &condition.of),
                 TestStep::Wait(_) => {}

@@ -2,7 +2,7 @@
 
 use super::{DefaultValue, Need, Type};
 use crate::{index::id, syntax::tree::PortKind, units};
-use std::path::PathBuf;
+use std::{collections::BTreeMap, path::PathBuf};
 
 id! {
     /// Number of a node signature in [`Catalog::signatures`](super::Catalog::signatures).
@@ -68,6 +68,18 @@ pub struct MachineSig {
     /// The numbers of the events that its `exit`s and `entry`s trigger, which are the arguments of the methods by which
     /// `reset`, `cancel` and `resume` move it to another state.
     pub moved: Vec<usize>,
+}
+
+impl MachineSig {
+    /// All states, also those with states inside, by path, each with the numbers of the innermost states in it.
+    pub fn all_states(&self) -> BTreeMap<&str, Vec<usize>> {
+        let mut found: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        for (number, state) in self.states.iter().enumerate() {
+            let ends = state.match_indices('.').map(|(end, _)| end).chain([state.len()]);
+            ends.for_each(|end| found.entry(&state[..end]).or_default().push(number));
+        }
+        found
+    }
 }
 
 /// A slot of a node type.

@@ -50,20 +50,30 @@ impl Catalog {
                 other => Structure::Other(other),
             };
         };
+        let ItemKind::Type(declared) = &self.tree.defs[*def].kind else { return Structure::Other(named) };
+        let params = declared.generics.iter().map(|name| Type::Param(name.clone())).collect();
+        match self.struct_of(&Type::Def(*def, name.clone(), params)) {
+            Some(known) => Structure::Known(known),
+            None => Structure::Other(named),
+        }
+    }
+
+    /// The struct that a type is, if its fields are known.
+    pub fn struct_of(&self, ty: &Type) -> Option<Struct> {
+        let Type::Def(def, _, args) = ty else { return None };
         let item = &self.tree.defs[*def];
-        let ItemKind::Type(declared) = &item.kind else { return Structure::Other(named) };
-        let Some(fields) = &declared.fields else { return Structure::Other(named) };
+        let ItemKind::Type(declared) = &item.kind else { return None };
+        let argument = |name: &str| args.get(declared.generics.iter().position(|param| param == name)?).cloned();
         let field = |field: &super::items::FieldItem| Field {
             name: field.name.clone(),
-            ty: self.type_of(&field.ty, item.module, &declared.generics),
+            ty: self.type_of(&field.ty, item.module, &declared.generics).substitute(&argument),
             is_visible: self.tree.sees_field(item.module, &field.seen, self.site),
         };
-        let params = declared.generics.iter().map(|name| Type::Param(name.clone())).collect();
         let (file, line) = self.place(*def);
-        Structure::Known(Struct {
+        Some(Struct {
             path: self.path(*def).map(<[String]>::to_vec),
-            ty: Type::Def(*def, name.clone(), params),
-            fields: fields.iter().map(field).collect(),
+            ty: ty.clone(),
+            fields: declared.fields.as_ref()?.iter().map(field).collect(),
             place: format!("{}:{line}", file.display()),
         })
     }

@@ -10,10 +10,11 @@ use super::{
 };
 use crate::{
     graph::{Graph, NodeId, PortId, Subject},
-    script::{Script, Seen, Step, Study, Until, What},
+    script::{Observed, Script, Seen, Step, Study, Until, What},
 };
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use std::collections::BTreeMap;
 use syn::Ident;
 
 impl Generator<'_> {
@@ -88,10 +89,13 @@ impl Generator<'_> {
     fn study(&self, graph: &Graph, script: &Script, study: &Study) -> TokenStream {
         let (name, program, count) = (&script.name, ident(&graph.name), study.goals.len());
         let drains = self.drains(graph, script, |node, _| {
-            let goals = study.goals.iter().enumerate().filter(|(_, goal)| goal.probe == node);
-            let goals = goals.map(|(i, goal)| match goal.ty.name() {
-                "Duration" => quote!(timeline.goal(#i, token.as_secs_f64());),
-                _ => quote!(timeline.goal(#i, *token as f64);),
+            let goals = study.goals.iter().enumerate().filter(|(_, goal)| goal.of.probe == node);
+            let goals = goals.map(|(i, goal)| {
+                let seen = part_of_token(&goal.of);
+                match goal.of.ty.without_unit().name() {
+                    "Duration" => quote!(timeline.goal(#i, (*#seen).as_secs_f64());),
+                    _ => quote!(timeline.goal(#i, *#seen as f64);),
+                }
             });
             quote!(#(#goals)*)
         });
@@ -127,31 +131,24 @@ impl Generator<'_> {
     /// Code that takes the tokens out of each probe, and compares them with what the statements expect or forbid; a
     /// check has the number of its statement. `more` is done with each token besides.
     fn drains(&self, graph: &Graph, script: &Script, more: impl Fn(NodeId, &str) -> TokenStream) -> Vec<TokenStream> {
-        let probes = graph.nodes.ids().filter(|n| graph.nodes[*n].kind.is_probe()).enumerate();
-        let drain = |(number, node): (usize, NodeId)| {
+        let mut numbers = 0..;
+        let mut drain = |node: NodeId| {
             let (field, name) = (self.probe(node), graph.nodes[node].name.trim_start_matches("probe "));
-            let checks = script.steps.iter().enumerate().filter_map(|(check, step)| match step {
-                Step::Expect(seen, _) | Step::Never(seen) => match &seen.what {
-                    What::Token(of, None) if *of == node => Some(quote!(timeline.meets(#check);)),
-                    What::Token(of, Some(condition)) if *of == node => {
-                        let condition = holds(condition, &graph.nodes[node].ports[0].ty);
-                        Some(quote!(if #condition { timeline.meets(#check); }))
-                    }
-                    What::Token(..) | What::Active(_) => None,
-                },
-                Step::Feed { .. } | Step::FeedRecorded { .. } | Step::Wait(_) => None,
+            let checks = checks(script, node);
+            let checks = checks.values().zip(numbers.by_ref()).map(|(checks, number)| {
+                let number = Literal::usize_unsuffixed(number);
+                quote! { timeline.arrives(#number); #(#checks)* }
             });
             let (ports, more) = (self.ports_of(graph, node), more(node, name));
             quote! {
                 for token in #ports.outputs.#field.take() {
                     let token = &token;
-                    timeline.arrives(#number);
                     #(#checks)*
                     #more
                 }
             }
         };
-        probes.map(drain).collect()
+        graph.nodes.ids().filter(|node| graph.nodes[*node].kind.is_probe()).map(&mut drain).collect()
     }
 
     fn step(&self, graph: &Graph, number: usize, step: &Step, repeats: bool) -> TokenStream {
@@ -196,14 +193,14 @@ impl Generator<'_> {
                     }
                     None => quote!(None),
                 };
-                match state(seen) {
+                match self.observed_state(seen) {
                     Some(state) => quote! { test.expect_state(|program| #state, #until, #text, #place); },
                     None => quote! { test.expect(#number, #until, #text, #place); },
                 }
             }
             Step::Never(seen) => {
                 let (text, place) = (&seen.text, self.position(seen.span));
-                match state(seen) {
+                match self.observed_state(seen) {
                     Some(state) => quote! { test.never_state(|program| #state, #text, #place); },
                     None => quote! { test.never(#number, #text, #place); },
                 }
@@ -242,19 +239,51 @@ impl Generator<'_> {
             test.feed_at((#shown, #place), tokens, |program, token| #ports.inputs.#name.put(token));
         }
     }
+
+    /// The state that is observed, as an expression; `None` if tokens are.
+    fn observed_state(&self, seen: &Seen) -> Option<TokenStream> {
+        match &seen.what {
+            What::Active(Subject::Node(node)) => {
+                let node = node.index();
+                Some(quote!(::apex_rt::Program::is_active(program, #node)))
+            }
+            What::Active(Subject::Scope(scope)) => {
+                let graph = scope.index() - 1;
+                Some(quote!(::apex_rt::Program::is_graph_active(program, #graph)))
+            }
+            What::InState(machine, states) => {
+                let first = self.names.states.get(machine)?;
+                let states = states.iter().map(|state| first + state);
+                Some(quote!([#(#states),*].iter().any(|state| ::apex_rt::Program::is_active(program, *state))))
+            }
+            What::Token(..) => None,
+        }
+    }
 }
 
-/// The state that is observed, as an expression; `None` if tokens are.
-fn state(seen: &Seen) -> Option<TokenStream> {
-    match &seen.what {
-        What::Active(Subject::Node(node)) => {
-            let node = node.index();
-            Some(quote!(::apex_rt::Program::is_active(program, #node)))
+/// The checks of the tokens of a probe, by the field that they look at: each field is expected apart from the others.
+fn checks(script: &Script, probe: NodeId) -> BTreeMap<&[String], Vec<TokenStream>> {
+    let mut checks: BTreeMap<&[String], Vec<TokenStream>> = BTreeMap::new();
+    for (check, step) in script.steps.iter().enumerate() {
+        let (Step::Expect(seen, _) | Step::Never(seen)) = step else { continue };
+        let What::Token(of, condition) = &seen.what else { continue };
+        if of.probe != probe {
+            continue;
         }
-        What::Active(Subject::Scope(scope)) => {
-            let graph = scope.index() - 1;
-            Some(quote!(::apex_rt::Program::is_graph_active(program, #graph)))
-        }
-        What::Token(..) => None,
+        let meets = quote!(timeline.meets(#check););
+        checks.entry(&of.fields).or_default().push(match condition {
+            None => meets,
+            Some(condition) => {
+                let (seen, condition) = (part_of_token(of), holds(condition, &of.ty));
+                quote!(if { let token = #seen; #condition } { #meets })
+            }
+        });
     }
+    checks
+}
+
+/// A reference to what is observed of `token`.
+fn part_of_token(of: &Observed) -> TokenStream {
+    let fields = of.fields.iter().map(|field| ident(field));
+    if of.fields.is_empty() { quote!(token) } else { quote!((&token #(.#fields)*)) }
 }

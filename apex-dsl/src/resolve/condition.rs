@@ -18,6 +18,9 @@ enum Kind {
     Other,
 }
 
+/// Note on what is neither true nor false.
+const COMPARE: &str = "compare it by `==`, `!=`, `<`, `<=`, `>` or `>=`";
+
 /// Reads conditions on a token.
 pub struct Conditions<'a> {
     /// Name of the token in messages.
@@ -41,7 +44,7 @@ impl Conditions<'_> {
         };
         let message = format!("a condition must be true or false, but this is {what}");
         let error = Diagnostic::error("wrong-value", expr.span, message);
-        Err(Box::new(error.note("compare it by `==`, `!=`, `<`, `<=`, `>` or `>=`")))
+        Err(Box::new(error.note(COMPARE)))
     }
 
     /// Comparison of the token with a constant.
@@ -50,6 +53,16 @@ impl Conditions<'_> {
         let token = (Condition::Token, self.kind_of_token());
         let (condition, _) = self.binary(operator, (token, value), ((constant, kind), value), value.span)?;
         Ok(condition)
+    }
+
+    /// A token that is true or false by itself, at this place.
+    pub fn truth(&self, span: Span) -> Evaluated<Condition> {
+        if self.kind_of_token() == Kind::Truth {
+            return Ok(Condition::Token);
+        }
+        let message = format!("a condition must be true or false, but `{}` is a `{}`", self.name, self.ty);
+        let error = Diagnostic::error("wrong-value", span, message);
+        Err(Box::new(error.note(COMPARE)))
     }
 
     /// Comparison of the token with a number, up to a difference: `== 1.5m +- 1cm`.

@@ -53,24 +53,32 @@ fn unknown(path: &PathExpr, elsewhere: &[String], scope: &Scope<'_>) -> Diagnost
     elsewhere.iter().take(4).fold(error, |error, path| error.note(format!("import it: `use {path};`")))
 }
 
+/// The field with this name, if the program can use it.
+pub fn field<'a>(declared: &'a Struct, name: &Ident) -> Evaluated<&'a Field> {
+    let ty = declared.ty.name();
+    let Some(field) = declared.fields.iter().find(|field| field.name == name.text) else {
+        let names: Vec<&str> = declared.fields.iter().map(|field| field.name.as_str()).collect();
+        let error = Diagnostic::error("wrong-field", name.span, format!("`{ty}` has no field `{}`", name.text));
+        let error = suggest(error, name, names.iter().copied()).note(match names.as_slice() {
+            [] => format!("`{ty}` has no fields"),
+            names => format!("its fields are `{}`", names.join("`, `")),
+        });
+        return Err(Box::new(error));
+    };
+    if !field.is_visible {
+        let message = format!("the field `{}` of `{ty}` is private", name.text);
+        let error = Diagnostic::error("wrong-field", name.span, message);
+        return Err(Box::new(error.note(format!("`{ty}` is declared at {}", declared.place))));
+    }
+    Ok(field)
+}
+
 /// Reports fields that the struct does not have, that are given twice or not at all, or that are private.
 fn check_names(declared: &Struct, given: &[(Ident, Expr)], at: Span) -> Evaluated<()> {
     let error = |span: Span, message: String| Diagnostic::error("wrong-field", span, message);
     let (ty, place) = (declared.ty.name(), format!("`{}` is declared at {}", declared.ty.name(), declared.place));
     for (number, (name, _)) in given.iter().enumerate() {
-        let Some(field) = declared.fields.iter().find(|field| field.name == name.text) else {
-            let names: Vec<&str> = declared.fields.iter().map(|field| field.name.as_str()).collect();
-            let error = error(name.span, format!("`{ty}` has no field `{}`", name.text));
-            let error = suggest(error, name, names.iter().copied()).note(match names.as_slice() {
-                [] => format!("`{ty}` has no fields"),
-                names => format!("its fields are `{}`", names.join("`, `")),
-            });
-            return Err(Box::new(error));
-        };
-        if !field.is_visible {
-            let error = error(name.span, format!("the field `{}` of `{ty}` is private", name.text));
-            return Err(Box::new(error.note(place)));
-        }
+        field(declared, name)?;
         if let Some((first, _)) = given[..number].iter().find(|(other, _)| other.text == name.text) {
             let error = error(name.span, format!("`{}` is given twice", name.text));
             return Err(Box::new(error.also(first.span, "first given here")));

@@ -101,7 +101,8 @@ fn count(writer: &mut Writer<'_>, expr: &Expr) -> Option<u64> {
 }
 
 fn goal_of(writer: &mut Writer<'_>, goal: &GoalItem) -> Option<Goal> {
-    let (probe, ty) = writer.probe(&goal.of)?;
+    let of = writer.observed(&goal.of)?;
+    let ty = of.ty.clone();
     let number = ty.without_unit();
     let is_number = matches!(number.name(), "f32" | "f64" | "Duration") || limits(number.name()).is_some();
     if !is_number {
@@ -126,7 +127,7 @@ fn goal_of(writer: &mut Writer<'_>, goal: &GoalItem) -> Option<Goal> {
         Type::Measured(_, unit) => Some(unit.clone()),
         _ => (number.name() == "Duration").then(|| "s".to_owned()),
     };
-    Some(Goal { name: goal.of.text(), probe, ty: number.clone(), unit, maximise: goal.maximise, share })
+    Some(Goal { name: goal.of.text(), of, unit, maximise: goal.maximise, share })
 }
 
 /// Names of a text that a study refers to.

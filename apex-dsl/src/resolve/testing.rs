@@ -7,13 +7,14 @@ use super::{
     instance::{Builder, Purpose},
     names::{Constructor, GraphId, SourceSet, suggest},
     record::sending_port,
+    structs,
     value::{RustNames, Scope, Wanted, duration, element_of, evaluate},
 };
 use crate::{
     catalog::{Catalog, Type},
     graph::{Connection, Graph, Modifiers, NodeId, NodeKind, Port, PortId, ScopeId, Subject, Value},
     report::{Diagnostic, Diagnostics},
-    script::{Script, Seen, Step, Until, What},
+    script::{Observed, Script, Seen, Step, Until, What},
     source::{Sources, Span},
     syntax::tree::{Condition, Expr, Ident, Limit, PortKind, PortRef, TestItem, TestStep},
 };
@@ -220,44 +221,92 @@ impl Writer<'_> {
     }
 
     fn seen(&mut self, condition: &Condition) -> Option<Seen> {
-        let what = if condition.active {
-            What::Active(self.subject(&condition.of)?)
-        } else {
-            let (probe, ty) = self.probe(&condition.of)?;
-            let test = match &condition.compare {
-                None => None,
-                Some((operator, value)) => {
-                    let name = condition.of.text();
-                    let conditions = Conditions { name: &name, token: "", ty: &ty, scope: self.scope };
-                    let read = match &condition.tolerance {
-                        Some(tolerance) => conditions.nearness(operator, value, tolerance),
-                        None => conditions.comparison(operator, value),
-                    };
-                    match read {
-                        Ok(condition) => Some(condition),
-                        Err(error) => {
-                            self.diagnostics.push(*error);
-                            return None;
-                        }
-                    }
-                }
-            };
-            What::Token(probe, test)
+        let what = match condition.active {
+            true => self.active(&condition.of)?,
+            false => self.token(condition)?,
         };
         Some(Seen { what, text: self.sources.text(condition.span).to_owned(), span: condition.span })
     }
 
-    /// The node or nested graph with this name.
-    fn subject(&mut self, of: &PortRef) -> Option<Subject> {
+    fn token(&mut self, condition: &Condition) -> Option<What> {
+        let (of, name) = (self.observed(&condition.of)?, condition.of.text());
+        let conditions = Conditions { name: &name, token: "", ty: &of.ty, scope: self.scope };
+        let read = match (&condition.compare, &condition.tolerance) {
+            (Some((operator, value)), Some(tolerance)) => conditions.nearness(operator, value, tolerance).map(Some),
+            (Some((operator, value)), None) => conditions.comparison(operator, value).map(Some),
+            (None, _) if of.fields.is_empty() => Ok(None),
+            (None, _) => conditions.truth(condition.span).map(Some),
+        };
+        let test = read.map_err(|error| self.diagnostics.push(*error)).ok()?;
+        Some(What::Token(of, test))
+    }
+
+    /// The node, nested graph or state with this name.
+    fn active(&mut self, of: &PortRef) -> Option<What> {
         let path = of.text();
         let nodes = self.graph.nodes.ids().map(Subject::Node);
-        let all: Vec<Subject> = nodes.chain(self.graph.nested().map(Subject::Scope)).collect();
-        let names: Vec<String> = all.iter().map(|subject| self.graph.subject_name(*subject)).collect();
-        let found = names.iter().position(|name| *name == path);
-        if found.is_none() {
-            self.unknown(of.span, &path, names.iter().map(String::as_str));
+        let subjects = nodes.chain(self.graph.nested().map(Subject::Scope));
+        let mut all: Vec<(String, What)> =
+            subjects.map(|subject| (self.graph.subject_name(subject), What::Active(subject))).collect();
+        for (id, node) in self.graph.nodes.iter_enumerated() {
+            let NodeKind::Library(library) = &node.kind else { continue };
+            let Some(machine) = &self.scope.rust.catalog.signatures[library.signature].machine else { continue };
+            let states = machine.all_states().into_iter();
+            all.extend(
+                states.map(|(name, inside)| (format!("{}.{name}", self.graph.path(id)), What::InState(id, inside))),
+            );
         }
-        found.map(|i| all[i])
+        let found = all.iter().find(|(name, _)| *name == path).map(|(_, what)| what.clone());
+        if found.is_none() {
+            self.unknown(of.span, &path, all.iter().map(|(name, _)| name.as_str()));
+        }
+        found
+    }
+
+    /// The port with this name, or the field of its tokens: `port.field`, `node.port.field`.
+    pub fn observed(&mut self, of: &PortRef) -> Option<Observed> {
+        let shorter = |count: usize| PortRef { parts: of.parts[..count].to_vec(), span: of.span };
+        let is_port = |count: &usize| sending_port(self.graph, &shorter(*count).text()).is_some();
+        let is_probed = |count: &usize| *count == 1 && self.own_probe(&of.parts[0].text).is_some();
+        let count = (1..=of.parts.len()).rev().find(|count| is_probed(count) || is_port(count));
+        let (Some(count), true) = (count, count != Some(of.parts.len())) else {
+            let (probe, ty) = self.probe(of)?;
+            return Some(Observed { probe, fields: vec![], ty });
+        };
+        let (port, fields) = (shorter(count), &of.parts[count..]);
+        let mut ty = self.type_at(&port)?;
+        for field in fields {
+            let Some(declared) = self.scope.rust.catalog.struct_of(&ty) else {
+                // More likely the name of a port is wrong.
+                if field.text == fields[0].text {
+                    return self.probe(of).and(None);
+                }
+                let message = format!("a `{ty}` has no fields that a test can use",);
+                self.diagnostics.push(Diagnostic::error("wrong-field", field.span, message));
+                return None;
+            };
+            match structs::field(&declared, field) {
+                Ok(field) => ty = field.ty.clone(),
+                Err(error) => {
+                    self.diagnostics.push(*error);
+                    return None;
+                }
+            }
+        }
+        let (probe, _) = self.probe(&port)?;
+        Some(Observed { probe, fields: fields.iter().map(|field| field.text.clone()).collect(), ty })
+    }
+
+    /// Type of the tokens at a port.
+    fn type_at(&self, of: &PortRef) -> Option<Type> {
+        let path = of.text();
+        let of_probe = self.own_probe(&path).map(|node| &self.graph.nodes[node].ports[0].ty);
+        of_probe.or_else(|| Some(&self.graph.port(sending_port(self.graph, &path)?).ty)).cloned()
+    }
+
+    /// The probe that a port of the graph has become.
+    fn own_probe(&self, name: &str) -> Option<NodeId> {
+        self.graph.nodes.position(|n| n.kind.is_probe() && n.scope == ScopeId::TOP && n.name == name)
     }
 
     /// Reports an unknown node or port, unless it belongs to a node that cannot be made: its cause is reported there.
@@ -277,9 +326,8 @@ impl Writer<'_> {
     pub fn probe(&mut self, of: &PortRef) -> Option<(NodeId, Type)> {
         let path = of.text();
         let name = format!("probe {path}");
-        let known =
-            |n: &crate::graph::Node| n.kind.is_probe() && (n.name == name || n.scope == ScopeId::TOP && n.name == path);
-        if let Some(node) = self.graph.nodes.position(known) {
+        let known = self.graph.nodes.position(|n| n.kind.is_probe() && n.name == name);
+        if let Some(node) = known.or_else(|| self.own_probe(&path)) {
             return Some((node, self.graph.nodes[node].ports[0].ty.clone()));
         }
         let Some(from) = sending_port(self.graph, &path) else {

@@ -4,7 +4,7 @@ use super::{case::Item, graph::Interface, maker::Maker};
 
 /// Adds some of them. A node without the feature that a statement needs makes it a mistake, which is to be found.
 pub fn add(maker: &mut Maker) {
-    for add in [claims, record, set_back, skip, tune, recording] {
+    for add in [claims, record, set_back, skip, tune, recording, in_state, field] {
         if maker.dice.one_in(6) {
             let graph = maker.dice.of(&maker.graphs.clone()).clone();
             add(maker, &graph);
@@ -79,4 +79,38 @@ fn recording(maker: &mut Maker, graph: &Interface) {
     let Some(port) = graph.node.inputs.first() else { return };
     let body = vec![format!("feed {} = recording(\"none.mcap\", \"x\");", port.name), "wait 1s;".to_owned()];
     maker.items.push(Item { head: format!("test it_replays: {}", graph.node.name), body: Some(body) });
+}
+
+/// Adds a statement to the first test of a graph.
+fn observe(maker: &mut Maker, graph: &Interface, statement: String) {
+    let of_graph = format!(": {}", graph.node.name);
+    let test = maker.items.iter_mut().find(|item| item.head.starts_with("test ") && item.head.ends_with(&of_graph));
+    test.and_then(|item| item.body.as_mut()).into_iter().for_each(|body| body.push(statement.clone()));
+}
+
+/// A state machine is in its first state, or in another one.
+fn in_state(maker: &mut Maker, graph: &Interface) {
+    for (name, node) in &graph.named {
+        let machine = maker.items.iter().find(|item| item.head == format!("fsm {}", node.name));
+        let lines = machine.and_then(|item| item.body.as_ref()).into_iter().flatten();
+        let states: Vec<&str> = lines.filter_map(|line| line.strip_prefix("state ")?.split(' ').next()).collect();
+        if !states.is_empty() {
+            let state = maker.dice.of(&states);
+            return observe(maker, graph, format!("expect active({name}.{state});"));
+        }
+    }
+}
+
+/// A field of a token is compared.
+fn field(maker: &mut Maker, graph: &Interface) {
+    let ports = graph.node.outputs.iter().chain(&graph.node.events);
+    let Some((port, name)) = ports.clone().find_map(|port| match port.ty.name {
+        "Pose" => Some((port, "x")),
+        "Pair<i64>" => Some((port, "b")),
+        _ => None,
+    }) else {
+        return;
+    };
+    let operator = maker.word(&["==", "!=", "<", ">="]);
+    observe(maker, graph, format!("expect {}.{name} {operator} 3;", port.name));
 }
