@@ -181,13 +181,33 @@ impl Generator<'_> {
         let call = self.call_slot(view, connection);
         let from = view.graph.connections[connection].from;
         let call = if takes(view, connection) { self.taken(view.graph, from, call) } else { call };
-        let clear = self.clear_events(view, node);
-        let pass = self.pass_activity(view, node, &|end| self.sent_event(view, end));
-        let emit = self.emit(view, node, false);
+        let tells = !activity.is_empty();
+        let triggers = |end: PortId| match view.graph.port(end).tells_of_activity() {
+            true => tells,
+            false => self.may_trigger(view, connection, end),
+        };
+        let clear = self.clear(view, node, &triggers);
+        let pass = self.pass_activity(view, node, &|end| self.sent_event(view, end).filter(|_| triggers(end)));
+        let emit = self.emit_from(view, node, &|end| view.graph.port(end).kind == PortKind::Event && triggers(end));
         let (stamp, index) = (self.stamp_of_slot(view, connection), self.index(node));
         let handled = self.connection(connection).map(|number| quote! { observer.handled(#number); });
         let call = quote! { #call observer.finished(#index); };
         quote! { #stamp #handled #free #clear #activity #check #call #pass #emit #settle }
+    }
+
+    /// Returns `true` if the call of a slot may trigger an event: one that is an argument, or tells how the call went.
+    fn may_trigger(&self, view: ProgramView<'_>, connection: ConnectionId, event: PortId) -> bool {
+        let to = view.graph.connections[connection].to;
+        let NodeKind::Library(library) = &view.graph.nodes[to.node].kind else { return true };
+        let signature = &self.catalog.signatures[library.signature];
+        match signature.slots.iter().find(|slot| slot.port == to.port) {
+            Some(slot) => {
+                let is_argument = slot.args.iter().any(|arg| matches!(arg, ArgSig::Port(port) if *port == event.port));
+                is_argument || view.graph.port(event).standard.is_some()
+            }
+            // `enable` and `disable` call nothing.
+            None => false,
+        }
     }
 
     /// A slot takes its token away.
