@@ -4,6 +4,7 @@ use crate::{
     Args, Distribution, Error, Kind, Publishing, Qos, Subscribing,
     endpoint::Endpoints,
     graph::Graph,
+    log::Log,
     name::Scope,
     session,
     silence::{Situation, Watch},
@@ -70,9 +71,16 @@ impl Opening {
         let scope = Scope::new(args.namespace.as_deref().unwrap_or(""), args.node.as_deref().unwrap_or(&self.node))?;
         let domain = self.domain.map_or_else(domain, Ok)?;
         let zenoh = session::open(self.router.as_deref())?;
+        let (log, said) = (Log::default(), self.tell);
+        let tell: Tell = {
+            let log = log.clone();
+            Arc::new(move |text: &str| {
+                said(text);
+                log.add(text);
+            })
+        };
         let is_simulated = args.flag("use_sim_time");
-        let endpoints =
-            Arc::new(Endpoints::new(zenoh, domain, scope, args, self.distribution, self.tell, is_simulated));
+        let endpoints = Arc::new(Endpoints::new(zenoh, domain, scope, args, self.distribution, tell, is_simulated));
         let node = Token {
             domain,
             session: endpoints.session_id(),
@@ -92,7 +100,7 @@ impl Opening {
         };
         let all = endpoints.zenoh.liveliness().declare_subscriber(format!("{SPACE}/**")).history(true).callback(change);
         endpoints.keep(all.wait().map_err(Error::zenoh("the others cannot be looked for"))?);
-        let ros = Ros { endpoints, graph, router: session::address(self.router.as_deref()) };
+        let ros = Ros { endpoints, log, graph, router: session::address(self.router.as_deref()) };
         ros.watch()?;
         if is_simulated {
             ros.follow_clock()?;
@@ -116,6 +124,7 @@ fn domain() -> Result<u32, Error> {
 /// They end when it is dropped.
 pub struct Ros {
     pub(crate) endpoints: Arc<Endpoints>,
+    pub(crate) log: Log,
     graph: Graph,
     router: String,
 }
@@ -182,16 +191,17 @@ impl Ros {
     }
 
     /// Drives a program with these ports by [`Ros::clock`] until it ends, or until Ctrl-C. Its parameters are those of
-    /// the node. Returns the exit code.
+    /// the node, and its problems are in `/rosout` and `/diagnostics`. Returns the exit code.
     ///
     /// # Errors
-    /// The errors of [`Ros::set_params`], and those of the services for parameters.
+    /// The errors of [`Ros::set_params`], [`Ros::serve_params`] and [`Ros::report`].
     pub fn drive<P>(&self, mut program: P, ports: Ports<P>) -> Result<u8, Error>
     where
         P: Program,
     {
         self.set_params(&mut program)?;
         self.serve_params(ports.params())?;
+        self.report(P::INFO.name)?;
         let clock = self.clock();
         if !matches!(self.endpoints.time, RosTime::Simulated(_)) {
             return Ok(drive_from(program, clock, ports));
@@ -243,6 +253,7 @@ impl Ros {
 
 impl Drop for Ros {
     fn drop(&mut self) {
+        self.log.close();
         self.endpoints.close();
     }
 }

@@ -168,6 +168,11 @@ pub struct Situation {
 }
 
 impl Watch {
+    /// Returns all endpoints.
+    pub fn all(&self) -> Vec<Arc<Ours>> {
+        self.ours.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
     /// Adds an endpoint.
     pub fn add(&self, ours: Arc<Ours>) {
         self.ours.lock().unwrap_or_else(PoisonError::into_inner).push(ours);
@@ -193,7 +198,7 @@ impl Watch {
             });
             let fine = || format!("a router answers at `{}`", at.router);
             router.note(reason, fine, now).iter().for_each(|text| tell(text));
-            let ours = self.ours.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            let ours = self.all();
             known.resize_with(ours.len(), Known::default);
             for (ours, known) in ours.iter().zip(&mut known).filter(|(ours, _)| !ours.is_quiet) {
                 look(ours, known, at, is_connected, now).iter().for_each(|text| tell(text));

@@ -81,7 +81,7 @@ pub use node::construct;
 pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, Trigger};
 pub use observer::Observer;
 #[cfg(feature = "std")]
-pub use observer::StdErr;
+pub use observer::{StdErr, listen_to_problems};
 pub use out::Out;
 pub use parallel::par_map;
 pub use params::Parameters;
