@@ -18,7 +18,7 @@ pub enum Distribution {
     Rolling,
 }
 
-/// What Humble writes in the place of a hash.
+/// Word that Humble writes in the place of a hash.
 pub const NO_HASH: &str = "TypeHashNotSupported";
 
 impl Distribution {

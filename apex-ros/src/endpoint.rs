@@ -1,4 +1,4 @@
-//! What all endpoints of a node share, and their declaration.
+//! The endpoints of a node: their declaration, and everything that they share.
 
 use crate::{
     Args, Distribution, Endpoint, Error, Kind, Qos, Token,
@@ -90,7 +90,7 @@ impl Endpoints {
         Endpoint { kind, name: full_name.to_owned(), wire_type: wire_type(ty), hash, qos }
     }
 
-    /// Declares an endpoint, so that others see it. Nothing is said about a `quiet` one that nobody meets.
+    /// Declares an endpoint, so that others see it. Nothing is said about a `quiet` one that meets no other.
     pub fn add(
         &self,
         kind: Kind,

@@ -32,7 +32,7 @@ const PERIOD: Duration = Duration::from_secs(1);
 const RECENT: Duration = Duration::from_secs(10);
 
 impl Log {
-    /// Adds a problem. Waits for nobody. Returns `false` if it will not be published, because the node has ended.
+    /// Adds a problem. Does not wait. Returns `false` if it will not be published, because the node has ended.
     pub fn add(&self, text: &str) -> bool {
         let mut state = self.state();
         if state.is_closed {
@@ -70,8 +70,8 @@ impl Log {
 
 impl Ros {
     /// Publishes the problems of the programs of this process, and those of the topics of this node, in `/rosout`, and
-    /// once in a second the state of the node in `/diagnostics`: problems, and the messages of each topic. [`Ros::drive`]
-    /// does so.
+    /// once in a second the state of the node in `/diagnostics`: problems, and the messages of each topic.
+    /// [`Ros::drive`] does so.
     ///
     /// # Errors
     /// The publishers cannot be declared.
@@ -122,7 +122,7 @@ impl Reporter {
             msg: text.clone(),
             ..Default::default()
         };
-        // A node that ends has nobody to tell.
+        // A node that ends cannot tell.
         drop(self.rosout.send(&log));
         self.count += 1;
         self.last = Some((text, Instant::now()));

@@ -82,7 +82,8 @@ pub fn type_of_wire(wire: &str) -> String {
     parts.map_or_else(|| wire.to_owned(), |(package, ty)| format!("{}/{ty}", package.replace("::", "/")))
 }
 
-/// Returns the key of the data of a topic, or of the queries of a service: `0/scan/sensor_msgs::msg::dds_::LaserScan_/…`.
+/// Returns the key of the data of a topic, or of the queries of a service:
+/// `0/scan/sensor_msgs::msg::dds_::LaserScan_/…`.
 pub fn key(domain: u32, full_name: &str, wire_type: &str, hash: &str) -> String {
     format!("{domain}/{}/{wire_type}/{hash}", full_name.trim_matches('/'))
 }

@@ -128,7 +128,7 @@ impl Offered {
         let stamp = Time::from_nanos(self.time.now());
         let event =
             ParameterEvent { stamp, node: self.node.clone(), changed_parameters: parameters, ..Default::default() };
-        // A node that ends has nobody to tell.
+        // A node that ends cannot tell.
         drop(self.events.send(&event));
         SetParametersResult { successful: true, reason: String::new() }
     }

@@ -86,7 +86,7 @@ impl<'a> Publishing<'a> {
         Self { frame: Some(frame.to_owned()), ..self }
     }
 
-    /// Says nothing if nobody subscribes: a topic for tools.
+    /// Says nothing if no node subscribes: a topic for tools.
     pub fn quiet(self) -> Self {
         Self { is_quiet: true, ..self }
     }

@@ -59,7 +59,7 @@ impl Qos {
         is_manual: false,
     };
 
-    /// What a code means that is empty.
+    /// Meaning of a code that is empty.
     #[cfg(test)]
     const EMPTY: Self = Self { depth: Some(DEPTH), ..Self::DEFAULT };
 

@@ -16,7 +16,7 @@ use apex_rt::{Ports, Program, UntilStopped, drive_from, params::set_text};
 use std::{env, str::FromStr as _, sync::Arc, thread};
 use zenoh::Wait as _;
 
-/// What is told of silence and of messages that cannot be read.
+/// Function that is told reasons for silence, and of messages that cannot be read.
 pub(crate) type Tell = Arc<dyn Fn(&str) + Send + Sync>;
 
 /// Settings of a node, before it is opened.

@@ -177,7 +177,7 @@ impl<S: Service> Client<S> {
     /// Calls the service and waits for its response.
     ///
     /// # Errors
-    /// Nobody serves it, no response comes in time, or it cannot be read.
+    /// No node serves it, no response comes in time, or it cannot be read.
     pub fn ask(&self, request: &S::Request) -> Result<S::Response, Error> {
         let (name, seconds) = (&self.name, self.timeout.as_secs_f32());
         let number = self.number.fetch_add(1, Ordering::Relaxed);
@@ -188,7 +188,7 @@ impl<S: Service> Client<S> {
             Ok(Some(reply)) => reply,
             Ok(None) => return Err(Error::new(format!("`{name}`: no response has come within {seconds} s"))),
             Err(_) => {
-                return Err(Error::new(format!("nobody serves `{name}`, or its server ended before it answered")));
+                return Err(Error::new(format!("no node serves `{name}`, or its server ended before it answered")));
             }
         };
         let sample = reply.into_result().map_err(|error| {

@@ -1,4 +1,4 @@
-//! Reasons for silence, in words: why nothing comes, and why nobody listens.
+//! Reasons for silence, in words: why nothing comes, and why no node listens.
 
 use crate::{Kind, NO_HASH, Token, graph::Graph, token::Endpoint};
 use std::{
@@ -24,7 +24,7 @@ pub struct Ours {
     pub heard: AtomicU64,
     /// Messages that were dropped, because the program took none meanwhile.
     pub dropped: AtomicU64,
-    /// `true` if nothing is to be said about it, as nobody has to listen.
+    /// `true` if nothing is to be said about it, as no node has to listen.
     pub is_quiet: bool,
 }
 
@@ -35,7 +35,7 @@ impl Ours {
     }
 }
 
-/// Kind of the endpoints that an endpoint needs on the other side, what they do, and how nobody does it.
+/// Kind of the endpoints that an endpoint needs on the other side, and the word for it.
 const fn other_side(kind: Kind) -> (Kind, &'static str) {
     match kind {
         Kind::Publisher => (Kind::Subscription, "subscribes to"),
@@ -81,18 +81,18 @@ pub fn reason(domain: u32, ours: &Endpoint, others: &[Token]) -> Option<String> 
     if let Some((token, _)) = endpoints().find(|(_, it)| it.name == *name && it.wire_type == ours.wire_type) {
         let other = token.domain;
         return Some(format!(
-            "nobody {does} `{name}` in domain {domain}, but `{}` does in domain {other}: set `ROS_DOMAIN_ID={other}`",
+            "no node {does} `{name}` in domain {domain}, but `{}` does in domain {other}: set `ROS_DOMAIN_ID={other}`",
             node(token)
         ));
     }
     let elsewhere = endpoints().find(|(token, it)| token.domain == domain && it.wire_type == ours.wire_type);
     Some(match elsewhere {
         Some((_, it)) => format!(
-            "nobody {does} `{name}`; `{other}` has its type: if you mean that, start with \
+            "no node {does} `{name}`; `{other}` has its type: if you mean that, start with \
              `--ros-args -r {name}:={other}`",
             other = it.name
         ),
-        None => format!("nobody {does} `{name}`"),
+        None => format!("no node {does} `{name}`"),
     })
 }
 
@@ -106,7 +106,7 @@ fn short(hash: &str) -> String {
     hash.chars().take(15).collect::<String>() + "…"
 }
 
-/// What was found out about something, and since when.
+/// Reason for the silence of an endpoint, and since when it holds.
 #[derive(Default)]
 struct Known {
     reason: Option<String>,
@@ -155,7 +155,7 @@ pub struct Watch {
     changed: (Mutex<()>, Condvar),
 }
 
-/// What a watch needs to know of the session.
+/// Parts of the session that a watch needs.
 pub struct Situation {
     /// Domain of the program.
     pub domain: u32,
@@ -224,7 +224,7 @@ fn look(ours: &Ours, known: &mut Known, at: &Situation, is_connected: bool, now:
     });
     // Without a router nothing is known about the others, and that has been said.
     let reason = reason.filter(|_| is_connected || !others.is_empty());
-    known.note(reason, || format!("somebody {does} `{}` now", endpoint.name), now)
+    known.note(reason, || format!("a node {does} `{}` now", endpoint.name), now)
 }
 
 #[cfg(test)]
@@ -259,15 +259,15 @@ mod tests {
         let why = |others: &[Token]| reason(0, &ours, others).unwrap_or_default();
         assert_eq!(why(&[publisher(0, "/scan", SCAN, "RIHS01_64c191398013")]), "");
         for (others, expected) in [
-            (vec![], "nobody publishes `/scan`"),
+            (vec![], "no node publishes `/scan`"),
             (
                 vec![publisher(0, "/front", SCAN, "RIHS01_64c191398013")],
-                "nobody publishes `/scan`; `/front` has its type: if you mean that, start with \
+                "no node publishes `/scan`; `/front` has its type: if you mean that, start with \
                  `--ros-args -r /scan:=/front`",
             ),
             (
                 vec![publisher(5, "/scan", SCAN, "RIHS01_64c191398013")],
-                "nobody publishes `/scan` in domain 0, but `/lidar` does in domain 5: set `ROS_DOMAIN_ID=5`",
+                "no node publishes `/scan` in domain 0, but `/lidar` does in domain 5: set `ROS_DOMAIN_ID=5`",
             ),
             (
                 vec![publisher(0, "/scan", "sensor_msgs/msg/PointCloud2", "RIHS01_00")],

@@ -71,7 +71,7 @@ impl<'a> Subscribing<'a> {
         Self { qos: Qos { durability: Durability::TransientLocal, ..self.qos }, ..self }
     }
 
-    /// Says nothing if nobody publishes: a topic that may be there or not.
+    /// Says nothing if no node publishes: a topic that may be there or not.
     pub fn quiet(self) -> Self {
         Self { is_quiet: true, ..self }
     }

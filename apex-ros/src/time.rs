@@ -110,7 +110,7 @@ impl Wall {
         clock.now().as_nanos()
     }
 
-    /// Zero of the clock. If somebody has set the calendar, stamps follow.
+    /// Zero of the clock. If the calendar was set, stamps follow.
     fn zero(&self) -> i64 {
         let (known, present) = (self.zero.load(Ordering::Relaxed), calendar() - self.now());
         if present.abs_diff(known) < SET.unsigned_abs() {

@@ -26,14 +26,14 @@ pub struct Token {
     pub namespace: String,
     /// Name of the node.
     pub node: String,
-    /// What the token stands for, if it is not the node itself.
+    /// Endpoint for which the token stands, if it is not the node itself.
     pub endpoint: Option<Endpoint>,
 }
 
 /// A publisher, subscription, server or client.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Endpoint {
-    /// Which of them it is.
+    /// Kind of the endpoint.
     pub kind: Kind,
     /// Full name of the topic or service: `/robot1/scan`.
     pub name: String,
@@ -87,7 +87,7 @@ impl fmt::Display for Token {
         let Self { domain, session, node_id, id, enclave, namespace, node, endpoint } = self;
         let kind = endpoint.as_ref().map_or(NODE, |endpoint| endpoint.kind.code());
         let namespace = if namespace == "/" { "" } else { namespace };
-        let (enclave, namespace) = (mangle(enclave), mangle(namespace));
+        let (enclave, namespace, node) = (mangle(enclave), mangle(namespace), mangle(node));
         write!(f, "{SPACE}/{domain}/{session}/{node_id}/{id}/{kind}/{enclave}/{namespace}/{node}")?;
         endpoint.as_ref().map_or(Ok(()), |endpoint| {
             let Endpoint { name, wire_type, hash, qos, .. } = endpoint;

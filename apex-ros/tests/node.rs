@@ -126,8 +126,8 @@ fn services_are_answered_and_called() {
     });
     let alone = router.node("alone").open().expect("a node");
     let lost = alone.call::<Trigger>("/nobody").timeout(Duration::from_millis(300)).open().expect("a client");
-    let error = lost.ask(&TriggerRequest {}).map(drop).expect_err("nobody is there").to_string();
-    assert!(error.starts_with("nobody serves `/nobody`"), "{error}");
+    let error = lost.ask(&TriggerRequest {}).map(drop).expect_err("no node is there").to_string();
+    assert!(error.starts_with("no node serves `/nobody`"), "{error}");
     alone
         .serve::<Trigger>("slow")
         .by(|_| {

@@ -25,13 +25,13 @@ fn a_router_that_does_not_run_is_missed_and_found() {
     let has = |part: &str| told.all().iter().any(|text| text.contains(part));
     within(SOON, "a router is missed", || has("no router of Zenoh answers at `tcp/127.0.0.1:"));
     assert!(told.all()[0].contains("rmw_zenohd`, or `zenohd`"), "{:?}", told.all());
-    assert!(!has("nobody publishes"), "without a router nothing is known about the others");
+    assert!(!has("no node publishes"), "without a router nothing is known about the others");
     router.resume();
     within(5.0, "the router is found", || has("a router answers at"));
-    within(5.0, "nobody publishes", || has("nobody publishes `/scan`"));
+    within(5.0, "no node publishes", || has("no node publishes `/scan`"));
     let (sender, _) = node(&router, "lidar");
     sender.publish("scan").open::<LaserScan>().expect("a topic");
-    within(5.0, "somebody publishes", || has("somebody publishes `/scan` now"));
+    within(5.0, "a node publishes", || has("a node publishes `/scan` now"));
     router.stop();
     within(SOON + 1.0, "the router has gone", || {
         told.all().iter().filter(|text| text.contains("no router of Zenoh")).count() == 2
@@ -63,10 +63,10 @@ fn others_that_mean_something_else_are_named() {
     for text in [
         "`/lidar` publishes `/cloud` as `sensor_msgs/msg/PointCloud2`, and this program has `sensor_msgs/msg/LaserScan` \
          there",
-        "nobody publishes `/scan`; `/front` has its type: if you mean that, start with `--ros-args -r /scan:=/front`",
+        "no node publishes `/scan`; `/front` has its type: if you mean that, start with `--ros-args -r /scan:=/front`",
         "`/old` publishes `/old` as a program of Humble, whose types have no hash: set `ROS_DISTRO=humble`",
-        "nobody publishes `/far` in domain 0, but `/far` does in domain 7: set `ROS_DOMAIN_ID=7`",
-        "nobody subscribes to `/alone`",
+        "no node publishes `/far` in domain 0, but `/far` does in domain 7: set `ROS_DOMAIN_ID=7`",
+        "no node subscribes to `/alone`",
     ] {
         within(SOON, text, || told.all().iter().any(|told| told == text));
     }
