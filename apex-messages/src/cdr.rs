@@ -3,7 +3,7 @@
 //!
 //! Nothing is reserved for what a length in a message promises: bytes are there before a list of them is made.
 
-use crate::Reason;
+use crate::{Reason, builtin_interfaces::Time, std_msgs::Header};
 use alloc::{
     borrow::{Cow, ToOwned as _},
     format,
@@ -22,6 +22,28 @@ pub enum Order {
     Big,
 }
 
+/// Difference between the headers of a program and those of other programs. Times of a program count from its start,
+/// those of ROS 2 from 1970.
+#[derive(Debug, Clone, Copy)]
+pub struct Outside<'a> {
+    /// Zero of the program's clock, in ns since 1970.
+    pub zero: i64,
+    /// Present time, in ns since 1970: the stamp of headers that have none.
+    pub now: i64,
+    /// Frame of all headers; that of each header if it is `None`.
+    pub frame: Option<&'a str>,
+}
+
+impl Outside<'_> {
+    fn leaves(self, header: &Header) -> Header {
+        let stamp = match header.stamp.as_nanos() {
+            0 => self.now,
+            stamp => stamp.saturating_add(self.zero),
+        };
+        Header::new(Time::from_nanos(stamp), self.frame.unwrap_or(&header.frame_id))
+    }
+}
+
 /// Writer that appends a message to a buffer.
 #[derive(Debug)]
 pub struct Writer<'a> {
@@ -29,6 +51,7 @@ pub struct Writer<'a> {
     /// Beginning of the message in the buffer, from which numbers are aligned.
     start: usize,
     order: Order,
+    outside: Option<Outside<'a>>,
 }
 
 impl<'a> Writer<'a> {
@@ -42,7 +65,23 @@ impl<'a> Writer<'a> {
         // The last two bytes are options.
         bytes.extend_from_slice(&[0, u8::from(order == Order::Little), 0, 0]);
         let start = bytes.len();
-        Self { bytes, start, order }
+        Self { bytes, start, order, outside: None }
+    }
+
+    /// Writes headers as other programs need them.
+    #[must_use]
+    pub fn for_others(self, outside: Outside<'a>) -> Self {
+        Self { outside: Some(outside), ..self }
+    }
+
+    /// Returns `true` if the message is written for other programs, not for a recording of this one.
+    pub fn is_for_others(&self) -> bool {
+        self.outside.is_some()
+    }
+
+    /// Returns a header as it is to be written.
+    pub fn outgoing<'h>(&self, header: &'h Header) -> Cow<'h, Header> {
+        self.outside.map_or(Cow::Borrowed(header), |outside| Cow::Owned(outside.leaves(header)))
     }
 
     /// Adds bytes until `size` divides their number.
@@ -85,6 +124,7 @@ pub struct Reader<'a> {
     at: usize,
     order: Order,
     is_ros1: bool,
+    zero: i64,
 }
 
 /// Reason for a message that ends too early.
@@ -102,7 +142,7 @@ impl<'a> Reader<'a> {
             [0, order @ 0..=1, _, options] => {
                 let length = rest.len().checked_sub(usize::from(options & 3)).ok_or(MISSING)?;
                 let order = if *order == 1 { Order::Little } else { Order::Big };
-                Ok(Self { bytes: &rest[..length], at: 0, order, is_ros1: false })
+                Ok(Self { bytes: &rest[..length], at: 0, order, is_ros1: false, zero: 0 })
             }
             [0, 2..=11, ..] => Err("it is encoded in a version of CDR that is not supported".into()),
             _ => Err("it does not begin as CDR".into()),
@@ -111,7 +151,24 @@ impl<'a> Reader<'a> {
 
     /// Reads the message `bytes` of ROS 1.
     pub const fn ros1(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, order: Order::Little, is_ros1: true }
+        Self { bytes, at: 0, order: Order::Little, is_ros1: true, zero: 0 }
+    }
+
+    /// Counts the stamps of headers from `zero`, in ns since 1970, as those of a program do. A stamp of zero, which
+    /// means that the time is not known, stays.
+    #[must_use]
+    pub const fn since(self, zero: i64) -> Self {
+        Self { zero, ..self }
+    }
+
+    /// Returns a header that was read as the program needs it.
+    pub fn incoming(&self, header: Header) -> Header {
+        match header.stamp.as_nanos() {
+            // Numbers stay as they are, even if the nanoseconds are more than a second.
+            _ if self.zero == 0 => header,
+            0 => header,
+            stamp => Header { stamp: Time::from_nanos(stamp.saturating_sub(self.zero)), ..header },
+        }
     }
 
     /// Order of the bytes of its numbers.
@@ -343,5 +400,39 @@ impl Number for bool {
 
     fn of(_: Order, bytes: &[u8]) -> Self {
         bytes.first().is_some_and(|byte| *byte != 0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Message, sensor_msgs::LaserScan};
+
+    /// Header of a scan that is written for others and read again.
+    fn outside(stamp: i64, frame: Option<&str>, since: i64) -> Header {
+        let header = Header::new(Time::from_nanos(stamp), "robot");
+        let scan = LaserScan { header, ranges: vec![1.5, f32::INFINITY], ..LaserScan::default() };
+        let mut bytes = vec![];
+        scan.write(&mut Writer::new(&mut bytes).for_others(Outside { zero: 1_000, now: 5_000, frame }));
+        let read = LaserScan::read(&mut Reader::new(&bytes).expect("CDR").since(since)).expect("a scan");
+        assert_eq!(read.ranges, scan.ranges);
+        read.header
+    }
+
+    #[test]
+    fn stamps_of_a_program_become_those_of_ros() {
+        assert_eq!(outside(7, None, 0), Header::new(Time::from_nanos(1_007), "robot"));
+        assert_eq!(outside(0, Some("laser_link"), 0), Header::new(Time::from_nanos(5_000), "laser_link"));
+        assert_eq!(outside(-7, None, 0).stamp.as_nanos(), 993);
+    }
+
+    #[test]
+    fn stamps_come_back_as_they_were() {
+        for stamp in [1, -1, 5_000_000_000, -3_000_000_001] {
+            assert_eq!(outside(stamp, None, 1_000).stamp.as_nanos(), stamp);
+        }
+        let unknown = LaserScan::default().to_bytes();
+        let read = LaserScan::read(&mut Reader::new(&unknown).expect("CDR").since(1_000)).expect("a scan");
+        assert_eq!(read.header.stamp.as_nanos(), 0, "not known");
     }
 }

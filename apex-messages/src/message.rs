@@ -59,6 +59,8 @@ pub struct Foreign<T> {
     pub name: &'static str,
     /// Definition of the message.
     pub definition: &'static str,
+    /// Hash of its type.
+    pub hash: &'static str,
     /// Reads a value, which may be one of several in the message: the part of this name is wanted, or the only one if
     /// the name is empty. `None` if the message does not have this part.
     pub read: fn(&mut Reader<'_>, part: &str) -> Result<Option<T>, Reason>,
@@ -67,28 +69,35 @@ pub struct Foreign<T> {
 impl<T: Message> Foreign<T> {
     /// Returns the message that consists of the value.
     pub fn itself() -> Self {
-        Self { name: T::NAME, definition: T::DEFINITION, read: |message, _| T::read(message).map(Some) }
+        Self::of::<T>(|message, _| T::read(message).map(Some))
     }
 }
 
 impl<T> Foreign<T> {
     /// Returns the message `M` with the function that reads a value in it.
     pub fn of<M: Message>(read: fn(&mut Reader<'_>, part: &str) -> Result<Option<T>, Reason>) -> Self {
-        Self { name: M::NAME, definition: M::DEFINITION, read }
+        Self { name: M::NAME, definition: M::DEFINITION, hash: M::HASH, read }
     }
 }
 
 /// Makes a type a [`Message`] by conversions: `From<&T>` for a message, and `TryFrom` that message, with [`Reason`] as
-/// its error. After `others =` stand the [`Foreign`] messages.
+/// its error. After `outside =` stands the conversion for other programs, if it is another one: recordings have to give
+/// back each bit. After `others =` stand the [`Foreign`] messages.
 #[macro_export]
 macro_rules! converted {
-    ($({$parameter:ident: $bound:path})? $ty:ty as $message:path $(, others = $others:expr)?) => {
+    ($({$parameter:ident: $bound:path})? $ty:ty as $message:path $(, outside = $outside:expr)? $(, others = $others:expr)?) => {
         impl $(<$parameter: $bound>)? $crate::Message for $ty {
             const NAME: &'static str = <$message as $crate::Message>::NAME;
             const DEFINITION: &'static str = <$message as $crate::Message>::DEFINITION;
             const HASH: &'static str = <$message as $crate::Message>::HASH;
 
             fn write(&self, message: &mut $crate::cdr::Writer<'_>) {
+                $(
+                    if message.is_for_others() {
+                        let outside: fn(&Self) -> $message = $outside;
+                        return $crate::Message::write(&outside(self), message);
+                    }
+                )?
                 $crate::Message::write(&<$message>::from(self), message);
             }
 

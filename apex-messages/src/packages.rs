@@ -5290,15 +5290,17 @@ pub mod std_msgs {
         const DEFINITION: &'static str = "builtin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01";
         fn write(&self, to: &mut Writer<'_>) {
-            Message::write(&self.stamp, to);
-            to.text(&self.frame_id);
+            let header = to.outgoing(self);
+            Message::write(&header.stamp, to);
+            to.text(&header.frame_id);
         }
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.number_of_header()?;
-            Ok(Self {
+            let header = Self {
                 stamp: Message::read(from)?,
                 frame_id: from.text_of(usize::MAX)?,
-            })
+            };
+            Ok(from.incoming(header))
         }
     }
     /// `std_msgs/msg/Int16`.

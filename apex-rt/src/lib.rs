@@ -80,10 +80,10 @@ pub use mailbox::{Arrival, first_arrival, untaken};
 pub use node::construct;
 pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, Trigger};
 pub use observer::Observer;
-#[cfg(feature = "std")]
-pub use observer::StdErr;
 #[doc(hidden)]
 pub use observer::turned;
+#[cfg(feature = "std")]
+pub use observer::{StdErr, listen_to_problems};
 pub use out::Out;
 pub use parallel::par_map;
 pub use params::Parameters;

@@ -293,6 +293,36 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
     pass_on!(self, self.0, self.1);
 }
 
+/// Listener to problems. It returns `false` when it does not want any more of them.
+#[cfg(feature = "std")]
+type Listener = std::boxed::Box<dyn Fn(&str) -> bool + Send>;
+
+/// Listeners to what [`StdErr`] writes.
+#[cfg(feature = "std")]
+static LISTENERS: std::sync::Mutex<std::vec::Vec<Listener>> = std::sync::Mutex::new(std::vec::Vec::new());
+
+/// Calls `listener` with each problem that the programs of this process write to standard error, too, until it returns
+/// `false`: a driver can pass them on. It is called within reactions, so it must not wait.
+#[cfg(feature = "std")]
+pub fn listen_to_problems(listener: impl Fn(&str) -> bool + Send + 'static) {
+    listeners().push(std::boxed::Box::new(listener));
+}
+
+#[cfg(feature = "std")]
+fn listeners() -> std::sync::MutexGuard<'static, std::vec::Vec<Listener>> {
+    LISTENERS.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+/// Writes a problem to standard error, and passes it on.
+#[cfg(feature = "std")]
+macro_rules! tell {
+    ($($text:tt)*) => {{
+        let text = std::format!($($text)*);
+        eprintln!("{text}");
+        listeners().retain(|listener| listener(&text));
+    }};
+}
+
 /// Observer that writes failures, missed deadlines, hanging nodes, refused parameter values, deadlocks, endless loops,
 /// violated claims, and what is odd about the time to standard error, with the names of the nodes.
 #[cfg(feature = "std")]
@@ -302,55 +332,56 @@ pub struct StdErr(pub &'static crate::Info);
 #[cfg(feature = "std")]
 impl Observer for StdErr {
     fn failed(&mut self, node: usize, error: &impl Display) {
-        eprintln!("{}: `{}` failed: {error}", self.0.name, self.0.nodes[node].name);
+        tell!("{}: `{}` failed: {error}", self.0.name, self.0.nodes[node].name);
     }
     fn late(&mut self, node: usize, age: Duration) {
-        eprintln!(
+        tell!(
             "{}: `{}` missed its deadline: it finished {age:.1?} after its source fired",
-            self.0.name, self.0.nodes[node].name
+            self.0.name,
+            self.0.nodes[node].name
         );
     }
     fn hung(&mut self, node: usize, running: Duration) {
-        eprintln!("{}: `{}` hangs: it has been running for {running:.1?}", self.0.name, self.0.nodes[node].name);
+        tell!("{}: `{}` hangs: it has been running for {running:.1?}", self.0.name, self.0.nodes[node].name);
     }
     fn refused(&mut self, node: usize, parameter: &'static str, value: &impl Debug) {
         let name = self.0.nodes[node].name;
-        eprintln!("{}: `{name}` keeps its `{parameter}`: {value:?} is out of range", self.0.name);
+        tell!("{}: `{name}` keeps its `{parameter}`: {value:?} is out of range", self.0.name);
     }
     fn waits(&mut self, connection: usize) {
         let (info, c) = (self.0, &self.0.connections[connection]);
         let (from, to) = (info.nodes[c.from].name, info.nodes[c.to].name);
-        eprintln!(
+        tell!(
             "{}: deadlock: `{to}` waits for the event `{from}.{}`, which can no longer be triggered",
-            info.name, c.output
+            info.name,
+            c.output
         );
     }
     fn stuck(&mut self, connection: usize) {
         let (info, c) = (self.0, &self.0.connections[connection]);
         let (from, to) = (info.nodes[c.from].name, info.nodes[c.to].name);
-        eprintln!(
+        tell!(
             "{}: deadlock: the token of `{from}.{}` waits at `{to}.{}` forever, for one that waits for it",
-            info.name, c.output, c.input
+            info.name,
+            c.output,
+            c.input
         );
     }
     fn endless(&mut self, nodes: &[usize], counts: &[u32]) {
         let total: u32 = counts.iter().sum();
-        eprintln!("{}: endless cycle of tokens at one point in time; of the last {total} steps:", self.0.name);
+        tell!("{}: endless cycle of tokens at one point in time; of the last {total} steps:", self.0.name);
         for (node, count) in nodes.iter().zip(counts).filter(|(_, count)| **count > 0) {
-            eprintln!("{count:>8}  `{}`", self.0.nodes[*node].name);
+            tell!("{count:>8}  `{}`", self.0.nodes[*node].name);
         }
     }
     fn claim_failed(&mut self, claim: usize) {
-        eprintln!("{}: the claim `{}` does not hold", self.0.name, self.0.claims[claim]);
+        tell!("{}: the claim `{}` does not hold", self.0.name, self.0.claims[claim]);
     }
     fn set_back(&mut self, by: Duration) {
-        eprintln!(
-            "{}: the time was set back by {by:.1?}; the program's own time goes on from where it was",
-            self.0.name
-        );
+        tell!("{}: the time was set back by {by:.1?}; the program's own time goes on from where it was", self.0.name);
     }
     fn untaken(&mut self, event: &'static str, waits: Duration) {
-        eprintln!(
+        tell!(
             "{}: nobody takes the event `{event}`: its token has waited for {waits:.1?}, and what triggers it is held back; receive it with `Ports::event`, or connect nothing to it",
             self.0.name
         );
@@ -359,7 +390,7 @@ impl Observer for StdErr {
         let name = self.0.name;
         let shortest = self.0.nodes.iter().filter_map(|node| Some((node.every?, node.name))).min();
         let period = shortest.map(|(every, source)| format!(", and `{source}` fires every {every:?}"));
-        eprintln!(
+        tell!(
             "{name}: slow: a reaction takes {reaction:.1?}{}: {behind:.1?} behind; move slow nodes to a thread group of their own, or let sources `skip` what they miss",
             period.unwrap_or_default()
         );

@@ -21,6 +21,7 @@ texts! {
     duty "texts/duty.afg"
     exclusive "texts/exclusive.afg"
     filled "texts/filled.afg"
+    forward "texts/forward.afg"
     fresh "texts/fresh.afg"
     fusion "texts/fusion.afg"
     both "texts/both.afg"

@@ -1,7 +1,10 @@
 //! ROS 2 messages of paths and twists, which Foxglove and Python can show.
 
 use super::{Path, Twist};
-use crate::scan::{Point2, Pose2, message::FRAME};
+use crate::scan::{
+    Point2, Pose2,
+    message::{FRAME, seen},
+};
 use apex_messages::{
     Foreign, Reason, converted,
     geometry_msgs::{self, PoseStamped, TwistStamped, TwistWithCovarianceStamped, Vector3},
@@ -45,7 +48,17 @@ impl TryFrom<nav_msgs::Path> for Path {
     }
 }
 
-converted!(Path as nav_msgs::Path);
+converted!(
+    Path as nav_msgs::Path,
+    outside = |path| {
+        let mut message = nav_msgs::Path::from(path);
+        // The poses along the path have headings of less than half a turn.
+        if let (Some(goal), Some(end)) = (message.poses.last_mut(), path.goal()) {
+            goal.pose = seen(&Pose2::new(end.x, end.y, path.heading));
+        }
+        message
+    }
+);
 
 impl Path {
     /// Direction of the segment after a point, in rad; for the last point, of the segment before it.
@@ -64,6 +77,12 @@ impl From<&Twist> for geometry_msgs::Twist {
             linear: Vector3 { x: f64::from(twist.x), y: f64::from(twist.y), z: 0.0 },
             angular: Vector3 { x: 0.0, y: 0.0, z: f64::from(twist.omega) },
         }
+    }
+}
+
+impl From<&Twist> for TwistStamped {
+    fn from(twist: &Twist) -> Self {
+        Self { header: Header::new(Time::ZERO, FRAME), twist: twist.into() }
     }
 }
 

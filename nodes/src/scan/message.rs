@@ -3,7 +3,10 @@
 use super::{Point2, Pose2, Ranges, Scan, foreign};
 use apex_messages::{
     Foreign, Reason, converted,
-    geometry_msgs::{Point, PointStamped, Pose, PoseStamped, Quaternion},
+    geometry_msgs::{
+        Point, PointStamped, Pose, PoseStamped, PoseWithCovariance, Quaternion, Transform, TwistWithCovariance, Vector3,
+    },
+    nav_msgs::Odometry,
     sensor_msgs::LaserScan,
     std_msgs::Header,
 };
@@ -52,6 +55,18 @@ impl From<&Pose2> for PoseStamped {
     }
 }
 
+/// Odometry of which the pose alone is known: the twist is zero, and so are all covariances.
+impl From<&Pose2> for Odometry {
+    fn from(pose: &Pose2) -> Self {
+        Self {
+            header: Header::new(Time::ZERO, FRAME),
+            child_frame_id: "base_link".to_owned(),
+            pose: PoseWithCovariance { pose: seen(pose), ..PoseWithCovariance::default() },
+            twist: TwistWithCovariance::default(),
+        }
+    }
+}
+
 impl TryFrom<PoseStamped> for Pose2 {
     type Error = Reason;
 
@@ -60,7 +75,25 @@ impl TryFrom<PoseStamped> for Pose2 {
     }
 }
 
-converted!(Pose2 as PoseStamped, others = foreign::poses());
+converted!(
+    Pose2 as PoseStamped,
+    outside = |pose| PoseStamped { pose: seen(pose), ..pose.into() },
+    others = foreign::poses()
+);
+
+/// Pose with the orientation as a rotation, which is the same for a heading of a turn more.
+pub(crate) fn seen(pose: &Pose2) -> Pose {
+    let (z, w) = libm::sincos(0.5 * f64::from(pose.theta));
+    Pose { position: (&pose.position()).into(), orientation: Quaternion { x: 0.0, y: 0.0, z, w } }
+}
+
+/// Transform to a frame at this pose.
+impl From<&Pose2> for Transform {
+    fn from(pose: &Pose2) -> Self {
+        let Pose { position: Point { x, y, z }, orientation } = seen(pose);
+        Self { translation: Vector3 { x, y, z }, rotation: orientation }
+    }
+}
 
 impl From<&Pose2> for Pose {
     fn from(pose: &Pose2) -> Self {
@@ -122,7 +155,10 @@ converted!(
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use apex_messages::{Message, cdr::Reader};
+    use apex_messages::{
+        Message,
+        cdr::{Outside, Reader, Writer},
+    };
     use core::f32::consts::TAU;
 
     /// Message that contains a token.
@@ -183,6 +219,22 @@ pub(crate) mod tests {
         assert!(read.ranges.iter().zip(odd).all(|(a, b)| a.to_bits() == b.to_bits()));
         assert_eq!((read.stamp, read.angle_min, read.angle_increment), (scan.stamp, scan.angle_min, 0.1));
         assert_eq!((read.range_min, read.range_max, read.ranges.len()), (scan.range_min, scan.range_max, odd.len()));
+    }
+
+    #[test]
+    fn headings_are_rotations_for_other_programs() {
+        for theta in [0.0, 3.0, -3.0, 3.5, -40.0, 1e6] {
+            let (pose, mut bytes) = (Pose2::new(1.0, 2.0, theta), vec![]);
+            let outside = Outside { zero: 0, now: 1, frame: Some("map") };
+            pose.write(&mut Writer::new(&mut bytes).for_others(outside));
+            let PoseStamped { header, pose: Pose { orientation, .. } } = reason(&bytes).expect("a pose");
+            for Quaternion { x, y, z, w } in [orientation, Transform::from(&pose).rotation] {
+                assert!((x * x + y * y + z * z + w * w - 1.0).abs() < 1e-9, "{theta}");
+                let off = f64::from(theta) - 2.0 * z.atan2(w);
+                assert!((0.5 * off).sin().abs() < 1e-6, "{theta}");
+            }
+            assert_eq!(header, Header::new(Time::from_nanos(1), "map"));
+        }
     }
 
     #[test]

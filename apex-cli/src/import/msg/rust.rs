@@ -101,10 +101,17 @@ fn message(ty: &Type, types: &Types) -> Result<String, String> {
         rust.push_str("}\n");
     }
     let (definition, hash) = (types.definition(ty)?, hash::of(ty, types)?);
-    // The byte of a message without fields, and the number before a header of ROS 1.
+    // The byte of a message without fields.
     let (empty_write, empty_read) =
         if ty.fields.is_empty() { ("to.number(0_u8);", "from.empty()?;") } else { ("", "") };
-    let before = if whole == "std_msgs/msg/Header" { "from.number_of_header()?;" } else { empty_read };
+    // Stamps and frames may be others outside of the program.
+    let (write, read) = if whole == "std_msgs/msg/Header" {
+        let writes = writes.replace("self.", "header.");
+        let read = format!("from.number_of_header()?; let header = Self {{ {reads} }}; Ok(from.incoming(header))");
+        (format!("let header = to.outgoing(self); {writes}"), read)
+    } else {
+        (format!("{writes} {empty_write}"), format!("{empty_read} Ok(Self {{ {reads} }})"))
+    };
     let _ = write!(
         rust,
         "impl Default for {name} {{\nfn default() -> Self {{ Self {{ {defaults} }} }}\n}}\n\
@@ -112,8 +119,8 @@ fn message(ty: &Type, types: &Types) -> Result<String, String> {
          const NAME: &'static str = \"{whole}\";\n\
          const DEFINITION: &'static str = {definition:?};\n\
          const HASH: &'static str = \"{hash}\";\n\
-         fn write(&self, to: &mut Writer<'_>) {{ {writes} {empty_write} }}\n\
-         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {{ {before} Ok(Self {{ {reads} }}) }}\n}}\n"
+         fn write(&self, to: &mut Writer<'_>) {{ {write} }}\n\
+         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {{ {read} }}\n}}\n"
     );
     Ok(rust)
 }

@@ -1,0 +1,173 @@
+//! The endpoints of a node: their declaration, and everything that they share.
+
+use crate::{
+    Args, Distribution, Endpoint, Error, Kind, Qos, Token,
+    name::{Scope, key, wire_type},
+    ros::Tell,
+    silence::{Ours, Watch},
+    time::RosTime,
+};
+use std::{
+    any::Any,
+    collections::hash_map::DefaultHasher,
+    hash::{Hash as _, Hasher as _},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicU64, Ordering},
+    },
+    thread::{self, JoinHandle},
+    time::{Duration, Instant},
+};
+use zenoh::{Session, Wait as _, liveliness::LivelinessToken};
+
+/// The endpoints of a node, and what they share.
+pub struct Endpoints {
+    pub zenoh: Session,
+    pub domain: u32,
+    pub scope: Scope,
+    pub args: Args,
+    pub distribution: Distribution,
+    pub time: RosTime,
+    pub watch: Arc<Watch>,
+    pub tell: Tell,
+    next: AtomicU64,
+    /// Subscribers, servers and tokens, which end when they are dropped.
+    kept: Mutex<Vec<Box<dyn Any + Send>>>,
+    threads: Mutex<Vec<JoinHandle<()>>>,
+}
+
+/// An endpoint that is declared.
+pub struct Declared {
+    /// The endpoint, and what it has heard.
+    pub ours: Arc<Ours>,
+    /// Key of its data.
+    pub key: String,
+    /// Identification in attachments.
+    pub id: [u8; 16],
+}
+
+/// Time that threads have to end when a node ends: a publisher sends its last message.
+const END: Duration = Duration::from_secs(1);
+
+impl Endpoints {
+    pub fn new(
+        zenoh: Session,
+        domain: u32,
+        scope: Scope,
+        args: Args,
+        distribution: Option<Distribution>,
+        tell: Tell,
+        is_simulated: bool,
+    ) -> Self {
+        Self {
+            zenoh,
+            domain,
+            scope,
+            args,
+            distribution: distribution.unwrap_or_else(Distribution::of_environment),
+            time: if is_simulated { RosTime::simulated() } else { RosTime::wall() },
+            watch: Arc::default(),
+            tell,
+            next: AtomicU64::new(1),
+            kept: Mutex::default(),
+            threads: Mutex::default(),
+        }
+    }
+
+    /// Identification of the session in tokens.
+    pub fn session_id(&self) -> String {
+        self.zenoh.zid().to_string()
+    }
+
+    /// Full name of a topic or service, after remapping.
+    pub fn resolve(&self, name: &str) -> Result<String, Error> {
+        self.args.resolve(name, &self.scope)
+    }
+
+    /// Returns an endpoint of this node.
+    pub fn endpoint(&self, kind: Kind, full_name: &str, ty: &str, hash: &str, qos: Qos) -> Endpoint {
+        let hash = self.distribution.hash(hash).to_owned();
+        Endpoint { kind, name: full_name.to_owned(), wire_type: wire_type(ty), hash, qos }
+    }
+
+    /// Declares an endpoint, so that others see it. Nothing is said about a `quiet` one that meets no other.
+    pub fn add(
+        &self,
+        kind: Kind,
+        name: &str,
+        (ty, hash): (&str, &str),
+        qos: Qos,
+        quiet: bool,
+    ) -> Result<Declared, Error> {
+        if hash.is_empty() {
+            return Err(Error::new(format!("`{name}`: `{ty}` is not a message of ROS 2: its hash is not known")));
+        }
+        let endpoint = self.endpoint(kind, &self.resolve(name)?, ty, hash, qos);
+        let Scope { namespace, node } = self.scope.clone();
+        let token = Token {
+            domain: self.domain,
+            session: self.session_id(),
+            node_id: 0,
+            id: self.next.fetch_add(1, Ordering::Relaxed),
+            enclave: self.args.enclave.clone().unwrap_or_default(),
+            namespace,
+            node,
+            endpoint: Some(endpoint.clone()),
+        };
+        self.keep(self.declare(&token)?);
+        let key = key(self.domain, &endpoint.name, &endpoint.wire_type, &endpoint.hash);
+        let ours = Arc::new(Ours::new(endpoint, quiet));
+        self.watch.add(Arc::clone(&ours));
+        Ok(Declared { ours, key, id: identification(&token) })
+    }
+
+    /// Declares a token.
+    pub fn declare(&self, token: &Token) -> Result<LivelinessToken, Error> {
+        let what = format!("the token `{token}` cannot be declared");
+        self.zenoh.liveliness().declare_token(token.to_string()).wait().map_err(Error::zenoh(&what))
+    }
+
+    /// Keeps something until the node ends.
+    pub fn keep(&self, it: impl Any + Send) {
+        locked(&self.kept).push(Box::new(it));
+    }
+
+    /// Starts a thread that ends by itself when the program or the node does.
+    pub fn spawn(&self, name: &str, run: impl FnOnce() + Send + 'static) -> Result<(), Error> {
+        let thread = thread::Builder::new().name(name.to_owned()).spawn(run);
+        let thread = thread.map_err(|error| Error::new(format!("the thread `{name}` cannot be started: {error}")))?;
+        locked(&self.threads).push(thread);
+        Ok(())
+    }
+
+    /// Ends all endpoints. Publishers of a program that has ended send their last message before.
+    pub fn close(&self) {
+        self.watch.end();
+        self.time.close();
+        let kept = std::mem::take(&mut *locked(&self.kept));
+        drop(kept);
+        let (threads, start) = (std::mem::take(&mut *locked(&self.threads)), Instant::now());
+        while threads.iter().any(|thread| !thread.is_finished()) && start.elapsed() < END {
+            thread::sleep(Duration::from_millis(1));
+        }
+        // A session that is closed already is as good.
+        drop(self.zenoh.close().wait());
+    }
+}
+
+/// Identification of an endpoint: 16 bytes that depend on its token.
+fn identification(token: &Token) -> [u8; 16] {
+    let half = |salt: u8| {
+        let mut hasher = DefaultHasher::new();
+        (salt, token.to_string()).hash(&mut hasher);
+        hasher.finish().to_le_bytes()
+    };
+    let mut id = [0; 16];
+    id[..8].copy_from_slice(&half(0));
+    id[8..].copy_from_slice(&half(1));
+    id
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,43 @@
+//! Programs that are there, by their liveliness tokens.
+
+use crate::{Kind, Token};
+use std::{
+    collections::HashMap,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
+use zenoh::sample::SampleKind;
+
+/// All nodes and endpoints that are there, those of other domains too.
+#[derive(Clone, Default)]
+pub struct Graph(Arc<Mutex<HashMap<String, Token>>>);
+
+/// Most tokens that are kept: a network that makes up more of them cannot use up the memory.
+const MOST: usize = 100_000;
+
+impl Graph {
+    /// Changes the graph by a token that has come or gone. A text that is not a token is left out.
+    pub fn change(&self, key: &str, kind: SampleKind) {
+        let mut tokens = self.tokens();
+        match (kind, key.parse()) {
+            (SampleKind::Put, Ok(token)) if tokens.len() < MOST => {
+                tokens.insert(key.to_owned(), token);
+            }
+            (SampleKind::Delete, _) => {
+                tokens.remove(key);
+            }
+            _ => {}
+        }
+    }
+
+    /// Returns the endpoints of a kind of the other programs.
+    pub fn others(&self, kind: Kind, session: &str) -> Vec<Token> {
+        let is_one = |token: &&Token| {
+            token.session != session && token.endpoint.as_ref().is_some_and(|endpoint| endpoint.kind == kind)
+        };
+        self.tokens().values().filter(is_one).cloned().collect()
+    }
+
+    fn tokens(&self) -> MutexGuard<'_, HashMap<String, Token>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

@@ -1,0 +1,215 @@
+//! Publishers: from the events of a program to topics.
+
+use crate::{
+    Attachment, Durability, Error, Kind, Qos, Reliability, Ros, endpoint::Declared, time::RosTime, time::calendar,
+};
+use apex_messages::{
+    Message,
+    cdr::{Outside, Writer},
+};
+use apex_rt::PortReceiver;
+use std::{
+    marker::PhantomData,
+    sync::atomic::{AtomicI64, Ordering},
+    time::Duration,
+};
+use zenoh::{
+    Wait as _,
+    bytes::ZBytes,
+    pubsub::Publisher as Plain,
+    qos::{CongestionControl, Reliability as Marker},
+};
+use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt as _, CacheConfig, MissDetectionConfig};
+
+/// A publisher before it begins.
+#[must_use = "it begins with `take` or `open`"]
+#[derive(Clone)]
+pub struct Publishing<'a> {
+    ros: &'a Ros,
+    topic: String,
+    qos: Qos,
+    frame: Option<String>,
+    is_quiet: bool,
+}
+
+/// A publisher of another message than that of the tokens' type, before it begins.
+#[must_use = "it begins with `take`"]
+pub struct PublishingAs<'a, M>(Publishing<'a>, PhantomData<fn() -> M>);
+
+/// A publisher of the message `M`. It ends when the node is dropped, or with itself.
+pub struct Publisher<M> {
+    way: Way,
+    id: [u8; 16],
+    number: AtomicI64,
+    frame: Option<String>,
+    time: RosTime,
+    topic: String,
+    message: PhantomData<fn(M)>,
+}
+
+/// Publisher of Zenoh, with or without a cache for subscriptions that come later.
+enum Way {
+    Plain(Plain<'static>),
+    Kept(AdvancedPublisher<'static>),
+}
+
+/// Time between two signs of the last message's number, by which its loss is noticed.
+const HEARTBEAT: Duration = Duration::from_millis(500);
+
+impl<'a> Publishing<'a> {
+    pub(crate) fn new(ros: &'a Ros, topic: &str) -> Self {
+        Self { ros, topic: topic.to_owned(), qos: Qos::DEFAULT, frame: None, is_quiet: false }
+    }
+
+    /// Offers this quality of service.
+    pub fn qos(self, qos: Qos) -> Self {
+        Self { qos, ..self }
+    }
+
+    /// Does not send messages again that are lost.
+    pub fn best_effort(self) -> Self {
+        Self { qos: Qos { reliability: Reliability::BestEffort, ..self.qos }, ..self }
+    }
+
+    /// Keeps this number of messages for subscriptions that come later, if the publisher keeps any.
+    pub fn depth(self, depth: u32) -> Self {
+        Self { qos: Qos { depth: Some(depth), ..self.qos }, ..self }
+    }
+
+    /// Keeps the last messages for subscriptions that come later, as `/map` and `/tf_static` need.
+    pub fn transient_local(self) -> Self {
+        Self { qos: Qos { durability: Durability::TransientLocal, ..self.qos }, ..self }
+    }
+
+    /// Writes this frame into all headers: the types of the library do not name their frame.
+    pub fn frame(self, frame: &str) -> Self {
+        Self { frame: Some(frame.to_owned()), ..self }
+    }
+
+    /// Says nothing if no node subscribes: a topic for tools.
+    pub fn quiet(self) -> Self {
+        Self { is_quiet: true, ..self }
+    }
+
+    /// Writes tokens as the message `M` instead of that of their type, for example a twist with a stamp.
+    pub fn of<M: Message>(self) -> PublishingAs<'a, M> {
+        PublishingAs(self, PhantomData)
+    }
+
+    /// Publishes the tokens of an event of the program. Times in their headers become those of ROS.
+    ///
+    /// # Errors
+    /// The name is not one of ROS.
+    pub fn take<T: Message + Send + 'static>(self, port: PortReceiver<T>) -> Result<(), Error> {
+        self.forward(port, None, |publisher, token| publisher.send(token))
+    }
+
+    /// Publishes the tokens of an event, and `last` when the program has ended: a twist of zero, say.
+    ///
+    /// # Errors
+    /// The errors of [`Publishing::take`].
+    pub fn take_ending_with<T: Message + Send + 'static>(self, port: PortReceiver<T>, last: T) -> Result<(), Error> {
+        self.forward(port, Some(last), |publisher, token| publisher.send(token))
+    }
+
+    /// Returns a publisher for use in Rust.
+    ///
+    /// # Errors
+    /// The name is not one of ROS.
+    pub fn open<M: Message>(self) -> Result<Publisher<M>, Error> {
+        let Self { ros, topic, qos, frame, is_quiet } = self;
+        let endpoints = &ros.endpoints;
+        let declared = endpoints.add(Kind::Publisher, &topic, (M::NAME, M::HASH), qos, is_quiet)?;
+        let topic = declared.ours.endpoint.name.clone();
+        let way = way(ros, &declared, qos)?;
+        let (id, number) = (declared.id, AtomicI64::new(1));
+        Ok(Publisher { way, id, number, frame, time: endpoints.time.clone(), topic, message: PhantomData })
+    }
+
+    /// Publishes the tokens of an event by `send`, on a thread of its own.
+    fn forward<T: Send + 'static, M: Message + 'static>(
+        self,
+        port: PortReceiver<T>,
+        last: Option<T>,
+        send: fn(&Publisher<M>, &T) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let ros = self.ros;
+        let (publisher, tell) = (self.open::<M>()?, ros.endpoints.tell.clone());
+        ros.endpoints.spawn(&publisher.topic.clone(), move || {
+            while let Some(token) = port.receive().as_ref() {
+                if let Err(error) = send(&publisher, token) {
+                    tell(&error.to_string());
+                    break;
+                }
+            }
+            if let Some(Err(error)) = last.map(|last| send(&publisher, &last)) {
+                tell(&error.to_string());
+            }
+        })
+    }
+}
+
+impl<M: Message + 'static> PublishingAs<'_, M> {
+    /// Publishes the tokens of an event of the program, converted to `M`.
+    ///
+    /// # Errors
+    /// The errors of [`Publishing::take`].
+    pub fn take<T: Send + 'static>(self, port: PortReceiver<T>) -> Result<(), Error>
+    where
+        M: for<'t> From<&'t T>,
+    {
+        self.0.forward(port, None, |publisher: &Publisher<M>, token| publisher.send(&token.into()))
+    }
+
+    /// Publishes the tokens of an event, converted to `M`, and `last` when the program has ended.
+    ///
+    /// # Errors
+    /// The errors of [`Publishing::take`].
+    pub fn take_ending_with<T: Send + 'static>(self, port: PortReceiver<T>, last: T) -> Result<(), Error>
+    where
+        M: for<'t> From<&'t T>,
+    {
+        self.0.forward(port, Some(last), |publisher: &Publisher<M>, token| publisher.send(&token.into()))
+    }
+}
+
+impl<M: Message> Publisher<M> {
+    /// Publishes a message. A header without stamp gets the present time.
+    ///
+    /// # Errors
+    /// The node has ended.
+    pub fn send(&self, message: &M) -> Result<(), Error> {
+        let (zero, now) = (self.time.known_zero(), self.time.now());
+        let mut bytes = vec![];
+        message.write(&mut Writer::new(&mut bytes).for_others(Outside { zero, now, frame: self.frame.as_deref() }));
+        let number = self.number.fetch_add(1, Ordering::Relaxed);
+        let attachment = Attachment { number, time: calendar(), sender: self.id }.to_bytes();
+        let (payload, attachment) = (ZBytes::from(bytes), ZBytes::from(attachment.to_vec()));
+        let sent = match &self.way {
+            Way::Plain(publisher) => publisher.put(payload).attachment(attachment).wait(),
+            Way::Kept(publisher) => publisher.put(payload).attachment(attachment).wait(),
+        };
+        sent.map_err(Error::zenoh(&format!("`{}` cannot be published", self.topic)))
+    }
+}
+
+/// Declares the publisher of Zenoh.
+fn way(ros: &Ros, declared: &Declared, qos: Qos) -> Result<Way, Error> {
+    let what = format!("`{}` cannot be published", declared.ours.endpoint.name);
+    let is_reliable = qos.reliability == Reliability::Reliable;
+    let blocks = is_reliable && qos.depth.is_none();
+    let publisher = ros
+        .endpoints
+        .zenoh
+        .declare_publisher(declared.key.clone())
+        .congestion_control(if blocks { CongestionControl::Block } else { CongestionControl::Drop })
+        .reliability(if is_reliable { Marker::Reliable } else { Marker::BestEffort });
+    if !qos.is_kept_for_later() {
+        return publisher.wait().map(Way::Plain).map_err(Error::zenoh(&what));
+    }
+    let mut publisher = publisher.cache(CacheConfig::default().max_samples(qos.kept())).publisher_detection();
+    if is_reliable {
+        publisher = publisher.sample_miss_detection(MissDetectionConfig::default().sporadic_heartbeat(HEARTBEAT));
+    }
+    publisher.wait().map(Way::Kept).map_err(Error::zenoh(&what))
+}

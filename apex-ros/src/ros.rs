@@ -1,0 +1,259 @@
+//! The node of a program in ROS 2.
+
+use crate::{
+    Args, Distribution, Error, Kind, Publishing, Qos, Subscribing,
+    endpoint::Endpoints,
+    graph::Graph,
+    log::Log,
+    name::Scope,
+    session,
+    silence::{Situation, Watch},
+    time::{RosClock, RosTime},
+    token::{SPACE, Token},
+};
+use apex_messages::rosgraph_msgs;
+use apex_rt::{Ports, Program, UntilStopped, drive_from, params::set_text};
+use std::{env, str::FromStr as _, sync::Arc, thread};
+use zenoh::Wait as _;
+
+/// Function that is told reasons for silence, and of messages that cannot be read.
+pub(crate) type Tell = Arc<dyn Fn(&str) + Send + Sync>;
+
+/// Settings of a node, before it is opened.
+pub struct Opening {
+    node: String,
+    args: Option<Vec<String>>,
+    domain: Option<u32>,
+    router: Option<String>,
+    distribution: Option<Distribution>,
+    tell: Tell,
+}
+
+impl Opening {
+    /// Takes these arguments instead of those of the process.
+    #[must_use]
+    pub fn args<T: Into<String>>(self, args: impl IntoIterator<Item = T>) -> Self {
+        Self { args: Some(args.into_iter().map(Into::into).collect()), ..self }
+    }
+
+    /// Joins this domain instead of that in `ROS_DOMAIN_ID`.
+    #[must_use]
+    pub fn domain(self, domain: u32) -> Self {
+        Self { domain: Some(domain), ..self }
+    }
+
+    /// Asks the router of Zenoh at this address (`tcp/127.0.0.1:7447`) for the others.
+    #[must_use]
+    pub fn router(self, address: &str) -> Self {
+        Self { router: Some(address.to_owned()), ..self }
+    }
+
+    /// Writes as this distribution does, instead of that in `ROS_DISTRO`.
+    #[must_use]
+    pub fn distribution(self, distribution: Distribution) -> Self {
+        Self { distribution: Some(distribution), ..self }
+    }
+
+    /// Calls `tell` with what is otherwise written to standard error: reasons for silence, and messages that cannot be
+    /// read.
+    #[must_use]
+    pub fn tell(self, tell: impl Fn(&str) + Send + Sync + 'static) -> Self {
+        Self { tell: Arc::new(tell), ..self }
+    }
+
+    /// Opens the node. It appears in the tools of ROS 2, if a router of Zenoh runs now or later.
+    ///
+    /// # Errors
+    /// An argument or a setting is wrong, or the session cannot be opened.
+    pub fn open(self) -> Result<Ros, Error> {
+        let arguments = self.args.unwrap_or_else(|| env::args().skip(1).collect());
+        let args = Args::read(arguments, &self.node)?;
+        let scope = Scope::new(args.namespace.as_deref().unwrap_or(""), args.node.as_deref().unwrap_or(&self.node))?;
+        let domain = self.domain.map_or_else(domain, Ok)?;
+        let zenoh = session::open(self.router.as_deref())?;
+        let (log, said) = (Log::default(), self.tell);
+        let tell: Tell = {
+            let log = log.clone();
+            Arc::new(move |text: &str| {
+                said(text);
+                log.add(text);
+            })
+        };
+        let is_simulated = args.flag("use_sim_time");
+        let endpoints = Arc::new(Endpoints::new(zenoh, domain, scope, args, self.distribution, tell, is_simulated));
+        let node = Token {
+            domain,
+            session: endpoints.session_id(),
+            node_id: 0,
+            id: 0,
+            enclave: endpoints.args.enclave.clone().unwrap_or_default(),
+            namespace: endpoints.scope.namespace.clone(),
+            node: endpoints.scope.node.clone(),
+            endpoint: None,
+        };
+        let token = endpoints.declare(&node)?;
+        endpoints.keep(token);
+        let graph = Graph::default();
+        let change = {
+            let graph = graph.clone();
+            move |sample: zenoh::sample::Sample| graph.change(sample.key_expr().as_str(), sample.kind())
+        };
+        let all = endpoints.zenoh.liveliness().declare_subscriber(format!("{SPACE}/**")).history(true).callback(change);
+        endpoints.keep(all.wait().map_err(Error::zenoh("the others cannot be looked for"))?);
+        let ros = Ros { endpoints, log, graph, router: session::address(self.router.as_deref()) };
+        ros.watch()?;
+        if is_simulated {
+            ros.follow_clock()?;
+        }
+        Ok(ros)
+    }
+}
+
+/// Domain in the environment; 0 if there is none.
+fn domain() -> Result<u32, Error> {
+    match env::var("ROS_DOMAIN_ID").ok().filter(|text| !text.is_empty()) {
+        None => Ok(0),
+        Some(text) => {
+            u32::from_str(&text).map_err(|_| Error::new(format!("`ROS_DOMAIN_ID` is `{text}`, which is not a number")))
+        }
+    }
+}
+
+/// The node of a program in ROS 2: its publishers, subscriptions, services and parameters.
+///
+/// They end when it is dropped.
+pub struct Ros {
+    pub(crate) endpoints: Arc<Endpoints>,
+    pub(crate) log: Log,
+    graph: Graph,
+    router: String,
+}
+
+impl Ros {
+    /// Returns the settings of a node with this name.
+    pub fn node(name: &str) -> Opening {
+        let tell = |text: &str| eprintln!("ros: {text}");
+        Opening {
+            node: name.to_owned(),
+            args: None,
+            domain: None,
+            router: None,
+            distribution: None,
+            tell: Arc::new(tell),
+        }
+    }
+
+    /// Opens a node with the arguments of the process and the settings of the environment.
+    ///
+    /// # Errors
+    /// The errors of [`Opening::open`].
+    pub fn open(name: &str) -> Result<Self, Error> {
+        Self::node(name).open()
+    }
+
+    /// Full name of the node: `/robot1/rover`.
+    pub fn name(&self) -> String {
+        self.endpoints.scope.full()
+    }
+
+    /// Arguments of the process: those of ROS, and the others.
+    pub fn args(&self) -> &Args {
+        &self.endpoints.args
+    }
+
+    /// Begins a subscription of a topic. Names are those of ROS: `scan` is in the namespace of the node, `~/scan` below
+    /// the node, `/scan` absolute; remappings hold.
+    pub fn subscribe(&self, topic: &str) -> Subscribing<'_> {
+        Subscribing::new(self, topic)
+    }
+
+    /// Begins a publisher of a topic.
+    pub fn publish(&self, topic: &str) -> Publishing<'_> {
+        Publishing::new(self, topic)
+    }
+
+    /// Returns the clock that drives the program: that of the machine, or with `-p use_sim_time:=true` that of the
+    /// simulation. Its zero is the start of the node; stamps of messages are converted to it and back.
+    pub fn clock(&self) -> RosClock {
+        RosClock(self.endpoints.time.clone())
+    }
+
+    /// Sets the parameters of the program that the arguments name: `--ros-args -p mission.near:=0.5`.
+    ///
+    /// # Errors
+    /// There is no such parameter, or its value is of another type or out of range.
+    pub fn set_params<P: Program>(&self, program: &mut P) -> Result<(), Error> {
+        for (name, value) in self.args().params.iter().filter(|(name, _)| name != "use_sim_time") {
+            set_text(program, name, &crate::args::toml(value))
+                .map_err(|error| Error::new(format!("`-p {name}:={value}`: {error}")))?;
+        }
+        Ok(())
+    }
+
+    /// Drives a program with these ports by [`Ros::clock`] until it ends, or until Ctrl-C. Its parameters are those of
+    /// the node, and its problems are in `/rosout` and `/diagnostics`. Returns the exit code.
+    ///
+    /// # Errors
+    /// The errors of [`Ros::set_params`], [`Ros::serve_params`] and [`Ros::report`].
+    pub fn drive<P>(&self, mut program: P, ports: Ports<P>) -> Result<u8, Error>
+    where
+        P: Program,
+    {
+        self.set_params(&mut program)?;
+        self.serve_params(ports.params())?;
+        self.report(P::INFO.name)?;
+        let clock = self.clock();
+        if !matches!(self.endpoints.time, RosTime::Simulated(_)) {
+            return Ok(drive_from(program, clock, ports));
+        }
+        let clock = UntilStopped::ctrl_c(clock).map_err(Error::new)?;
+        // The first `/clock` is the program's zero.
+        while !self.endpoints.time.is_known() && !clock.is_stopped() {
+            thread::sleep(crate::time::LOOK);
+        }
+        Ok(drive_from(program, clock, ports))
+    }
+
+    /// Returns `true` if there is an endpoint of this kind and type in any program: a publisher of a topic, say.
+    pub fn sees(&self, kind: Kind, name: &str, ty: &str) -> bool {
+        self.endpoints.resolve(name).is_ok_and(|full| {
+            let endpoint = |hash: &str| self.endpoints.endpoint(kind, &full, ty, hash, Qos::DEFAULT);
+            let others = self.graph.others(kind, &self.endpoints.session_id());
+            let wanted = endpoint("");
+            others
+                .iter()
+                .filter_map(|token| token.endpoint.as_ref())
+                .any(|it| (&it.name, &it.wire_type) == (&wanted.name, &wanted.wire_type))
+        })
+    }
+
+    /// Looks for reasons of silence in a thread.
+    fn watch(&self) -> Result<(), Error> {
+        let Endpoints { zenoh, domain, watch, tell, .. } = &*self.endpoints;
+        let situation = Situation {
+            domain: *domain,
+            session: self.endpoints.session_id(),
+            graph: self.graph.clone(),
+            router: self.router.clone(),
+        };
+        let (zenoh, watch, tell): (_, Arc<Watch>, Tell) = (zenoh.clone(), Arc::clone(watch), Arc::clone(tell));
+        self.endpoints.spawn("ros-watch", move || {
+            let has_router = || zenoh.info().routers_zid().wait().next().is_some();
+            watch.run(&situation, has_router, &*tell);
+        })
+    }
+
+    /// Takes the time of the simulation from `/clock`.
+    fn follow_clock(&self) -> Result<(), Error> {
+        let RosTime::Simulated(time) = self.endpoints.time.clone() else { return Ok(()) };
+        let clock = self.subscribe("/clock").best_effort().depth(1);
+        clock.each(move |message: rosgraph_msgs::Clock| time.set(message.clock.as_nanos())).map(drop)
+    }
+}
+
+impl Drop for Ros {
+    fn drop(&mut self) {
+        self.log.close();
+        self.endpoints.close();
+    }
+}

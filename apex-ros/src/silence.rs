@@ -1,0 +1,314 @@
+//! Reasons for silence, in words: why nothing comes, and why no node listens.
+
+use crate::{Kind, NO_HASH, Token, graph::Graph, token::Endpoint};
+use std::{
+    sync::{
+        Arc, Condvar, Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
+/// Time between two looks.
+const LOOK: Duration = Duration::from_millis(250);
+/// Time after which a reason is said that still holds.
+const PATIENCE: Duration = Duration::from_millis(2500);
+/// Time without messages from which on a topic with regular messages is silent.
+const SILENT: Duration = Duration::from_millis(2500);
+
+/// An endpoint of the program, and what it has heard.
+pub struct Ours {
+    /// The endpoint.
+    pub endpoint: Endpoint,
+    /// Number of messages that came.
+    pub heard: AtomicU64,
+    /// Messages that were dropped, because the program took none meanwhile.
+    pub dropped: AtomicU64,
+    /// `true` if nothing is to be said about it, as no node has to listen.
+    pub is_quiet: bool,
+}
+
+impl Ours {
+    /// Returns an endpoint that has heard nothing yet.
+    pub fn new(endpoint: Endpoint, is_quiet: bool) -> Self {
+        Self { endpoint, heard: AtomicU64::new(0), dropped: AtomicU64::new(0), is_quiet }
+    }
+}
+
+/// Kind of the endpoints that an endpoint needs on the other side, and the word for it.
+const fn other_side(kind: Kind) -> (Kind, &'static str) {
+    match kind {
+        Kind::Publisher => (Kind::Subscription, "subscribes to"),
+        Kind::Subscription => (Kind::Publisher, "publishes"),
+        Kind::Server => (Kind::Client, "calls"),
+        Kind::Client => (Kind::Server, "serves"),
+    }
+}
+
+/// Returns the reason why an endpoint of `domain` meets none of the `others`, those of the other side; `None` if it
+/// meets one.
+pub fn reason(domain: u32, ours: &Endpoint, others: &[Token]) -> Option<String> {
+    let (_, does) = other_side(ours.kind);
+    let name = &ours.name;
+    let endpoints = || others.iter().filter_map(|token| Some((token, token.endpoint.as_ref()?)));
+    let here = || endpoints().filter(|(token, it)| token.domain == domain && it.name == *name);
+    if here().any(|(_, it)| it.wire_type == ours.wire_type && it.hash == ours.hash) {
+        return None;
+    }
+    if let Some((token, it)) = here().find(|(_, it)| it.wire_type == ours.wire_type) {
+        let node = node(token);
+        return Some(match (it.hash.as_str(), ours.hash.as_str()) {
+            (NO_HASH, _) => format!(
+                "`{node}` {does} `{name}` as a program of Humble, whose types have no hash: set `ROS_DISTRO=humble`"
+            ),
+            (_, NO_HASH) => format!(
+                "`{node}` {does} `{name}` with a hash of its type, and this program is one of Humble: set `ROS_DISTRO` \
+                 to the distribution there"
+            ),
+            (theirs, here) => format!(
+                "`{node}` {does} `{name}` with another definition of `{}` (`{}`, here `{}`): both need the same version \
+                 of the package",
+                ours.type_name(),
+                short(theirs),
+                short(here)
+            ),
+        });
+    }
+    if let Some((token, it)) = here().next() {
+        let (node, theirs, here) = (node(token), it.type_name(), ours.type_name());
+        return Some(format!("`{node}` {does} `{name}` as `{theirs}`, and this program has `{here}` there"));
+    }
+    if let Some((token, _)) = endpoints().find(|(_, it)| it.name == *name && it.wire_type == ours.wire_type) {
+        let other = token.domain;
+        return Some(format!(
+            "no node {does} `{name}` in domain {domain}, but `{}` does in domain {other}: set `ROS_DOMAIN_ID={other}`",
+            node(token)
+        ));
+    }
+    let elsewhere = endpoints().find(|(token, it)| token.domain == domain && it.wire_type == ours.wire_type);
+    Some(match elsewhere {
+        Some((_, it)) => format!(
+            "no node {does} `{name}`; `{other}` has its type: if you mean that, start with \
+             `--ros-args -r {name}:={other}`",
+            other = it.name
+        ),
+        None => format!("no node {does} `{name}`"),
+    })
+}
+
+/// Full name of the node of a token.
+fn node(token: &Token) -> String {
+    format!("{}/{}", token.namespace.trim_end_matches('/'), token.node)
+}
+
+/// Beginning of a hash.
+fn short(hash: &str) -> String {
+    hash.chars().take(15).collect::<String>() + "…"
+}
+
+/// Reason for the silence of an endpoint, and since when it holds.
+#[derive(Default)]
+struct Known {
+    reason: Option<String>,
+    since: Option<Instant>,
+    /// `true` if the reason was said.
+    is_said: bool,
+    /// Number of messages at the last look, and the time at which it changed.
+    heard: u64,
+    last: Option<Instant>,
+}
+
+impl Known {
+    /// Takes note of the present reason. Returns what is to be said: a reason that holds for a while, or `fine` after a
+    /// reason that was said.
+    fn note(&mut self, reason: Option<String>, fine: impl FnOnce() -> String, now: Instant) -> Option<String> {
+        if reason != self.reason {
+            let was_said = std::mem::take(&mut self.is_said);
+            (self.reason, self.since) = (reason, Some(now));
+            return (was_said && self.reason.is_none()).then(fine);
+        }
+        let lasts = now - *self.since.get_or_insert(now) >= PATIENCE;
+        if self.is_said || !lasts {
+            return None;
+        }
+        self.is_said = self.reason.is_some();
+        self.reason.clone()
+    }
+
+    /// Returns for how long a topic with regular messages has been silent.
+    fn silence(&mut self, heard: u64, now: Instant) -> bool {
+        if heard != self.heard {
+            (self.heard, self.last) = (heard, Some(now));
+        }
+        heard >= REGULAR && self.last.is_some_and(|last| now - last >= SILENT)
+    }
+}
+
+/// Number of messages from which on a topic counts as one with regular messages.
+const REGULAR: u64 = 10;
+
+/// The endpoints of a program, which are looked at now and then.
+#[derive(Default)]
+pub struct Watch {
+    ours: Mutex<Vec<Arc<Ours>>>,
+    is_over: AtomicBool,
+    changed: (Mutex<()>, Condvar),
+}
+
+/// Parts of the session that a watch needs.
+pub struct Situation {
+    /// Domain of the program.
+    pub domain: u32,
+    /// Identification of the session.
+    pub session: String,
+    /// All tokens.
+    pub graph: Graph,
+    /// Address at which a router is looked for.
+    pub router: String,
+}
+
+impl Watch {
+    /// Returns all endpoints.
+    pub fn all(&self) -> Vec<Arc<Ours>> {
+        self.ours.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Adds an endpoint.
+    pub fn add(&self, ours: Arc<Ours>) {
+        self.ours.lock().unwrap_or_else(PoisonError::into_inner).push(ours);
+    }
+
+    /// Ends the watch.
+    pub fn end(&self) {
+        self.is_over.store(true, Ordering::Release);
+        self.changed.1.notify_all();
+    }
+
+    /// Looks at the endpoints until the end of the watch. `has_router` returns `true` while a router is connected.
+    pub fn run(&self, at: &Situation, has_router: impl Fn() -> bool, tell: &(dyn Fn(&str) + Send + Sync)) {
+        let (mut router, mut known) = (Known::default(), Vec::new());
+        while !self.is_over.load(Ordering::Acquire) {
+            let (is_connected, now) = (has_router(), Instant::now());
+            let reason = (!is_connected).then(|| {
+                format!(
+                    "no router of Zenoh answers at `{}`: start one (`ros2 run rmw_zenoh_cpp rmw_zenohd`, or `zenohd`), \
+                     or name another one with `ZENOH_CONFIG_OVERRIDE='connect/endpoints=[\"tcp/HOST:7447\"]'`",
+                    at.router
+                )
+            });
+            let fine = || format!("a router answers at `{}`", at.router);
+            router.note(reason, fine, now).iter().for_each(|text| tell(text));
+            let ours = self.all();
+            known.resize_with(ours.len(), Known::default);
+            for (ours, known) in ours.iter().zip(&mut known).filter(|(ours, _)| !ours.is_quiet) {
+                look(ours, known, at, is_connected, now).iter().for_each(|text| tell(text));
+            }
+            let guard = self.changed.0.lock().unwrap_or_else(PoisonError::into_inner);
+            drop(self.changed.1.wait_timeout(guard, LOOK));
+        }
+    }
+}
+
+/// Looks at an endpoint. Returns what is to be said.
+fn look(ours: &Ours, known: &mut Known, at: &Situation, is_connected: bool, now: Instant) -> Option<String> {
+    let endpoint = &ours.endpoint;
+    let (kind, does) = other_side(endpoint.kind);
+    let heard = ours.heard.load(Ordering::Relaxed);
+    let is_silent = known.silence(heard, now);
+    let others = at.graph.others(kind, &at.session);
+    let reason = reason(at.domain, endpoint, &others).or_else(|| {
+        let name = &endpoint.name;
+        is_silent.then(|| {
+            format!("no message of `{name}` has come for {} s, and its publisher is there", SILENT.as_secs_f32())
+        })
+    });
+    // Without a router nothing is known about the others, and that has been said.
+    let reason = reason.filter(|_| is_connected || !others.is_empty());
+    known.note(reason, || format!("a node {does} `{}` now", endpoint.name), now)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Qos, wire_type};
+
+    fn endpoint(kind: Kind, name: &str, ty: &str, hash: &str) -> Endpoint {
+        let (name, hash) = (name.to_owned(), hash.to_owned());
+        Endpoint { kind, name, wire_type: wire_type(ty), hash, qos: Qos::DEFAULT }
+    }
+
+    /// Token of a publisher `/lidar`.
+    fn publisher(domain: u32, name: &str, ty: &str, hash: &str) -> Token {
+        Token {
+            domain,
+            session: "ab".to_owned(),
+            node_id: 0,
+            id: 1,
+            enclave: String::new(),
+            namespace: "/".to_owned(),
+            node: "lidar".to_owned(),
+            endpoint: Some(endpoint(Kind::Publisher, name, ty, hash)),
+        }
+    }
+
+    const SCAN: &str = "sensor_msgs/msg/LaserScan";
+
+    #[test]
+    fn each_silence_has_its_reason() {
+        let ours = endpoint(Kind::Subscription, "/scan", SCAN, "RIHS01_64c191398013");
+        let why = |others: &[Token]| reason(0, &ours, others).unwrap_or_default();
+        assert_eq!(why(&[publisher(0, "/scan", SCAN, "RIHS01_64c191398013")]), "");
+        for (others, expected) in [
+            (vec![], "no node publishes `/scan`"),
+            (
+                vec![publisher(0, "/front", SCAN, "RIHS01_64c191398013")],
+                "no node publishes `/scan`; `/front` has its type: if you mean that, start with \
+                 `--ros-args -r /scan:=/front`",
+            ),
+            (
+                vec![publisher(5, "/scan", SCAN, "RIHS01_64c191398013")],
+                "no node publishes `/scan` in domain 0, but `/lidar` does in domain 5: set `ROS_DOMAIN_ID=5`",
+            ),
+            (
+                vec![publisher(0, "/scan", "sensor_msgs/msg/PointCloud2", "RIHS01_00")],
+                "`/lidar` publishes `/scan` as `sensor_msgs/msg/PointCloud2`, and this program has \
+                 `sensor_msgs/msg/LaserScan` there",
+            ),
+            (
+                vec![publisher(0, "/scan", SCAN, NO_HASH)],
+                "`/lidar` publishes `/scan` as a program of Humble, whose types have no hash: set `ROS_DISTRO=humble`",
+            ),
+            (
+                vec![publisher(0, "/scan", SCAN, "RIHS01_0123456789abcdef")],
+                "`/lidar` publishes `/scan` with another definition of `sensor_msgs/msg/LaserScan` (`RIHS01_01234567…`, \
+                 here `RIHS01_64c19139…`): both need the same version of the package",
+            ),
+        ] {
+            assert_eq!(why(&others), expected);
+        }
+        let humble = endpoint(Kind::Subscription, "/scan", SCAN, NO_HASH);
+        let why = reason(0, &humble, &[publisher(0, "/scan", SCAN, "RIHS01_64c191398013")]);
+        assert!(why.is_some_and(|why| why.contains("this program is one of Humble")));
+    }
+
+    #[test]
+    fn a_reason_is_said_once_when_it_lasts() {
+        let (mut known, start) = (Known::default(), Instant::now());
+        let mut note = |reason: Option<&str>, ms: u64| {
+            known.note(reason.map(str::to_owned), || "fine".to_owned(), start + Duration::from_millis(ms))
+        };
+        let said: Vec<_> =
+            (0..4000).step_by(250).filter_map(|ms| note(Some("why"), ms).map(|text| (ms, text))).collect();
+        assert_eq!(said, [(2500, "why".to_owned())]);
+        assert_eq!((note(None, 5000), note(None, 9000)), (Some("fine".to_owned()), None));
+        assert_eq!((note(Some("why"), 9250), note(None, 9500)), (None, None), "it did not last");
+    }
+
+    #[test]
+    fn only_regular_messages_can_fall_silent() {
+        let (mut known, start) = (Known::default(), Instant::now());
+        let mut silence = |heard, s| known.silence(heard, start + Duration::from_secs(s));
+        assert!(!silence(1, 0) && !silence(1, 60));
+        assert!(!silence(20, 61) && silence(20, 64) && !silence(21, 65));
+    }
+}

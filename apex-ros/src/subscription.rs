@@ -1,0 +1,214 @@
+//! Subscriptions: from topics to the ports of a program.
+
+use crate::{
+    Durability, Error, Kind, Qos, Reliability, Ros,
+    endpoint::Declared,
+    ring::{Entrance, Ring},
+    ros::Tell,
+    silence::Ours,
+};
+use apex_messages::{Foreign, Message, Reason, cdr::Reader};
+use apex_rt::PortSender;
+use std::{
+    sync::{Arc, atomic::Ordering},
+    time::{Duration, Instant},
+};
+use zenoh::{Wait as _, bytes::ZBytes, sample::Sample};
+use zenoh_ext::{AdvancedSubscriberBuilderExt as _, HistoryConfig, RecoveryConfig};
+
+/// A subscription before it begins.
+#[must_use = "it begins with `feed` or `each`"]
+pub struct Subscribing<'a> {
+    ros: &'a Ros,
+    topic: String,
+    qos: Qos,
+    /// Name of the message, if it is not that of the token's type.
+    message: Option<&'static str>,
+    part: String,
+    is_quiet: bool,
+}
+
+/// A subscription. It ends when the node is dropped.
+pub struct Subscription(Arc<Ours>);
+
+impl Subscription {
+    /// Number of messages that have come.
+    pub fn heard(&self) -> u64 {
+        self.0.heard.load(Ordering::Relaxed)
+    }
+
+    /// Number of messages that made room for newer ones, because the program had not taken them yet.
+    pub fn dropped(&self) -> u64 {
+        self.0.dropped.load(Ordering::Relaxed)
+    }
+}
+
+/// Most bytes after a message, which some writers add to align it.
+const PADDING: usize = 3;
+
+impl<'a> Subscribing<'a> {
+    pub(crate) fn new(ros: &'a Ros, topic: &str) -> Self {
+        Self { ros, topic: topic.to_owned(), qos: Qos::DEFAULT, message: None, part: String::new(), is_quiet: false }
+    }
+
+    /// Asks for this quality of service.
+    pub fn qos(self, qos: Qos) -> Self {
+        Self { qos, ..self }
+    }
+
+    /// Takes messages that are not sent again when they are lost, as sensors publish them.
+    pub fn best_effort(self) -> Self {
+        Self { qos: Qos { reliability: Reliability::BestEffort, ..self.qos }, ..self }
+    }
+
+    /// Keeps this number of messages until the program takes them. A new message takes the place of the oldest.
+    pub fn depth(self, depth: u32) -> Self {
+        Self { qos: Qos { depth: Some(depth), ..self.qos }, ..self }
+    }
+
+    /// Takes the last messages from before the subscription, too: of `/map`, `/tf_static`.
+    pub fn transient_local(self) -> Self {
+        Self { qos: Qos { durability: Durability::TransientLocal, ..self.qos }, ..self }
+    }
+
+    /// Says nothing if no node publishes: a topic that may be there or not.
+    pub fn quiet(self) -> Self {
+        Self { is_quiet: true, ..self }
+    }
+
+    /// Reads tokens from the message `M` instead of that of their type, for example a pose from odometry.
+    pub fn of<M: Message>(self) -> Self {
+        Self { message: Some(M::NAME), ..self }
+    }
+
+    /// Takes this part of the message: the transform `odom -> base_link` of `/tf`.
+    pub fn part(self, part: &str) -> Self {
+        Self { part: part.to_owned(), ..self }
+    }
+
+    /// Puts the messages into a port of the program, as its tokens. The stamps of their headers become times of the
+    /// program.
+    ///
+    /// # Errors
+    /// The name is not one of ROS, or the type is not read from this message.
+    pub fn feed<T: Message + Send + 'static>(self, port: PortSender<T>) -> Result<Subscription, Error> {
+        self.take(move |token| port.send(token).is_ok())
+    }
+
+    /// Calls `act` with each message, on a thread of its own.
+    ///
+    /// # Errors
+    /// The errors of [`Subscribing::feed`].
+    pub fn each<T: Message + 'static>(self, mut act: impl FnMut(T) + Send + 'static) -> Result<Subscription, Error> {
+        self.take(move |token| {
+            act(token);
+            true
+        })
+    }
+
+    /// Calls `act` with each token until it returns `false`.
+    fn take<T: Message + 'static>(
+        self,
+        mut act: impl FnMut(T) -> bool + Send + 'static,
+    ) -> Result<Subscription, Error> {
+        let form: Foreign<T> = self.form()?;
+        let Self { ros, topic, qos, part, is_quiet, .. } = self;
+        let endpoints = &ros.endpoints;
+        let declared = endpoints.add(Kind::Subscription, &topic, (form.name, form.hash), qos, is_quiet)?;
+        let (ring, entrance) = Ring::new(qos.kept());
+        listen(ros, &declared, qos, entrance)?;
+        let (time, mut complaints) = (endpoints.time.clone(), Complaints::new(&declared, Arc::clone(&endpoints.tell)));
+        // The time of the simulation does not wait for itself.
+        let is_clock = form.name == "rosgraph_msgs/msg/Clock";
+        endpoints.spawn(&declared.ours.endpoint.name, move || {
+            while let Some(payload) = ring.take() {
+                let Some(zero) = (if is_clock { Some(0) } else { time.zero() }) else { break };
+                match read(&form, &payload, zero, &part) {
+                    Ok(token) => {
+                        if !token.is_none_or(&mut act) {
+                            break;
+                        }
+                    }
+                    Err(reason) => complaints.add(&reason),
+                }
+            }
+        })?;
+        Ok(Subscription(declared.ours))
+    }
+
+    /// The message from which tokens are read.
+    fn form<T: Message>(&self) -> Result<Foreign<T>, Error> {
+        let Some(wanted) = self.message else { return Ok(Foreign::itself()) };
+        let mut forms: Vec<Foreign<T>> = T::others();
+        forms.insert(0, Foreign::itself());
+        let names: Vec<&str> = forms.iter().map(|form| form.name).collect();
+        match names.iter().position(|name| *name == wanted) {
+            Some(at) => Ok(forms.swap_remove(at)),
+            None => Err(Error::new(format!(
+                "`{}`: `{}` is not read from `{wanted}`, but from `{}`",
+                self.topic,
+                std::any::type_name::<T>(),
+                names.join("`, `")
+            ))),
+        }
+    }
+}
+
+/// Reads a token; `None` if the message does not have the part.
+fn read<T>(form: &Foreign<T>, payload: &ZBytes, zero: i64, part: &str) -> Result<Option<T>, Reason> {
+    let bytes = payload.to_bytes();
+    let mut reader = Reader::new(&bytes)?.since(zero);
+    let token = (form.read)(&mut reader, part)?;
+    if token.is_some() && reader.left() > PADDING { Err("bytes are left over".into()) } else { Ok(token) }
+}
+
+/// Lets the messages of a topic into a ring.
+fn listen(ros: &Ros, declared: &Declared, qos: Qos, entrance: Entrance<ZBytes>) -> Result<(), Error> {
+    let ours = Arc::clone(&declared.ours);
+    let hear = move |sample: Sample| {
+        ours.heard.fetch_add(1, Ordering::Relaxed);
+        if entrance.put(sample.payload().clone()) {
+            ours.dropped.fetch_add(1, Ordering::Relaxed);
+        }
+    };
+    let endpoints = &ros.endpoints;
+    let what = format!("`{}` cannot be subscribed", declared.ours.endpoint.name);
+    let subscriber = endpoints.zenoh.declare_subscriber(declared.key.clone()).callback(hear);
+    if !qos.is_kept_for_later() {
+        endpoints.keep(subscriber.wait().map_err(Error::zenoh(&what))?);
+        return Ok(());
+    }
+    let history = HistoryConfig::default().detect_late_publishers().max_samples(qos.kept());
+    let mut subscriber = subscriber.history(history);
+    if qos.reliability == Reliability::Reliable {
+        subscriber = subscriber.recovery(RecoveryConfig::default().heartbeat());
+    }
+    endpoints.keep(subscriber.wait().map_err(Error::zenoh(&what))?);
+    Ok(())
+}
+
+/// Messages that could not be read, which are told now and then.
+struct Complaints {
+    topic: String,
+    tell: Tell,
+    count: u64,
+    told: Option<Instant>,
+}
+
+/// Time between two complaints.
+const PAUSE: Duration = Duration::from_secs(10);
+
+impl Complaints {
+    fn new(declared: &Declared, tell: Tell) -> Self {
+        Self { topic: declared.ours.endpoint.name.clone(), tell, count: 0, told: None }
+    }
+
+    fn add(&mut self, reason: &str) {
+        self.count += 1;
+        if self.told.is_none_or(|told| told.elapsed() >= PAUSE) {
+            self.told = Some(Instant::now());
+            let (topic, count) = (&self.topic, self.count);
+            (self.tell)(&format!("`{topic}`: a message cannot be read: {reason} ({count} of them so far)"));
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! The programs on the page about ROS 2 are the examples, and only this crate needs Zenoh.
+
+use std::{fs, path::Path};
+
+#[test]
+fn the_page_shows_the_examples() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("../docs/ros2.md")).expect("the page");
+    let blocks = |word: &str| {
+        let fence = format!("```{word}\n");
+        page.split(&fence).skip(1).filter_map(|rest| Some(rest.split_once("```")?.0.to_owned())).collect::<Vec<_>>()
+    };
+    let example = |name: &str| fs::read_to_string(root.join("examples").join(name)).expect("the example");
+    let shown = |name: &str| {
+        let text = example(name);
+        // Without the comment at the top, which says how to run it.
+        text.split_once("\n\n").map(|(_, rest)| rest.to_owned()).unwrap_or_default()
+    };
+    assert_eq!(blocks("rust"), [shown("turtlebot.rs")]);
+    assert_eq!(blocks("afg"), [shown("turtlebot.afg")]);
+}
+
+#[test]
+fn the_project_is_built_without_zenoh() {
+    let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.lock");
+    let lock = fs::read_to_string(lock).expect("the workspace has one");
+    assert!(lock.contains("name = \"apex-rt\"") && !lock.contains("name = \"zenoh"));
+}

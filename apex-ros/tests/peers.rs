@@ -1,0 +1,258 @@
+//! A node beside programs of others: Python with `eclipse-zenoh`, whose session is the router, and `rosbags`, which
+//! knows the messages and their hashes; and `zenoh-ros2-sdk`, which lists topics as `ros2 topic list` does.
+
+mod common;
+
+use apex_messages::{
+    Message,
+    diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue},
+    geometry_msgs::{Pose, Quaternion, Transform, TransformStamped, Twist, Vector3},
+    nav_msgs::{OccupancyGrid, Odometry},
+    sensor_msgs::{Image, LaserScan, PointCloud2, PointField},
+    std_msgs::{Empty, Header},
+    std_srvs::{SetBool, SetBoolRequest, SetBoolResponse},
+    tf2_msgs::TFMessage,
+};
+use apex_nodes::map::{Grid, Occupancy};
+use apex_ros::{Kind, Ros};
+use apex_rt::Time;
+use common::{Collected, free_address, within};
+use std::{
+    env,
+    io::{BufRead as _, BufReader, Write as _},
+    path::{Path, PathBuf},
+    process::{Child, ChildStdin, Command, Stdio},
+    thread,
+    time::Duration,
+};
+
+/// Python with the packages; `None` if there is none, which is an error in CI.
+fn python() -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let environment = root.join("target/python/bin/python3");
+    let python = [environment, PathBuf::from("python3")].into_iter().find(|python| {
+        let test = Command::new(python).args(["-c", "import rosbags, zenoh, zenoh_ros2_sdk"]).output();
+        test.is_ok_and(|output| output.status.success())
+    });
+    if python.is_none() {
+        assert!(env::var_os("CI").is_none(), "no Python has `rosbags`, `eclipse-zenoh` and `zenoh-ros2-sdk`");
+        println!("skipped: no Python has `rosbags`, `eclipse-zenoh` and `zenoh-ros2-sdk`");
+    }
+    python
+}
+
+/// The peer in Python, and what it says.
+struct Peer {
+    child: Child,
+    input: ChildStdin,
+    lines: Collected<String>,
+    address: String,
+}
+
+impl Peer {
+    fn start(python: &Path) -> Self {
+        let address = free_address();
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/peer.py");
+        let set_bool = format!("std_srvs/srv/SetBool={}", <SetBool as apex_messages::Service>::HASH);
+        let mut child = Command::new(python)
+            .args([script.as_os_str(), address.as_ref(), set_bool.as_ref()])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("python runs");
+        let (input, output) = (child.stdin.take().expect("a pipe"), child.stdout.take().expect("a pipe"));
+        let lines = Collected::new();
+        let add = lines.collector();
+        thread::spawn(move || BufReader::new(output).lines().map_while(Result::ok).for_each(add));
+        let peer = Self { child, input, lines, address };
+        within(20.0, "the peer is ready", || peer.says("ready"));
+        peer
+    }
+
+    fn says(&self, start: &str) -> bool {
+        self.lines.all().iter().any(|line| line.starts_with(start))
+    }
+
+    /// Lets the peer do something, and returns what it said.
+    fn does(&mut self, word: &str) -> Vec<String> {
+        self.lines.clear();
+        writeln!(self.input, "{word}").expect("it reads");
+        within(10.0, word, || self.says(&format!("done {word}")));
+        self.lines.all()
+    }
+
+    fn node(&self, name: &str) -> Ros {
+        Ros::node(name).args([""; 0]).domain(0).router(&self.address).open().expect("a node")
+    }
+}
+
+impl Drop for Peer {
+    fn drop(&mut self) {
+        drop(self.child.kill());
+        drop(self.child.wait());
+    }
+}
+
+/// Sends messages, and expects them back, bit by bit.
+fn echo<M: Message + Send + 'static>(ros: &Ros, index: usize, messages: &[M]) {
+    let back = Collected::new();
+    let add = back.collector();
+    let pong = format!("/pong_{index}");
+    let subscription = ros.subscribe(&pong).depth(1000).each(move |message: Raw<M>| add(message.0));
+    subscription.expect("a topic");
+    let ping = ros.publish(&format!("/ping_{index}")).depth(1000).open::<Raw<M>>().expect("a topic");
+    within(10.0, "the peer", || {
+        ros.sees(Kind::Publisher, &pong, M::NAME) && ros.sees(Kind::Subscription, &format!("/ping_{index}"), M::NAME)
+    });
+    // A route for data comes a moment after the token.
+    within(10.0, "the first one comes back", || {
+        ping.send(&Raw::of(&messages[0])).expect("it is there");
+        thread::sleep(Duration::from_millis(50));
+        !back.all().is_empty()
+    });
+    thread::sleep(Duration::from_millis(200));
+    back.clear();
+    for message in messages {
+        ping.send(&Raw::of(message)).expect("it is there");
+    }
+    within(10.0, M::NAME, || back.all().len() == messages.len());
+    let sent: Vec<_> = messages.iter().map(|message| Raw::of(message).0).collect();
+    assert!(back.all() == sent, "{}", M::NAME);
+}
+
+/// Bytes of a message, with its name: floats that are not numbers can be compared.
+struct Raw<M>(Vec<u8>, std::marker::PhantomData<fn() -> M>);
+
+impl<M: Message> Raw<M> {
+    fn of(message: &M) -> Self {
+        Self(message.to_bytes(), std::marker::PhantomData)
+    }
+}
+
+impl<M: Message> Message for Raw<M> {
+    const NAME: &'static str = M::NAME;
+    const DEFINITION: &'static str = M::DEFINITION;
+    const HASH: &'static str = M::HASH;
+
+    fn write(&self, message: &mut apex_messages::cdr::Writer<'_>) {
+        M::from_bytes(&self.0).expect("its own bytes").write(message);
+    }
+
+    fn read(message: &mut apex_messages::cdr::Reader<'_>) -> Result<Self, apex_messages::Reason> {
+        M::read(message).map(|message| Self::of(&message))
+    }
+}
+
+const ODD: [f32; 6] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.0, f32::MIN_POSITIVE, 1.5];
+
+/// Header with a time of the program, which becomes one of ROS on the way there, and is the same when it is back.
+fn header() -> Header {
+    Header::new(Time::from_nanos(5_123_456_789), "laser")
+}
+
+#[test]
+fn messages_come_back_from_python_bit_by_bit() {
+    let Some(python) = python() else { return };
+    let peer = Peer::start(&python);
+    let ros = peer.node("robot");
+    let scan = |count| LaserScan { header: header(), ranges: ODD.repeat(count), ..LaserScan::default() };
+    echo(&ros, 0, &[scan(0), scan(1), scan(300)]);
+    let twists = ODD.map(|x| Twist { linear: Vector3 { x: x.into(), y: f64::MAX, z: f64::NAN }, ..Twist::default() });
+    echo(&ros, 1, &twists);
+    let mut odometry = Odometry { header: header(), child_frame_id: "base_link".to_owned(), ..Odometry::default() };
+    odometry.pose.covariance = std::array::from_fn(|i| i as f64);
+    odometry.pose.pose =
+        Pose { orientation: Quaternion { x: 0.0, y: 0.0, z: 1.0, w: f64::INFINITY }, ..Pose::default() };
+    echo(&ros, 2, &[odometry, Odometry { header: header(), ..Odometry::default() }]);
+    echo(&ros, 3, &[OccupancyGrid { header: header(), data: (-1..=100).collect(), ..OccupancyGrid::default() }]);
+    let transform =
+        TransformStamped { header: header(), child_frame_id: "ä".to_owned(), transform: Transform::default() };
+    echo(&ros, 4, &[TFMessage { transforms: vec![transform; 3] }, TFMessage::default()]);
+    let data: Vec<u8> = (0..1_000_000_u32).map(|i| (i % 251) as u8).collect();
+    let image = Image {
+        header: header(),
+        height: 1000,
+        width: 1000,
+        encoding: "mono8".to_owned(),
+        step: 1000,
+        data,
+        ..Image::default()
+    };
+    echo(&ros, 5, &[image.clone(), image]);
+    echo(&ros, 6, &["zwölf".to_owned(), String::new()]);
+    let field = PointField { name: "x".to_owned(), offset: 0, datatype: PointField::FLOAT32, count: 1 };
+    let data = ODD.iter().flat_map(|x| x.to_le_bytes()).collect();
+    echo(
+        &ros,
+        7,
+        &[PointCloud2 { header: header(), fields: vec![field], point_step: 4, data, ..PointCloud2::default() }],
+    );
+    let value = KeyValue { key: "a".to_owned(), value: "b".to_owned() };
+    let status =
+        DiagnosticStatus { level: 1, name: "n".to_owned(), values: vec![value], ..DiagnosticStatus::default() };
+    echo(&ros, 8, &[DiagnosticArray { header: header(), status: vec![status] }]);
+    echo(&ros, 9, &[Empty {}, Empty {}]);
+    let pings: Vec<_> = peer.lines.all().into_iter().filter(|line| line.starts_with("ping")).collect();
+    assert!(pings.len() > 20 && pings.iter().all(|line| line.ends_with("right")), "{pings:?}");
+}
+
+#[test]
+fn services_and_late_maps_go_both_ways() {
+    let Some(python) = python() else { return };
+    let mut peer = Peer::start(&python);
+    let ros = peer.node("robot");
+    let flip = ros.call::<SetBool>("/flip").open().expect("a client");
+    within(10.0, "the server", || ros.sees(Kind::Server, "/flip", "std_srvs/srv/SetBool"));
+    for data in [true, false] {
+        let response = flip.ask(&SetBoolRequest { data });
+        assert_eq!(response, Ok(SetBoolResponse { success: !data, message: "flipped".to_owned() }));
+    }
+    within(5.0, "both requests", || peer.says("request 1 1") && peer.says("request 0 2"));
+
+    ros.serve::<SetBool>("~/shout")
+        .by(|request| SetBoolResponse { success: request.data, message: "HEY".to_owned() })
+        .expect("a service");
+    within(10.0, "an answer", || peer.does("call").iter().any(|line| line == "response 1 HEY 7 same"));
+
+    let maps = Collected::new();
+    let add = maps.collector();
+    ros.subscribe("/map_of_peer")
+        .transient_local()
+        .depth(1)
+        .each(move |map: Grid<Occupancy>| add(map.cells().to_vec()))
+        .expect("a topic");
+    within(10.0, "the map", || maps.all() == [[Occupancy::Occupied, Occupancy::Free]]);
+    let publisher = ros.publish("/map_of_robot").frame("map").transient_local().depth(1).open().expect("a topic");
+    publisher.send(&OccupancyGrid { data: vec![7, -1], ..OccupancyGrid::default() }).expect("it is there");
+    within(10.0, "the map at the peer", || peer.says("map map 7 -1"));
+}
+
+#[test]
+fn tools_see_the_node_and_its_topics() {
+    let Some(python) = python() else { return };
+    let mut peer = Peer::start(&python);
+    let ros = peer.node("robot");
+    ros.subscribe("scan").best_effort().each(|_: LaserScan| {}).expect("a topic");
+    let twist = ros.publish("cmd_vel").open::<Twist>().expect("a topic");
+    let wanted = [
+        "/NN/%/%/robot".to_owned(),
+        format!("/MS/%/%/robot/%scan/sensor_msgs::msg::dds_::LaserScan_/{}/2::,10:,:,:,,", LaserScan::HASH),
+        format!("/MP/%/%/robot/%cmd_vel/geometry_msgs::msg::dds_::Twist_/{}/::,10:,:,:,,", Twist::HASH),
+    ];
+    within(10.0, "the tokens", || {
+        let tokens = peer.does("tokens");
+        wanted.iter().all(|wanted| tokens.iter().any(|token| token.ends_with(wanted.as_str())))
+    });
+    let address = peer.address.trim_start_matches("tcp/");
+    let sdk = python.with_file_name("zenoh-ros2");
+    let mut listed = String::new();
+    within(20.0, "the list of zenoh-ros2-sdk", || {
+        let output = Command::new(&sdk)
+            .args(["--no-daemon", "--domain-id", "0", "--router", address, "--timeout", "2", "topic", "list", "-t"])
+            .output()
+            .expect("it runs");
+        listed = String::from_utf8_lossy(&output.stdout).into_owned();
+        listed.contains("/cmd_vel [geometry_msgs/msg/Twist]") && listed.contains("/scan [sensor_msgs/msg/LaserScan]")
+    });
+    drop(twist);
+}
