@@ -427,7 +427,9 @@ mod tests {
                 robot.drive(twist);
             }
             robot.node.give_up();
-            (0..pause).for_each(|_| drop(robot.react(None, None)));
+            for _ in 0..pause {
+                let _ = robot.react(None, None);
+            }
             let twist = robot.react(Some(&way), None).0.expect("it drives");
             assert_eq!(twist.x > 0.7, is_fast, "{twist:?} after {pause} steps");
         }

@@ -87,8 +87,11 @@ mod tests {
         scan
     }
 
+    /// Time in ms, whether there is a load, and the points of a scan.
+    type Firing<'a> = (i64, bool, &'a [(f32, f32)]);
+
     /// Number of points that are left at each time.
-    fn left<const N: usize>(firings: [(i64, bool, &[(f32, f32)]); N]) -> [usize; N] {
+    fn left<const N: usize>(firings: [Firing<'_>; N]) -> [usize; N] {
         let mut node = HideCarried::construct((1.2, 0.7, 0.15, 0.06, 2.0));
         firings.map(|(ms, is_loaded, points)| {
             let (ctx, mut rest) = (Ctx::new(Time::from_millis(ms)), Out::new());
