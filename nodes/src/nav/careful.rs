@@ -60,6 +60,9 @@ pub struct PersonCaution {
     /// Distance up to which the speed is `min_speed` whether the person stands or walks: who stands may take a step.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     beside: f32,
+    /// Distance within which the robot stops for who walks, unless it drives away: a touch is then none of its own.
+    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
+    halt: f32,
     /// Time for which a person within `beside` still counts after the last detection: the robot or its load often hides
     /// those who stand next to it.
     #[param(unit = "s", default = 0.0, range = 0.0..=60.0)]
@@ -127,6 +130,9 @@ impl PersonCaution {
                 // Does not matter if it is full: the robot is slow already.
                 let _ = self.kept.push(Kept { place: person.position, seen: time });
             }
+            if distance < self.halt && !self.stands(person) && !is_left(person.position) {
+                speed = 0.0;
+            }
             if !(self.stands(person) && is_left(person.position)) {
                 let predicted = if distance < self.beside { 0.0 } else { self.foreseen(twist, &outline, &now, person) };
                 speed = fminf(speed, fmaxf(self.speed_at(distance, person), predicted));
@@ -189,6 +195,7 @@ mod tests {
             0.1,
             0.3,
             0.2,
+            0.0,
             2.0,
             0.2,
             0.4,
@@ -262,6 +269,16 @@ mod tests {
     fn persons_who_stand_are_passed_faster_unless_they_are_close() {
         let speed = |x: f32, velocity: f32| speed([0.0; 2], 1.0, (x, 0.0, velocity));
         assert_eq!([speed(0.6, 0.1), speed(0.6, -0.5), speed(0.4, 0.1)], [0.3, 0.1, 0.1]);
+    }
+
+    #[test]
+    fn it_halts_for_who_walks_close_to_it() {
+        let speed = |twist: f32, x: f32, velocity: f32| {
+            let mut node = PersonCaution { halt: 0.3, ..node([0.0; 2]) };
+            fire(&mut node, 0, Twist::new(twist, 0.0, 0.0), &[(x, 0.0, velocity)]).x
+        };
+        assert_eq!([speed(1.0, 0.5, 1.0), speed(1.0, 0.5, 0.1), speed(1.0, 0.6, 1.0)], [0.0, 0.3, 0.1]);
+        assert_eq!([speed(-1.0, 0.5, 1.0), speed(1.0, -1.0, 1.0), speed(-1.0, -1.0, 1.0)], [-0.1, 0.1, 0.0]);
     }
 
     #[test]

@@ -14,6 +14,8 @@ use libm::remainderf;
 
 /// Minimum progress along the path, in m. A smaller change does not count as progress.
 const PROGRESS: f32 = 0.02;
+/// Longest pause between two paths after which a robot still moves as before, in s.
+const RESUMES: f32 = 0.3;
 /// Weight of a heading error in the distance left to go, in m/rad.
 const TURN: f32 = 0.1;
 
@@ -152,7 +154,7 @@ impl PathFollower {
         #[failure] off_path: Event<()>,
     ) -> Result<Option<Twist>, FarFromOrigin> {
         if let Some(path) = path {
-            self.begin(path);
+            self.begin(path, ctx.now());
         }
         if !self.path.points.is_empty() && any_far([pose]) {
             return self.halt.far();
@@ -206,10 +208,13 @@ impl PathFollower {
     #[on_deactivate]
     fn give_up(&mut self) {
         self.path.points.clear();
-        self.motion = Motion::default();
     }
 
-    fn begin(&mut self, path: &Path) {
+    /// Begins a path. A robot that was driving just before goes on at its speed.
+    fn begin(&mut self, path: &Path, now: Time) {
+        if self.motion.at.is_none_or(|last| now.since(last).as_secs_f32() > RESUMES) {
+            self.motion = Motion::default();
+        }
         self.path.clone_from(path);
         // A path of one point leads straight to it.
         if let [point] = self.path.points[..] {
@@ -408,6 +413,25 @@ mod tests {
                 reaction = self.react(None, None);
             }
             panic!("it does not come to an end");
+        }
+    }
+
+    #[test]
+    fn a_new_path_does_not_stop_it() {
+        let way = path(&[(0.0, 0.0), (20.0, 0.0)], 0.0);
+        for (pause, is_fast) in [(0, true), (5, true), (50, false)] {
+            let mut robot = Robot::new(follower(), Pose2::default());
+            robot.react(Some(&way), None);
+            for _ in 0..100 {
+                let twist = robot.react(None, None).0.expect("it drives");
+                robot.drive(twist);
+            }
+            robot.node.give_up();
+            for _ in 0..pause {
+                let _ = robot.react(None, None);
+            }
+            let twist = robot.react(Some(&way), None).0.expect("it drives");
+            assert_eq!(twist.x > 0.7, is_fast, "{twist:?} after {pause} steps");
         }
     }
 

@@ -41,6 +41,21 @@ impl Part {
         })
     }
 
+    /// Points on the border of the part, at most a step apart.
+    pub fn border(self, step: f32) -> impl Iterator<Item = Point2> {
+        let [columns, rows] = [self.to - self.from, 2.0 * self.half].map(|size| libm::ceilf(size / step).max(1.0));
+        let Self { from, to, half } = self;
+        let sides = (0..=columns as u16).flat_map(move |i| {
+            let x = from + (to - from) * f32::from(i) / columns;
+            [half, -half].map(|y| Point2::new(x, y))
+        });
+        let ends = (1..rows as u16).flat_map(move |i| {
+            let y = half * (2.0 * f32::from(i) / rows - 1.0);
+            [from, to].map(|x| Point2::new(x, y))
+        });
+        sides.chain(ends)
+    }
+
     /// Distance of a point in m: negative inside.
     fn distance(&self, point: Point2) -> f32 {
         let along = fmaxf(self.from - point.x, point.x - self.to);
@@ -64,6 +79,13 @@ impl Outline {
         let middle = vehicle.lift();
         let load = Part { from: middle - 0.5 * length, to: middle + 0.5 * length, half: 0.5 * width };
         Self { vehicle, load: (width > 0.0).then_some(load) }
+    }
+
+    /// Parts of the vehicle at a place, each with its axis: tractor, trailer with drawbar, and load.
+    pub fn parts<'a>(&self, axes: &'a Axes) -> impl Iterator<Item = (Part, &'a Pose2)> + use<'a> {
+        let [tractor, trailer] = self.vehicle.whole();
+        let load = self.load.map(|load| (load, &axes[1]));
+        [(tractor, &axes[0]), (trailer, &axes[1])].into_iter().chain(load)
     }
 
     /// Distance of a point from the vehicle at a place, in m: negative inside. The drawbar belongs to the vehicle.

@@ -3,6 +3,7 @@
 //! The types have fixed capacities and need no heap, except that with the feature `std` scans grow on it
 //! ([`Ranges`]).
 
+mod carried;
 mod confirm;
 mod consensus;
 mod container;
@@ -20,6 +21,7 @@ mod remember;
 mod segment;
 mod wheel;
 
+pub use carried::HideCarried;
 pub use confirm::ConfirmContainer;
 pub use container::{Container, ContainerSearch, best_container};
 pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};

@@ -221,8 +221,9 @@ pub const ROWS: &[Row] = &[
         needs: &["twist"],
         max_age: 0.5,
         make: || {
-            let mut node =
-                PersonCaution::construct((PATSY, 0.0, 0.0, 0.7, 0.15, 0.15, 0.0, 0.0, 0.3, 0.3, 0.0, 0.4, 0.05, 0.5));
+            let mut node = PersonCaution::construct((
+                PATSY, 0.0, 0.0, 0.7, 0.15, 0.15, 0.0, 0.0, 0.0, 0.3, 0.3, 0.0, 0.4, 0.05, 0.5,
+            ));
             Box::new(move |ctx, i| {
                 let axes = (get(i, "pose"), get(i, "trailer"));
                 fire([], |[]| Ok(node.process(ctx, get(i, "twist"), axes.0, axes.1, get(i, "persons"))))

@@ -1,9 +1,13 @@
-use super::super::{
-    Terrain,
-    payload::{
-        Articulated,
-        dubins::{Curve, advanced},
+use super::{
+    super::{
+        Terrain,
+        outline::{Axes, Outline},
+        payload::{
+            Articulated,
+            dubins::{Curve, advanced},
+        },
     },
+    room::Room,
 };
 use crate::{
     map::{Grid, Occupancy},
@@ -16,22 +20,21 @@ use libm::remainderf;
 pub(super) const CHECK: f32 = 0.1;
 /// Maximum angle between the vehicle and its trailer, in rad.
 const MAX_BEND: f32 = 1.2;
-/// Distance from the places of the trailer at the start within which the map does not count, in m: it stands there.
-const STANDS: f32 = 0.2;
 /// Distance from floor that is not known, on ways backward, in m: the tractor swings out when it straightens the
 /// trailer.
 const EDGE: f32 = 0.15;
 
-/// Vehicle that drives in curves: its shape on the map in which obstacles are grown by half of its width.
+/// Vehicle that drives in curves: a tractor with a trailer and a load on it, if there is one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveDrive {
     /// Smallest radius of a curve, in m.
     pub radius: f32,
     /// Vehicle and trailer on the floor.
     pub shape: Articulated,
-    /// Places on the trailer, with its load, that must not touch anything: distances from its axis forward, in m. A
-    /// vehicle without places has no trailer.
-    pub body: &'static [f32],
+    /// Length and width of the load, in m, whose middle is above that of the straight vehicle; a width of 0 for none.
+    pub load: [f32; 2],
+    /// Distance of the outline from obstacles, in m.
+    pub margin: f32,
     /// Rate at which the angle to the trailer approaches the wanted one when the vehicle backs up, in 1/m; 0 for a
     /// vehicle that only drives forward.
     pub backing_gain: f32,
@@ -40,15 +43,18 @@ pub struct CurveDrive {
 }
 
 impl CurveDrive {
-    /// Returns `true` if the vehicle has a trailer and backs up with it.
+    /// Returns `true` if the vehicle backs up with its trailer.
     pub(super) fn backs_up(&self) -> bool {
-        self.backing_gain > 0.0 && !self.body.is_empty()
+        self.backing_gain > 0.0
     }
 
-    /// Places on the trailer that must not touch anything, at a pose and with this heading of the trailer.
-    pub(super) fn places(&self, pose: &Pose2, trailer: f32) -> impl Iterator<Item = Point2> {
-        let (hitch, drawbar) = (pose.to_outer(Point2::new(-self.shape.hitch, 0.0)), self.shape.drawbar);
-        self.body.iter().map(move |place| hitch + Point2::polar(place - drawbar, trailer))
+    pub(super) fn outline(&self) -> Outline {
+        Outline::new(self.shape, self.load)
+    }
+
+    /// Poses of the axes at a pose and with this heading of the trailer, in rad.
+    pub(super) fn axes(&self, pose: &Pose2, trailer: f32) -> Axes {
+        [*pose, self.shape.trailer(pose, trailer)]
     }
 }
 
@@ -81,8 +87,7 @@ pub struct Ground<'a> {
 pub(super) struct Drive<'a> {
     pub ground: &'a Ground<'a>,
     pub vehicle: &'a CurveDrive,
-    /// Places of the trailer at the start.
-    pub stands: &'a [Point2],
+    pub room: &'a Room,
 }
 
 impl Drive<'_> {
@@ -150,32 +155,21 @@ impl Drive<'_> {
         Some(trailer)
     }
 
-    /// Heading of the trailer after a step; that of the vehicle if there is none.
+    /// Heading of the trailer after a step.
     fn towed(&self, pose: &Pose2, trailer: f32, curvature: f32, step: f32) -> f32 {
-        let CurveDrive { shape, body, .. } = *self.vehicle;
-        if body.is_empty() {
-            return pose.theta + step * curvature;
-        }
-        trailer + step * shape.trailer_rotation(1.0, curvature, pose.theta - trailer)
+        trailer + step * self.vehicle.shape.trailer_rotation(1.0, curvature, pose.theta - trailer)
     }
 
-    /// Highest cost of the places of the vehicle at a pose, or `None` if something is touched there.
+    /// Highest cost of the axes of the vehicle and of the middle of its load, or `None` if something is touched there.
     fn fits(&self, pose: &Pose2, trailer: f32) -> Option<f32> {
-        let Self { ground: Ground { terrain, .. }, vehicle, stands } = self;
-        let raster = terrain.map.raster();
-        let cost_at =
-            |point: Point2| raster.cell(point).filter(|cell| terrain.is_open(*cell)).map(|cell| terrain.cost(cell));
-        cost_at(pose.to_outer(Point2::new(vehicle.shape.front, 0.0)))?;
-        let is_start = |place: Point2| stands.iter().any(|at| (*at - place).norm_squared() <= STANDS * STANDS);
-        let mut highest = cost_at(pose.position())?;
-        for place in vehicle.places(pose, trailer) {
-            match cost_at(place) {
-                Some(cost) => highest = highest.max(cost),
-                None if is_start(place) => {}
-                None => return None,
-            }
+        let Self { ground: Ground { terrain, .. }, vehicle, room } = self;
+        let axes = vehicle.axes(pose, trailer);
+        if !room.fits(vehicle, &axes) {
+            return None;
         }
-        Some(highest)
+        let cost = |point: Point2| terrain.map.raster().cell(point).map_or(0.0, |cell| terrain.cost(cell));
+        let middle = axes[1].to_outer(Point2::new(vehicle.shape.lift(), 0.0));
+        Some([pose.position(), axes[1].position(), middle].into_iter().map(cost).fold(0.0, f32::max))
     }
 }
 

@@ -3,6 +3,7 @@
 mod drive;
 mod estimate;
 mod planner;
+mod room;
 mod states;
 mod way;
 
@@ -14,10 +15,11 @@ use super::{
     NoPath, Terrain,
     payload::dubins::{Curve, advanced, curves},
 };
-use crate::scan::{Point2, Pose2};
+use crate::scan::Pose2;
 use core::cmp::Ordering;
 use drive::{CHECK, Drive, bend};
 use estimate::Estimates;
+use room::Room;
 use states::States;
 use std::collections::BinaryHeap;
 
@@ -46,13 +48,16 @@ const LINES: u8 = 4;
 const IN_LINE: f32 = 0.05;
 /// Maximum number of expanded states.
 const MOST: usize = 60_000;
+/// Part of the margin that is kept in a fine search.
+const SQUEEZED: f32 = 0.7;
 /// Length of a way to nowhere.
 const NONE: u32 = u32::MAX;
 
 /// Planner for vehicles that drive in curves of a smallest radius: A* on states of position and heading, with arcs as
 /// steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A passively steered trailer is predicted on the
 /// way. Vehicles that may back up do so with a constant angle to the trailer in each step, as `BackFollower` does. The
-/// heuristic is the length of the shortest way on the map without regard to the heading. If a vehicle that backs up
+/// heuristic is the length of the shortest way on the map without regard to the heading. The outline of the vehicle with
+/// its load keeps a margin from obstacles; on the first 0.8 m it may be as near to them as it is at the start. If a vehicle that backs up
 /// does not get away from a narrow place, a second search has shorter steps and smaller states near the start. Keeps
 /// its buffers.
 #[derive(Debug, Clone, Default)]
@@ -61,8 +66,7 @@ pub struct CurveSearch {
     nodes: Vec<Node>,
     endings: Vec<Ending>,
     open: BinaryHeap<Open>,
-    /// Places of the trailer at the start.
-    stands: Vec<Point2>,
+    room: Room,
     states: States,
 }
 
@@ -126,10 +130,15 @@ impl CurveSearch {
         goals: &[Goal],
     ) -> Result<Way, NoPath> {
         check(&ground.terrain, &start.pose, goals)?;
-        self.estimates.run(&ground.terrain, goals);
+        self.room.measure(&ground.terrain, vehicle, start);
+        let core = Terrain { map: self.room.core(), ..ground.terrain };
+        self.estimates.run(&core, goals);
         let way = self.search(ground, vehicle, start, goals, false);
         match way {
-            Err(expanded) if expanded < MOST && vehicle.backs_up() => self.search(ground, vehicle, start, goals, true),
+            Err(expanded) if expanded < MOST && vehicle.backs_up() => {
+                let squeezed = CurveDrive { margin: SQUEEZED * vehicle.margin, ..*vehicle };
+                self.search(ground, &squeezed, start, goals, true)
+            }
             way => way,
         }
         .map_err(|_| NoPath::Unreachable)
@@ -144,7 +153,7 @@ impl CurveSearch {
         goals: &[Goal],
         is_fine: bool,
     ) -> Result<Way, usize> {
-        self.begin(vehicle, start, is_fine);
+        self.begin(start, is_fine);
         let mut expanded = 0;
         while let Some(Open { node: at, .. }) = self.open.pop() {
             let node = self.nodes[at as usize];
@@ -174,10 +183,8 @@ impl CurveSearch {
         Err(expanded)
     }
 
-    fn begin(&mut self, vehicle: &CurveDrive, start: &Start, is_fine: bool) {
+    fn begin(&mut self, start: &Start, is_fine: bool) {
         let Start { pose, trailer, .. } = *start;
-        self.stands.clear();
-        self.stands.extend(vehicle.places(&pose, trailer));
         self.nodes.clear();
         self.endings.clear();
         self.open.clear();
@@ -190,7 +197,7 @@ impl CurveSearch {
 
     fn step(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, curvature: f32, length: f32) {
         let node = self.nodes[before as usize];
-        let drive = Drive { ground, vehicle, stands: &self.stands };
+        let drive = Drive { ground, vehicle, room: &self.room };
         let Some((way, trailer)) = drive.arc(&node.pose, node.trailer, curvature, length) else { return };
         let bend = [curvature.abs(), (curvature - node.curvature).abs()].map(|c| c * vehicle.radius);
         let cost = node.cost + way + BENDING[0] * length * bend[0] + BENDING[1] * bend[1] + node.turn(false);
@@ -200,7 +207,7 @@ impl CurveSearch {
 
     fn step_back(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, bend: f32, length: f32) {
         let node = self.nodes[before as usize];
-        let drive = Drive { ground, vehicle, stands: &self.stands };
+        let drive = Drive { ground, vehicle, room: &self.room };
         let Some((way, pose, trailer)) = drive.back(&node.pose, node.trailer, bend, length) else { return };
         let angles = [bend.abs(), (bend - node.back.unwrap_or(0.0)).abs()];
         let angled = ANGLED[0] * length * angles[0] + ANGLED[1] * angles[1];
@@ -222,7 +229,7 @@ impl CurveSearch {
     /// asks for that. Only its length counts: with costs, most ways to a goal would be searched before one is found.
     fn try_to_end(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, goal: &Goal) {
         let node = self.nodes[before as usize];
-        let drive = Drive { ground, vehicle, stands: &self.stands };
+        let drive = Drive { ground, vehicle, room: &self.room };
         let mut best: Option<Curve> = None;
         let lines = if vehicle.straight > 0.0 { LINES } else { 1 };
         for straight in (0..lines).map(|i| vehicle.straight * f32::from(i) / f32::from(LINES - 1)) {
@@ -288,11 +295,19 @@ mod tests {
     use crate::{
         map::{Cell, Grid, Occupancy, Raster},
         nav::{Articulated, BackPath, Path, payload::Backing},
+        scan::Point2,
     };
     use core::f32::consts::{FRAC_PI_2, PI, TAU};
 
-    const VEHICLE: CurveDrive =
-        CurveDrive { radius: 0.8, shape: Articulated::PATSY, body: &[], backing_gain: 0.0, straight: 0.0 };
+    const VEHICLE: CurveDrive = CurveDrive {
+        radius: 0.8,
+        shape: Articulated::PATSY,
+        load: [0.0; 2],
+        margin: 0.05,
+        backing_gain: 0.0,
+        straight: 0.0,
+    };
+    const LOAD: [f32; 2] = [1.2, 0.7];
 
     /// Room of 12 m × 8 m with a wall that ends at y = 5 m.
     fn room() -> Grid<Occupancy> {
@@ -366,9 +381,8 @@ mod tests {
         }
         let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
         let (start, goals) = (Pose2::new(2.5, 5.0, 0.0), [free(Pose2::new(5.0, 2.0, -FRAC_PI_2))]);
-        let is_way =
-            |body: &'static [f32]| search(&terrain, &CurveDrive { body, ..VEHICLE }, &at(start, 0.0), &goals).is_ok();
-        assert_eq!([is_way(&[]), is_way(&[0.0]), is_way(&[-4.0, -3.0, -2.0, 0.0])], [true, true, false]);
+        let is_way = |load| search(&terrain, &CurveDrive { load, ..VEHICLE }, &at(start, 0.0), &goals).is_ok();
+        assert_eq!([[0.0; 2], LOAD, [4.2, 0.7]].map(is_way), [true, true, false]);
     }
 
     #[test]
@@ -377,11 +391,13 @@ mod tests {
         let map = Grid::new(raster, Occupancy::Free).expect("small");
         let ground = Ground { terrain: Terrain { map: &map, costs: None, unknown_is_open: false }, floor: None };
         let bend_at_end = |straight: f32, start: Pose2, heading: f32| {
-            let vehicle = CurveDrive { body: &[0.0, 0.4], straight, backing_gain: 2.5, ..VEHICLE };
+            let vehicle = CurveDrive { load: LOAD, straight, backing_gain: 2.5, ..VEHICLE };
             let goals = [free(Pose2::new(6.0, 4.0, 0.0))];
             let way = CurveSearch::default().plan(&ground, &vehicle, &at(start, heading), &goals).expect("a way");
             let last = way.nodes[way.nodes.len() - 1];
-            let drive = Drive { ground: &ground, vehicle: &vehicle, stands: &[] };
+            let mut room = Room::default();
+            room.measure(&ground.terrain, &vehicle, &at(start, heading));
+            let drive = Drive { ground: &ground, vehicle: &vehicle, room: &room };
             bend(&goals[0].pose, drive.at_end(&way.end, last.trailer).expect("it is free"))
         };
         let from_the_side = Pose2::new(5.0, 2.5, FRAC_PI_2);
@@ -398,14 +414,14 @@ mod tests {
         let raster = Raster { corner: Point2::new(0.0, -2.0), resolution: 0.1, width: 100, height: 100 };
         let mut map = Grid::new(raster, Occupancy::Occupied).expect("small");
         for (x, y) in (0..100).flat_map(|x| (0..100).map(move |y| (x, y))) {
-            if (16..25).contains(&y) || (30..50).contains(&x) && y > 16 {
+            if (12..29).contains(&y) || (27..53).contains(&x) && y > 12 {
                 *map.get_mut(Cell::new(x, y)).expect("inside") = Occupancy::Free;
             }
         }
         let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
         let goals = [free(Pose2::new(4.0, 6.0, FRAC_PI_2))];
         let (mut base, mut heading) = (Pose2::new(8.0, 0.1, 0.1), 0.0);
-        let loaded = CurveDrive { body: &[0.0, 0.4, 0.8], ..VEHICLE };
+        let loaded = CurveDrive { load: LOAD, ..VEHICLE };
         assert_eq!(search(&terrain, &loaded, &at(base, heading), &goals), Err(NoPath::Unreachable));
         let loaded = CurveDrive { backing_gain: 2.5, ..loaded };
         let (section, path, back) = search(&terrain, &loaded, &at(base, heading), &goals).expect("a way");
@@ -423,17 +439,17 @@ mod tests {
         assert_eq!(path.goal(), Some(goals[0].pose.position()));
     }
 
-    /// Across in a corridor in which the middle of the vehicle and its load may be 1.2 m apart.
+    /// Across in a corridor of 2 m.
     #[test]
     fn a_vehicle_turns_in_a_narrow_place_in_short_steps() {
-        let raster = Raster { corner: Point2::new(0.0, -1.0), resolution: 0.1, width: 160, height: 20 };
+        let raster = Raster { corner: Point2::new(0.0, -1.1), resolution: 0.1, width: 160, height: 22 };
         let mut map = Grid::new(raster, Occupancy::Occupied).expect("small");
-        for (x, y) in (0..160).flat_map(|x| (4..16).map(move |y| (x, y))) {
+        for (x, y) in (0..160).flat_map(|x| (1..21).map(move |y| (x, y))) {
             *map.get_mut(Cell::new(x, y)).expect("inside") = Occupancy::Free;
         }
         let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
         let goals = [free(Pose2::new(2.0, 0.0, PI)), free(Pose2::new(14.0, 0.0, 0.0))];
-        let vehicle = CurveDrive { body: &[0.0, 0.4, 0.8], backing_gain: 2.5, ..VEHICLE };
+        let vehicle = CurveDrive { load: LOAD, backing_gain: 2.5, ..VEHICLE };
         for turn in [0.7, 1.1] {
             let heading = FRAC_PI_2 * turn;
             let start = Pose2::new(8.0, 0.1, heading);
@@ -444,7 +460,7 @@ mod tests {
 
     #[test]
     fn a_way_may_have_to_begin_backward() {
-        let (map, vehicle) = (room(), CurveDrive { body: &[0.0], backing_gain: 2.5, ..VEHICLE });
+        let (map, vehicle) = (room(), CurveDrive { backing_gain: 2.5, ..VEHICLE });
         let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
         let goals = [free(Pose2::new(5.0, 3.0, 0.0))];
         let start = at(Pose2::new(2.0, 3.0, 0.0), 0.0);
@@ -473,7 +489,7 @@ mod tests {
             *map.get_mut(Cell::new(13, y)).expect("inside") = Occupancy::Occupied;
         }
         let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
-        let vehicle = CurveDrive { body: &[0.0], ..VEHICLE };
+        let vehicle = VEHICLE;
         let is_way = |start: Pose2| {
             let goals = [free(Pose2::new(5.0, 2.0, 0.0))];
             search(&terrain, &vehicle, &at(start, 0.0), &goals).is_ok()

@@ -11,8 +11,8 @@ use apex_rt::{Event, Out, node};
 ///
 /// `start`, `goal` and the path are in the frame of the map. `other` is another goal, such as the other end of
 /// something that the vehicle drives beneath: the path leads to the one that is reached at the least cost, where that
-/// of `other` is increased by `other_cost`. The obstacles of the map must be grown by half of the width of the vehicle.
-/// `costs` are those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of the vehicle. If it is ⊥,
+/// of `other` is increased by `other_cost`. The outline of tractor, trailer and load keeps the `margin` from all that is
+/// not free on the map; on the first 0.8 m it may be as near to something as at the start. `costs` are those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of the vehicle. If it is ⊥,
 /// the trailer is assumed to be straight behind.
 ///
 /// With a `backing_gain` a vehicle with a trailer also backs up where that is shorter. The output is then the first
@@ -32,10 +32,15 @@ pub struct CurvePlanner {
     /// Shape of the vehicle.
     #[param(default = Articulated::PATSY)]
     vehicle: Articulated,
-    /// Places on the trailer, with its load, that must not touch anything, from its axis forward; empty without a
-    /// trailer.
-    #[param(unit = "m", default = &[])]
-    body: &'static [f32],
+    /// Length of the load, whose middle is above that of the straight vehicle.
+    #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
+    load_length: f32,
+    /// Width of the load; 0 for none.
+    #[param(unit = "m", default = 0.0, range = 0.0..=10.0)]
+    load_width: f32,
+    /// Distance of the outline from the middles of cells that are not free.
+    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
+    margin: f32,
     /// Rate at which the angle between the vehicle and its trailer approaches the wanted one when it backs up; 0 if it
     /// only drives forward.
     #[param(unit = "1/m", default = 0.0, range = 0.0..=100.0)]
@@ -81,10 +86,11 @@ impl CurvePlanner {
     ) {
         let terrain = Terrain { map, costs, unknown_is_open: false };
         let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry] });
-        let Self { radius, vehicle: shape, body, straight, .. } = *self;
+        let Self { radius, vehicle: shape, margin, straight, .. } = *self;
         let limit = core::mem::take(&mut self.next);
         let backing_gain = if limit == Limit::StaysForward { 0.0 } else { self.backing_gain };
-        let vehicle = CurveDrive { radius, shape, body, backing_gain, straight };
+        let load = [self.load_length, self.load_width];
+        let vehicle = CurveDrive { radius, shape, load, margin, backing_gain, straight };
         let trailer = start.theta + trailer.filter(|pose| pose.is_finite()).map_or(0.0, |pose| pose.theta);
         let start = Start { pose: *start, trailer, is_back: limit == Limit::BeginsBack };
         let other_goal = Goal { pose: *other.unwrap_or(goal), cost: self.other_cost };

@@ -1,7 +1,9 @@
 use super::{
+    optics::Optics,
     ray::Ray,
+    sight::Sight,
     space::{Hit, Space, Truth},
-    vector::{V3, add, dot, norm, scale, unit},
+    vector::{Turn, V3, add, dot, norm, scale, unit},
 };
 use crate::Random;
 use apex_nodes::{
@@ -17,7 +19,7 @@ use core::f32::consts::TAU;
 /// of the modulation. The phase of the sum is the distance. Flying pixels at edges, and distances that wrap beyond half
 /// the wavelength, are the consequence. So is the floor that seems to bend before a wall, as light of the wall comes
 /// back over it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TofCamera {
     /// Number of columns.
     pub width: usize,
@@ -63,6 +65,10 @@ pub struct TofFrame {
     pub truth: Vec<Truth>,
     /// Number of the solid that most of the rays of each pixel meet, or `None`.
     pub solids: Vec<Option<usize>>,
+    /// Table of the camera that took the last frame.
+    optics: Optics,
+    /// Solids before it.
+    sight: Sight,
 }
 
 /// Standard deviations of a distance up to amplitudes, in m and raw units, as measured on a camera; beyond: the last.
@@ -108,7 +114,7 @@ impl Distortion {
     }
 
     /// Value of a smooth function at the pixel (u, v), both from −1 to 1.
-    fn at(coefficients: &[f32; 6], u: f32, v: f32) -> f32 {
+    pub(super) fn at(coefficients: &[f32; 6], u: f32, v: f32) -> f32 {
         // Second and third degree: what is left after the calibration of offset and tilt.
         let terms = [u * u - 0.33, v * v - 0.33, u * v, u * (u * u - 0.6), v * (v * v - 0.6), u * u * v];
         coefficients.iter().zip(terms).map(|(c, term)| c * term).sum()
@@ -143,9 +149,14 @@ impl TofCamera {
         frame.solids.clear();
         frame.solids.resize(count, None);
         let mut shares = Vec::new();
+        frame.optics.prepare(self);
+        let place = pose.to_outer(Point2::new(self.position[0], self.position[1]));
+        let from = View { origin: [place.x, place.y, self.position[2]], heading: Turn::new(pose.theta) };
+        frame.sight.look(space, &frame.optics, &Pose2 { theta: pose.theta, x: place.x, y: place.y });
         for i in 0..count {
-            let (u, v) = (i % self.width, i / self.width);
-            let light = self.collect(space, pose, (u as f32, v as f32), &mut shares);
+            let solids = frame.sight.of(frame.optics.block(i));
+            let rays = frame.optics.rays(i).map(|ray| from.ray(*ray));
+            let light = self.collect(space, rays, solids, &mut shares);
             let Some(main) = shares.iter().copied().max_by_key(|share| share.count) else { continue };
             let amplitude = light.amplitude();
             if amplitude < self.least_amplitude {
@@ -154,20 +165,24 @@ impl TofCamera {
             let distance = light.distance(self.wavelength);
             frame.truth[i] = self.truth(&main, distance);
             frame.solids[i] = main.solid;
-            frame.cloud.points_mut()[i] = self.point((u as f32, v as f32), distance, amplitude, random);
+            frame.cloud.points_mut()[i] = self.point(frame.optics.pixel(i), distance, amplitude, random);
         }
     }
 
     /// Adds the light of all rays of a pixel, and counts the surfaces that they meet.
-    fn collect(&self, space: &Space, pose: &Pose2, (u, v): (f32, f32), shares: &mut Vec<Share>) -> Light {
+    fn collect(
+        &self,
+        space: &Space,
+        rays: impl Iterator<Item = Ray>,
+        solids: impl Iterator<Item = (usize, f32)> + Clone,
+        shares: &mut Vec<Share>,
+    ) -> Light {
         shares.clear();
         let (mut light, mut middle) = (Light::default(), None);
         let side = self.rays.max(1);
-        for k in 0..side * side {
-            let within = |k: usize| (k as f32 + 0.5) / side as f32 - 0.5;
-            let ray = self.ray(pose, u + within(k % side), v + within(k / side));
+        for ray in rays {
             let (mut weight, mut skipped, mut is_first) = (1.0 / (side * side) as f32, None, true);
-            while let Some(hit) = space.hit(&ray, skipped) {
+            while let Some(hit) = space.nearest(&ray, skipped, solids.clone()) {
                 light.add(weight * self.amplitude(&ray, &hit), hit.entry.distance, self.wavelength);
                 if is_first {
                     Share::count(shares, &hit);
@@ -206,31 +221,6 @@ impl TofCamera {
         light.add(amplitude, 0.5 * (whole + gap + floor.entry.distance), self.wavelength);
     }
 
-    /// Ray through the point (u, v) of the image, in the frame of the world. The rays are those of the real optics.
-    fn ray(&self, pose: &Pose2, u: f32, v: f32) -> Ray {
-        let (sin, cos) = libm::sincosf(self.pitch);
-        let [x, y, z] = self.direction(u, v, true);
-        let ahead = Pose2 { theta: pose.theta, ..Pose2::default() };
-        let flat = ahead.to_outer(Point2::new(x * cos + z * sin, y));
-        let origin = pose.to_outer(Point2::new(self.position[0], self.position[1]));
-        Ray { origin: [origin.x, origin.y, self.position[2]], direction: [flat.x, flat.y, z * cos - x * sin] }
-    }
-
-    /// Direction of a pixel in the frame of the camera, with length 1: as the optics bend it, or as the model of the
-    /// camera has it.
-    fn direction(&self, u: f32, v: f32, is_real: bool) -> V3 {
-        let focal = 0.5 * self.width as f32 / libm::tanf(0.5 * self.field_of_view);
-        let middle = |count: usize| 0.5 * (count as f32 - 1.0);
-        let (left, up) = ((middle(self.width) - u) / focal, (middle(self.height) - v) / focal);
-        let error = if is_real { self.distort(&self.distortion.elevation, u, v) } else { 0.0 };
-        unit([1.0, left, up + error])
-    }
-
-    fn distort(&self, coefficients: &[f32; 6], u: f32, v: f32) -> f32 {
-        let from_middle = |pixel: f32, count: usize| 2.0 * (pixel + 0.5) / count as f32 - 1.0;
-        Distortion::at(coefficients, from_middle(u, self.width), from_middle(v, self.height))
-    }
-
     fn amplitude(&self, ray: &Ray, hit: &Hit) -> f32 {
         let facing = -dot(ray.direction, hit.entry.normal);
         let distance = hit.entry.distance;
@@ -251,14 +241,28 @@ impl TofCamera {
     }
 
     /// Measured point, with noise and static errors, in the frame of the camera.
-    fn point(&self, (u, v): (f32, f32), distance: f32, amplitude: f32, random: &mut Random) -> CloudPoint {
+    fn point(&self, (direction, error): (V3, f32), distance: f32, amplitude: f32, random: &mut Random) -> CloudPoint {
         let range = 0.5 * self.wavelength;
         let sigma = NOISE.iter().find(|(limit, _)| amplitude < *limit).map_or(LEAST_NOISE, |(_, sigma)| *sigma);
         let wiggling = self.distortion.wiggling * libm::sinf(4.0 * TAU * distance / range);
-        let error = self.distort(&self.distortion.distance, u, v) + wiggling + random.normal(sigma);
+        let error = error + wiggling + random.normal(sigma);
         let intensity = amplitude * (1.0 + random.normal(LIGHT_NOISE[0])) + random.normal(LIGHT_NOISE[1]);
-        let [x, y, z] = scale(self.direction(u, v, false), (distance + error).max(0.0));
+        let [x, y, z] = scale(direction, (distance + error).max(0.0));
         CloudPoint { x, y, z, intensity: intensity.round().max(0.0).min(self.saturation) }
+    }
+}
+
+/// Place and heading of a camera.
+#[derive(Debug, Clone, Copy)]
+struct View {
+    origin: V3,
+    heading: Turn,
+}
+
+impl View {
+    /// Ray in the frame of the world. `direction` is in that of the robot.
+    fn ray(&self, direction: V3) -> Ray {
+        Ray { origin: self.origin, direction: self.heading.of(direction) }
     }
 }
 

@@ -1,7 +1,9 @@
 //! Time-of-flight camera in a world of solids (thesis 6.4; feature `tof`).
 
 mod camera;
+mod optics;
 mod ray;
+mod sight;
 mod solid;
 mod space;
 mod vector;

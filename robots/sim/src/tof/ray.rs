@@ -1,6 +1,6 @@
 use super::{
-    solid::Shape,
-    vector::{V3, add, dot, norm, scale, sub, turned, unit},
+    solid::Surface,
+    vector::{Turn, V3, add, dot, scale, sub, unit},
 };
 
 /// Half line from a point. The direction has length 1.
@@ -33,16 +33,16 @@ impl Ray {
     }
 
     /// First entry into a shape. `None` if the ray misses it or begins in it.
-    pub fn enter(&self, shape: &Shape) -> Option<Entry> {
-        match *shape {
-            Shape::Block { centre, size, yaw } => self.enter_block(centre, size, yaw),
-            Shape::Rod { from, to, radius } => self.enter_rod(from, to, radius),
+    pub fn enter(&self, surface: &Surface) -> Option<Entry> {
+        match surface {
+            Surface::Block { centre, size, turns } => self.enter_block(*centre, *size, turns),
+            Surface::Rod { from, axis, length, radius } => self.enter_rod(*from, *axis, *length, *radius),
         }
     }
 
-    fn enter_block(&self, centre: V3, size: V3, yaw: f32) -> Option<Entry> {
-        let origin = turned(sub(self.origin, centre), -yaw);
-        let direction = turned(self.direction, -yaw);
+    fn enter_block(&self, centre: V3, size: V3, [inward, outward]: &[Turn; 2]) -> Option<Entry> {
+        let origin = inward.of(sub(self.origin, centre));
+        let direction = inward.of(self.direction);
         let (mut first, mut last, mut normal) = (f32::MIN, f32::MAX, [0.0; 3]);
         for axis in 0..3 {
             let half = 0.5 * size[axis];
@@ -61,12 +61,10 @@ impl Ray {
             }
             last = last.min(far);
         }
-        (first > 0.0 && first <= last).then(|| Entry { distance: first, normal: turned(normal, yaw) })
+        (first > 0.0 && first <= last).then(|| Entry { distance: first, normal: outward.of(normal) })
     }
 
-    fn enter_rod(&self, from: V3, to: V3, radius: f32) -> Option<Entry> {
-        let length = norm(sub(to, from));
-        let axis = unit(sub(to, from));
+    fn enter_rod(&self, from: V3, axis: V3, length: f32, radius: f32) -> Option<Entry> {
         let start = sub(self.origin, from);
         let (origin_along, direction_along) = (dot(start, axis), dot(self.direction, axis));
         // Parts across the axis.
@@ -89,6 +87,7 @@ impl Ray {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tof::Shape;
     use core::f32::consts::FRAC_PI_4;
 
     fn ray(origin: V3, to: V3) -> Ray {
@@ -98,25 +97,25 @@ mod tests {
     #[test]
     fn blocks_are_entered_on_the_side_that_faces_the_ray() {
         let block = Shape::Block { centre: [2.0, 0.0, 0.5], size: [1.0, 1.0, 1.0], yaw: 0.0 };
-        let hit = ray([0.0, 0.0, 0.5], [1.0, 0.0, 0.5]).enter(&block).expect("ahead");
+        let hit = ray([0.0, 0.0, 0.5], [1.0, 0.0, 0.5]).enter(&block.surface()).expect("ahead");
         assert!((hit.distance - 1.5).abs() < 1e-6 && hit.normal == [-1.0, 0.0, 0.0]);
-        assert!(ray([0.0, 0.0, 1.1], [1.0, 0.0, 1.1]).enter(&block).is_none());
-        assert!(ray([2.0, 0.0, 0.5], [3.0, 0.0, 0.5]).enter(&block).is_none(), "it begins inside");
-        let top = ray([2.2, 0.1, 3.0], [2.2, 0.1, 2.0]).enter(&block).expect("below");
+        assert!(ray([0.0, 0.0, 1.1], [1.0, 0.0, 1.1]).enter(&block.surface()).is_none());
+        assert!(ray([2.0, 0.0, 0.5], [3.0, 0.0, 0.5]).enter(&block.surface()).is_none(), "it begins inside");
+        let top = ray([2.2, 0.1, 3.0], [2.2, 0.1, 2.0]).enter(&block.surface()).expect("below");
         assert!((top.distance - 2.0).abs() < 1e-6 && top.normal == [0.0, 0.0, 1.0]);
         let turned = Shape::Block { centre: [2.0, 0.0, 0.5], size: [1.0, 1.0, 1.0], yaw: FRAC_PI_4 };
-        let edge = ray([0.0, 0.01, 0.5], [1.0, 0.01, 0.5]).enter(&turned).expect("ahead");
+        let edge = ray([0.0, 0.01, 0.5], [1.0, 0.01, 0.5]).enter(&turned.surface()).expect("ahead");
         assert!((edge.distance - (2.01 - 0.5_f32.sqrt())).abs() < 1e-4);
     }
 
     #[test]
     fn rods_are_round_and_have_ends() {
         let pole = Shape::Rod { from: [2.0, 0.0, 0.0], to: [2.0, 0.0, 1.0], radius: 0.1 };
-        let hit = ray([0.0, 0.0, 0.5], [1.0, 0.0, 0.5]).enter(&pole).expect("ahead");
+        let hit = ray([0.0, 0.0, 0.5], [1.0, 0.0, 0.5]).enter(&pole.surface()).expect("ahead");
         assert!((hit.distance - 1.9).abs() < 1e-5 && (hit.normal[0] + 1.0).abs() < 1e-5);
-        assert!(ray([0.0, 0.11, 0.5], [1.0, 0.11, 0.5]).enter(&pole).is_none());
-        assert!(ray([0.0, 0.0, 1.1], [1.0, 0.0, 1.1]).enter(&pole).is_none());
-        let end = ray([2.05, 0.0, 3.0], [2.05, 0.0, 2.0]).enter(&pole).expect("below");
+        assert!(ray([0.0, 0.11, 0.5], [1.0, 0.11, 0.5]).enter(&pole.surface()).is_none());
+        assert!(ray([0.0, 0.0, 1.1], [1.0, 0.0, 1.1]).enter(&pole.surface()).is_none());
+        let end = ray([2.05, 0.0, 3.0], [2.05, 0.0, 2.0]).enter(&pole.surface()).expect("below");
         assert!((end.distance - 2.0).abs() < 1e-5 && end.normal == [0.0, 0.0, 1.0]);
     }
 

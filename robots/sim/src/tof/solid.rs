@@ -1,4 +1,4 @@
-use super::vector::V3;
+use super::vector::{Turn, V3, add, norm, scale, sub, unit};
 
 /// Reflection of infrared light by a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +58,24 @@ pub struct Solid {
     pub kind: SolidKind,
 }
 
+/// Shape, with what is the same for all rays.
+#[derive(Debug, Clone, Copy)]
+pub enum Surface {
+    Block {
+        centre: V3,
+        size: V3,
+        /// Rotations into the frame of the block and out of it.
+        turns: [Turn; 2],
+    },
+    Rod {
+        from: V3,
+        /// Direction of the rod, of length 1.
+        axis: V3,
+        length: f32,
+        radius: f32,
+    },
+}
+
 impl Material {
     /// Creates a plain material.
     pub const fn plain(albedo: f32) -> Self {
@@ -74,10 +92,20 @@ impl Material {
 impl Shape {
     /// Centre and radius of a sphere around the shape, in m.
     pub(super) fn bounds(&self) -> (V3, f32) {
-        use super::vector::{add, norm, scale, sub};
         match *self {
             Self::Block { centre, size, .. } => (centre, 0.5 * norm(size)),
             Self::Rod { from, to, radius } => (scale(add(from, to), 0.5), 0.5 * norm(sub(to, from)) + radius),
+        }
+    }
+
+    /// Surface that rays enter.
+    pub(super) fn surface(&self) -> Surface {
+        match *self {
+            Self::Block { centre, size, yaw } => Surface::Block { centre, size, turns: [-yaw, yaw].map(Turn::new) },
+            Self::Rod { from, to, radius } => {
+                let along = sub(to, from);
+                Surface::Rod { from, axis: unit(along), length: norm(along), radius }
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 use super::{
     ray::{Entry, Ray},
-    solid::{Material, Solid, SolidKind},
+    solid::{Material, Solid, SolidKind, Surface},
     vector::{V3, dot, scale},
 };
 
@@ -9,8 +9,8 @@ use super::{
 pub struct Space {
     floor: Floor,
     solids: Vec<Solid>,
-    /// Centre and radius of a sphere around each solid.
-    bounds: Vec<(V3, f32)>,
+    /// Surface of each solid, with centre and radius of a sphere around it.
+    surfaces: Vec<(Surface, (V3, f32))>,
     pits: Vec<Pit>,
 }
 
@@ -82,13 +82,13 @@ impl Default for Floor {
 impl Space {
     /// Creates a space with only a floor.
     pub const fn new(floor: Floor) -> Self {
-        Self { floor, solids: vec![], bounds: vec![], pits: vec![] }
+        Self { floor, solids: vec![], surfaces: vec![], pits: vec![] }
     }
 
     /// Removes all solids and openings, and keeps the storage.
     pub fn clear(&mut self) {
         self.solids.clear();
-        self.bounds.clear();
+        self.surfaces.clear();
         self.pits.clear();
     }
 
@@ -99,7 +99,7 @@ impl Space {
 
     /// Adds a solid.
     pub fn add(&mut self, solid: Solid) {
-        self.bounds.push(solid.shape.bounds());
+        self.surfaces.push((solid.shape.surface(), solid.shape.bounds()));
         self.solids.push(solid);
     }
 
@@ -110,12 +110,24 @@ impl Space {
 
     /// Nearest surface on a ray, without the solid `skipped`, which the ray has already passed.
     pub(super) fn hit(&self, ray: &Ray, skipped: Option<usize>) -> Option<Hit> {
+        self.nearest(ray, skipped, (0..self.solids.len()).map(|number| (number, 0.0)))
+    }
+
+    /// As [`hit`](Self::hit), of some solids, which are at least this far away, in m.
+    pub(super) fn nearest(
+        &self,
+        ray: &Ray,
+        skipped: Option<usize>,
+        solids: impl Iterator<Item = (usize, f32)>,
+    ) -> Option<Hit> {
         let mut nearest = self.hit_floor(ray);
-        for (i, (solid, bounds)) in self.solids.iter().zip(&self.bounds).enumerate() {
-            if Some(i) == skipped || !ray.touches(*bounds) {
+        for (i, least) in solids {
+            let (solid, (surface, bounds)) = (&self.solids[i], &self.surfaces[i]);
+            let is_hidden = nearest.is_some_and(|hit| hit.entry.distance < least);
+            if Some(i) == skipped || is_hidden || !ray.touches(*bounds) {
                 continue;
             }
-            let Some(entry) = ray.enter(&solid.shape) else { continue };
+            let Some(entry) = ray.enter(surface) else { continue };
             if nearest.is_none_or(|hit| entry.distance < hit.entry.distance) {
                 let truth = solid.kind.into();
                 nearest = Some(Hit { entry, material: solid.material, truth, solid: Some(i) });

@@ -28,8 +28,22 @@ pub fn unit(a: V3) -> V3 {
     scale(a, 1.0 / norm(a).max(f32::MIN_POSITIVE))
 }
 
-/// The vector after a rotation about the z axis, in rad.
-pub fn turned(a: V3, angle: f32) -> V3 {
-    let (sin, cos) = libm::sincosf(angle);
-    [a[0] * cos - a[1] * sin, a[0] * sin + a[1] * cos, a[2]]
+/// Rotation about the z axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    sin: f32,
+    cos: f32,
+}
+
+impl Turn {
+    /// Rotation by an angle, in rad.
+    pub fn new(angle: f32) -> Self {
+        let (sin, cos) = libm::sincosf(angle);
+        Self { sin, cos }
+    }
+
+    /// A vector after the rotation.
+    pub fn of(&self, a: V3) -> V3 {
+        [a[0] * self.cos - a[1] * self.sin, a[0] * self.sin + a[1] * self.cos, a[2]]
+    }
 }

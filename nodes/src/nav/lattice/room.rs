@@ -1,0 +1,105 @@
+use super::{CurveDrive, Start};
+use crate::{
+    map::{Cell, DistanceTransform, Grid, Occupancy, Raster},
+    nav::{
+        Terrain,
+        outline::{Axes, Part},
+    },
+    scan::{Point2, Pose2},
+};
+use libm::{fmaxf, hypotf, sincosf};
+
+/// Distance between the checked points of the outline, in m.
+const STEP: f32 = 0.1;
+/// Distance from the start up to which a vehicle may be as near to something as it is there, in m.
+const LEAVES: f32 = 0.8;
+/// What the raster adds to what is too near on the way out of a narrow place, in m.
+const ROUNDING: f32 = 0.02;
+
+/// Room for a vehicle on a map.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Room {
+    transform: DistanceTransform,
+    open: Grid<Occupancy>,
+    /// Distances from the nearest cell that is not open, in m.
+    distances: Grid<f32>,
+    /// Cells where the middle of the tractor may be.
+    core: Grid<Occupancy>,
+    start: Point2,
+    /// What is too near to each part of the vehicle at the start.
+    crowded: [f32; 3],
+}
+
+impl Room {
+    /// Measures the distances on a map. What is beneath the vehicle at the start, or beneath its load, does not count.
+    pub fn measure(&mut self, terrain: &Terrain<'_>, vehicle: &CurveDrive, start: &Start) {
+        let axes = vehicle.axes(&start.pose, start.trailer);
+        self.open.clone_from(terrain.map);
+        let raster = *terrain.map.raster();
+        for (part, axis) in vehicle.outline().parts(&axes) {
+            let grown = part.grown(0.5 * raster.resolution);
+            cells_about(&raster, axis, &grown).for_each(|cell| {
+                if let Some(open) = self.open.get_mut(cell) {
+                    *open = Occupancy::Free;
+                }
+            });
+        }
+        let is_open =
+            |cell: &Occupancy| *cell == Occupancy::Free || (*cell == Occupancy::Unknown && terrain.unknown_is_open);
+        self.transform.run(&self.open, |cell| !is_open(cell), &mut self.distances);
+        self.start = start.pose.position();
+        self.crowded = self.crowding(vehicle, &axes);
+        self.draw_core(&raster, 0.5 * vehicle.shape.width);
+    }
+
+    fn draw_core(&mut self, raster: &Raster, half: f32) {
+        self.core.clone_from(&self.open);
+        for (number, (core, distance)) in self.core.cells_mut().iter_mut().zip(self.distances.cells()).enumerate() {
+            let place = raster.centre(Cell::new(number % raster.width, number / raster.width));
+            let is_left = *distance > 0.0 && (place - self.start).norm_squared() <= LEAVES * LEAVES;
+            *core = if *distance >= half || is_left { Occupancy::Free } else { Occupancy::Occupied };
+        }
+    }
+
+    /// Map of the cells where the middle of the tractor may be.
+    pub const fn core(&self) -> &Grid<Occupancy> {
+        &self.core
+    }
+
+    /// Returns `true` if nothing is within the margin of the vehicle or, near the start, not more than there.
+    pub fn fits(&self, vehicle: &CurveDrive, axes: &Axes) -> bool {
+        let leaves = (axes[0].position() - self.start).norm_squared() <= LEAVES * LEAVES;
+        let least = |crowded: f32| if leaves { crowded + ROUNDING } else { 0.0 };
+        let mut parts = vehicle.outline().parts(axes).zip(self.crowded);
+        parts.all(|((part, axis), crowded)| self.crowded_by(&part, axis, vehicle.margin) <= least(crowded))
+    }
+
+    fn crowding(&self, vehicle: &CurveDrive, axes: &Axes) -> [f32; 3] {
+        let mut crowded = [0.0; 3];
+        for (sum, (part, axis)) in crowded.iter_mut().zip(vehicle.outline().parts(axes)) {
+            *sum = self.crowded_by(&part, axis, vehicle.margin);
+        }
+        crowded
+    }
+
+    /// Sum of what points of the border of a part lack of the margin, in m.
+    fn crowded_by(&self, part: &Part, axis: &Pose2, margin: f32) -> f32 {
+        let (sin, cos) = sincosf(axis.theta);
+        let distance = |p: Point2| {
+            let place = Point2::new(axis.x + cos * p.x - sin * p.y, axis.y + sin * p.x + cos * p.y);
+            self.distances.at(place).copied().unwrap_or(0.0)
+        };
+        let (middle, half) = (0.5 * (part.from + part.to), 0.5 * (part.to - part.from));
+        let reach = hypotf(half, part.half) + self.distances.raster().resolution;
+        if distance(Point2::new(middle, 0.0)) >= reach + margin {
+            return 0.0;
+        }
+        part.border(STEP).map(|point| fmaxf(margin - distance(point), 0.0)).sum()
+    }
+}
+
+/// Cells whose middles are in a part of a vehicle.
+fn cells_about<'a>(raster: &'a Raster, axis: &'a Pose2, part: &'a Part) -> impl Iterator<Item = Cell> + 'a {
+    let step = 0.5 * raster.resolution;
+    part.points(step).filter_map(move |point| raster.cell(axis.to_outer(point)))
+}
