@@ -37,7 +37,8 @@ fn count(text: &str, word: &str) -> usize {
 
 /// Numbers of nodes and connections of the mission with all nested graphs expanded.
 fn opened(info: &Info) -> (usize, usize) {
-    let is_of = |node: &usize| info.nodes[*node].name.starts_with("mission.");
+    let is_state = |node: usize| info.kind(node).name == "state";
+    let is_of = |node: &usize| info.nodes[*node].name.starts_with("mission.") && !is_state(*node);
     let nodes = (0..info.nodes.len()).filter(is_of).count();
     let connections = info.connections.iter().filter(|c| is_of(&c.from) || is_of(&c.to)).count();
     (nodes, connections)

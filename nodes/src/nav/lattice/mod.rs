@@ -56,10 +56,10 @@ const NONE: u32 = u32::MAX;
 /// Planner for vehicles that drive in curves of a smallest radius: A* on states of position and heading, with arcs as
 /// steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A passively steered trailer is predicted on the
 /// way. Vehicles that may back up do so with a constant angle to the trailer in each step, as `BackFollower` does. The
-/// heuristic is the length of the shortest way on the map without regard to the heading. The outline of the vehicle with
-/// its load keeps a margin from obstacles; on the first 0.8 m it may be as near to them as it is at the start. If a vehicle that backs up
-/// does not get away from a narrow place, a second search has shorter steps and smaller states near the start. Keeps
-/// its buffers.
+/// heuristic is the length of the shortest way on the map without regard to the heading. The outline of the vehicle
+/// with its load keeps a margin from obstacles; on the first 0.8 m it may be as near to them as it is at the start. If
+/// a vehicle that backs up does not get away from a narrow place, a second search has shorter steps and smaller states
+/// near the start. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct CurveSearch {
     estimates: Estimates,

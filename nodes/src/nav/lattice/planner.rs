@@ -11,9 +11,10 @@ use apex_rt::{Event, Out, node};
 ///
 /// `start`, `goal` and the path are in the frame of the map. `other` is another goal, such as the other end of
 /// something that the vehicle drives beneath: the path leads to the one that is reached at the least cost, where that
-/// of `other` is increased by `other_cost`. The outline of tractor, trailer and load keeps the `margin` from all that is
-/// not free on the map; on the first 0.8 m it may be as near to something as at the start. `costs` are those of `CostMap`. `trailer` is the pose of the trailer's axis in the frame of the vehicle. If it is ⊥,
-/// the trailer is assumed to be straight behind.
+/// of `other` is increased by `other_cost`. The outline of tractor, trailer and load keeps the `margin` from all that
+/// is not free on the map; on the first 0.8 m it may be as near to something as at the start. `costs` are those of
+/// `CostMap`. `trailer` is the pose of the trailer's axis in the frame of the vehicle. If it is ⊥, the trailer is
+/// assumed to be straight behind.
 ///
 /// With a `backing_gain` a vehicle with a trailer also backs up where that is shorter. The output is then the first
 /// section of the way: `turn` leads forward to a place where the direction changes, and `back` is for `BackFollower`.

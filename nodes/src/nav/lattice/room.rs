@@ -13,7 +13,7 @@ use libm::{fmaxf, hypotf, sincosf};
 const STEP: f32 = 0.1;
 /// Distance from the start up to which a vehicle may be as near to something as it is there, in m.
 const LEAVES: f32 = 0.8;
-/// What the raster adds to what is too near on the way out of a narrow place, in m.
+/// Error of the raster in what is too near on the way out of a narrow place, in m.
 const ROUNDING: f32 = 0.02;
 
 /// Room for a vehicle on a map.
@@ -26,7 +26,7 @@ pub(super) struct Room {
     /// Cells where the middle of the tractor may be.
     core: Grid<Occupancy>,
     start: Point2,
-    /// What is too near to each part of the vehicle at the start.
+    /// Sums of what points of each part of the vehicle lack of the margin at the start, in m.
     crowded: [f32; 3],
 }
 

@@ -10,7 +10,7 @@ use apex_nodes::{
 };
 use core::f32::consts::PI;
 
-/// What rounding may do to a direction, in rad, and to a distance, in m.
+/// Largest effect of rounding on a direction, in rad, and on a distance, in m.
 const ROUNDING: [f32; 2] = [0.002, 0.01];
 
 /// Solids that the rays of each block of pixels may meet: the others need not be tried.
