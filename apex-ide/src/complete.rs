@@ -301,9 +301,9 @@ impl Completer<'_> {
                 found.extend(self.names(Some(inside), Named::Node, None))
             }
             Some(NodeType::Machine(machine)) if named == Named::Tested => {
-                found.extend(self.view.state_paths(machine).iter().map(|state| {
-                    Completion::new(state, CompletionKind::Name, "", "In `active(…)`: the machine is in this state.")
-                }));
+                let docs = "In `active(…)`: the machine is in this state.";
+                let states = self.view.states_by_path(machine).into_iter();
+                found.extend(states.map(|(path, _)| Completion::new(path, CompletionKind::Name, "", docs)));
             }
             Some(NodeType::Graph(_)) => found.extend(standard_ports(named, types.as_deref(), Standard::is_shared)),
             Some(_) => found.extend(standard_ports(named, types.as_deref(), |_| true)),
@@ -341,12 +341,8 @@ impl Completer<'_> {
         let mut found: Vec<Completion> = ports.collect();
         if !fed {
             found.extend(self.names(Some(id), Named::Node, None));
-            let active = Completion::new(
-                "active",
-                CompletionKind::Keyword,
-                "",
-                "True if a node or nested graph is active, or a machine in a state.",
-            );
+            let docs = "True if a node or nested graph is active, or a machine in a state.";
+            let active = Completion::new("active", CompletionKind::Keyword, "", docs);
             found.push(Completion { snippet: Some("active($1)".to_owned()), ..active });
         }
         found

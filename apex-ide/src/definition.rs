@@ -289,27 +289,24 @@ impl<'a> View<'a> {
         around
     }
 
-    /// All states of a machine, outer ones before those inside.
-    pub fn states(&self, id: MachineId) -> Vec<&'a StateItem> {
-        let mut open: Vec<&StateItem> = self.machine(id).states.iter().rev().collect();
+    /// All states of a machine with their paths (`fetch.drive`), outer ones before those inside.
+    pub fn states_by_path(&self, id: MachineId) -> Vec<(String, &'a StateItem)> {
+        let path = |around: &str, state: &'a StateItem| match around {
+            "" => (state.name.text.clone(), state),
+            _ => (format!("{around}.{}", state.name.text), state),
+        };
+        let mut open: Vec<_> = self.machine(id).states.iter().rev().map(|state| path("", state)).collect();
         let mut all = vec![];
-        while let Some(state) = open.pop() {
-            all.push(state);
-            open.extend(state.states.iter().rev());
+        while let Some((around, state)) = open.pop() {
+            open.extend(state.states.iter().rev().map(|inner| path(&around, inner)));
+            all.push((around, state));
         }
         all
     }
 
-    /// The paths of all states of a machine: `fetch.drive`.
-    pub fn state_paths(&self, id: MachineId) -> Vec<String> {
-        let mut open: Vec<(String, &StateItem)> =
-            self.machine(id).states.iter().rev().map(|state| (state.name.text.clone(), state)).collect();
-        let mut all = vec![];
-        while let Some((path, state)) = open.pop() {
-            open.extend(state.states.iter().rev().map(|inner| (format!("{path}.{}", inner.name.text), inner)));
-            all.push(path);
-        }
-        all
+    /// All states of a machine, outer ones before those inside.
+    pub fn states(&self, id: MachineId) -> Vec<&'a StateItem> {
+        self.states_by_path(id).into_iter().map(|(_, state)| state).collect()
     }
 
     /// The place of a definition.

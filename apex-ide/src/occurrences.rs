@@ -274,7 +274,7 @@ impl<'a> Walker<'a, '_> {
     }
 
     /// A node or port of a graph. A test also refers to nodes inside nested graphs.
-    /// What `active(…)` names: a node, a nested graph, or a state of a machine, which may have the name of a port.
+    /// Names in `active(…)`: of a node, a nested graph, or a state of a machine, even if a port has the same name.
     fn active(&mut self, graph: GraphId, reference: &PortRef) {
         self.named(graph, reference, true);
     }

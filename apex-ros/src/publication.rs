@@ -1,8 +1,6 @@
 //! Publishers: from the events of a program to topics.
 
-use crate::{
-    Attachment, Durability, Error, Kind, Qos, Reliability, Ros, endpoint::Declared, time::RosTime, time::calendar,
-};
+use crate::{Attachment, Error, Kind, Qos, Reliability, Ros, endpoint::Declared, time::RosTime, time::calendar};
 use apex_messages::{
     Message,
     cdr::{Outside, Writer},
@@ -68,17 +66,17 @@ impl<'a> Publishing<'a> {
 
     /// Does not send messages again that are lost.
     pub fn best_effort(self) -> Self {
-        Self { qos: Qos { reliability: Reliability::BestEffort, ..self.qos }, ..self }
+        Self { qos: self.qos.best_effort(), ..self }
     }
 
     /// Keeps this number of messages for subscriptions that come later, if the publisher keeps any.
     pub fn depth(self, depth: u32) -> Self {
-        Self { qos: Qos { depth: Some(depth), ..self.qos }, ..self }
+        Self { qos: self.qos.depth(depth), ..self }
     }
 
     /// Keeps the last messages for subscriptions that come later, as `/map` and `/tf_static` need.
     pub fn transient_local(self) -> Self {
-        Self { qos: Qos { durability: Durability::TransientLocal, ..self.qos }, ..self }
+        Self { qos: self.qos.transient_local(), ..self }
     }
 
     /// Writes this frame into all headers: the types of the library do not name their frame.

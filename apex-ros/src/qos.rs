@@ -59,6 +59,24 @@ impl Qos {
         is_manual: false,
     };
 
+    /// The same without sending messages again that are lost.
+    #[must_use]
+    pub fn best_effort(self) -> Self {
+        Self { reliability: Reliability::BestEffort, ..self }
+    }
+
+    /// The same with this number of messages that are kept.
+    #[must_use]
+    pub fn depth(self, depth: u32) -> Self {
+        Self { depth: Some(depth), ..self }
+    }
+
+    /// The same with the last messages for subscriptions that come later.
+    #[must_use]
+    pub fn transient_local(self) -> Self {
+        Self { durability: Durability::TransientLocal, ..self }
+    }
+
     /// Meaning of a code that is empty.
     #[cfg(test)]
     const EMPTY: Self = Self { depth: Some(DEPTH), ..Self::DEFAULT };

@@ -181,7 +181,7 @@ impl Ros {
     /// Sets the parameters of the program that the arguments name: `--ros-args -p mission.near:=0.5`.
     ///
     /// # Errors
-    /// There is no such parameter, or its value is of another type or out of range.
+    /// The program has no such parameter, or its value is of another type or out of range.
     pub fn set_params<P: Program>(&self, program: &mut P) -> Result<(), Error> {
         for (name, value) in self.args().params.iter().filter(|(name, _)| name != "use_sim_time") {
             set_text(program, name, &crate::args::toml(value))

@@ -1,7 +1,7 @@
 //! Subscriptions: from topics to the ports of a program.
 
 use crate::{
-    Durability, Error, Kind, Qos, Reliability, Ros,
+    Error, Kind, Qos, Reliability, Ros,
     endpoint::Declared,
     ring::{Entrance, Ring},
     ros::Tell,
@@ -58,17 +58,17 @@ impl<'a> Subscribing<'a> {
 
     /// Takes messages that are not sent again when they are lost, as sensors publish them.
     pub fn best_effort(self) -> Self {
-        Self { qos: Qos { reliability: Reliability::BestEffort, ..self.qos }, ..self }
+        Self { qos: self.qos.best_effort(), ..self }
     }
 
     /// Keeps this number of messages until the program takes them. A new message takes the place of the oldest.
     pub fn depth(self, depth: u32) -> Self {
-        Self { qos: Qos { depth: Some(depth), ..self.qos }, ..self }
+        Self { qos: self.qos.depth(depth), ..self }
     }
 
     /// Takes the last messages from before the subscription, too: of `/map`, `/tf_static`.
     pub fn transient_local(self) -> Self {
-        Self { qos: Qos { durability: Durability::TransientLocal, ..self.qos }, ..self }
+        Self { qos: self.qos.transient_local(), ..self }
     }
 
     /// Says nothing if no node publishes: a topic that may be there or not.

@@ -2,7 +2,7 @@
 
 use crate::{
     cargo::{Packages, call_of},
-    forms::{difference, forms, items},
+    forms::{difference, forms, items, rearranged},
     judge::Failure,
 };
 use apex_dsl::{
@@ -145,10 +145,9 @@ fn accepted_form(
     catalog: &mut Catalog,
     disk: &mut Disk,
 ) -> Option<Checked> {
-    let kinds = ["reversed", "formatted"];
     let is_readable = written.checked.texts.files.first().is_some_and(|(_, file)| !file.broken);
-    let forms = if is_readable { forms(&written.view(catalog), text) } else { vec![] };
-    forms.into_iter().filter(|form| kinds.contains(&form.kind)).find_map(|form| {
+    let forms = if is_readable { rearranged(&written.view(catalog), text) } else { vec![] };
+    forms.into_iter().find_map(|form| {
         let other = Compiled::new(path, &form.text, catalog, disk);
         let what = format!("{} text is accepted\n{}", form.kind, form.text);
         other.error().is_none().then_some(Checked::Failed(Failure::Form(form.kind, what)))

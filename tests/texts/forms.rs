@@ -19,16 +19,21 @@ const NEW: &str = "0zq";
 
 /// The other forms of the first source file of a view.
 pub fn forms(view: &View<'_>, text: &str) -> Vec<Form> {
-    let mut found = vec![Form { kind: "renamed", text: renamed(view, text) }];
-    found.push(Form { kind: "reversed", text: reversed(view, text) });
+    let mut found = rearranged(view, text);
+    found.push(Form { kind: "renamed", text: renamed(view, text) });
     found.push(Form { kind: "varied", text: varied(view, text) });
-    found.extend(format(text).ok().map(|text| Form { kind: "formatted", text }));
     let edits: Vec<(Span, String)> =
         written_out(view, 0, text.len() as u32).into_iter().map(|w| (w.chain, w.text)).collect();
     if !edits.is_empty() {
         found.push(Form { kind: "written out", text: edited(text, edits) });
     }
     found
+}
+
+/// The forms that a text with mistakes has, too.
+pub fn rearranged(view: &View<'_>, text: &str) -> Vec<Form> {
+    let formatted = format(text).ok().map(|text| Form { kind: "formatted", text });
+    [Form { kind: "reversed", text: reversed(view, text) }].into_iter().chain(formatted).collect()
 }
 
 /// The text with a new name for everything that may have one and is known only here.

@@ -1,10 +1,11 @@
 //! The table that describes a program.
 
-use super::{Generator, distinct::Distinct, names::machines, threads::end_if_hung, types::nanos};
+use super::{Generator, distinct::Distinct, threads::end_if_hung, types::nanos};
 use crate::{
     analyse::Analysis,
     catalog::{first_sentence, linkless},
     graph::{Graph, Node, NodeId, NodeKind},
+    machine::machines,
     source::{FileId, Span},
     syntax::tree::PortKind,
 };

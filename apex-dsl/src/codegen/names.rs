@@ -2,9 +2,10 @@
 
 use super::{Generator, types::ident};
 use crate::{
-    catalog::{Catalog, MachineSig},
+    catalog::Catalog,
     graph::{Graph, Node, NodeId, NodeKind, PortId},
     index::IdVec,
+    machine::machines,
     threads::{Origin, Part},
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -139,15 +140,6 @@ pub fn item(program: &Graph, part: Option<&Part>, kind: &str) -> Ident {
     let name = format!("{group}{kind}");
     // The program has the name that the text gives it.
     ident(&if name == program.name { name + "_" } else { name })
-}
-
-/// The state machines of a graph.
-pub fn machines<'a>(graph: &'a Graph, catalog: &'a Catalog) -> impl Iterator<Item = (NodeId, &'a MachineSig)> {
-    let machine = |node: &Node| match &node.kind {
-        NodeKind::Library(library) => catalog.signatures[library.signature].machine.as_ref(),
-        _ => None,
-    };
-    graph.nodes.iter_enumerated().filter_map(move |(id, node)| Some((id, machine(node)?)))
 }
 
 impl Generator<'_> {

@@ -1,7 +1,10 @@
 //! Observation of state machines: each state is like a node that is active while the machine is in it.
 
 use super::{Generator, activity::ProgramView};
-use crate::graph::{Graph, NodeId};
+use crate::{
+    graph::{Graph, NodeId},
+    machine::machines,
+};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -28,7 +31,7 @@ impl Generator<'_> {
     /// Arms of a `match` that tell for the number of a state if a machine is in it.
     pub fn is_in_state(&self, view: ProgramView<'_>) -> TokenStream {
         let mut arms = quote!();
-        for (node, machine) in super::names::machines(view.graph, self.catalog) {
+        for (node, machine) in machines(view.graph, self.catalog) {
             let Some(first) = self.names.states.get(&node) else { continue };
             let (place, last) = (self.node_place(view.graph, node), first + machine.states.len() - 1);
             let [first, last] = [*first, last].map(Literal::usize_unsuffixed);

@@ -6,8 +6,8 @@ mod translate;
 pub use translate::translation;
 
 use crate::{
-    catalog::{ArgSig, MachineSig, PortSig, Signature, SignatureId, SlotSig, Type},
-    graph::{Condition, Value},
+    catalog::{ArgSig, Catalog, MachineSig, PortSig, Signature, SignatureId, SlotSig, Type},
+    graph::{Condition, Graph, Node, NodeId, NodeKind, Value},
     syntax::tree::PortKind,
 };
 use std::{collections::BTreeMap, path::PathBuf};
@@ -62,6 +62,15 @@ impl Move {
 
 /// The state machines in the source files of a program, by their signatures as nodes.
 pub type Machines = BTreeMap<SignatureId, Machine>;
+
+/// The state machines among the nodes of a graph.
+pub fn machines<'a>(graph: &'a Graph, catalog: &'a Catalog) -> impl Iterator<Item = (NodeId, &'a MachineSig)> {
+    let machine = |node: &Node| match &node.kind {
+        NodeKind::Library(library) => catalog.signatures[library.signature].machine.as_ref(),
+        _ => None,
+    };
+    graph.nodes.iter_enumerated().filter_map(move |(id, node)| Some((id, machine(node)?)))
+}
 
 /// A slot of a state machine.
 #[derive(Debug, Clone)]

@@ -13,6 +13,7 @@ use super::{
 use crate::{
     catalog::{Catalog, Type},
     graph::{Connection, Graph, Modifiers, NodeId, NodeKind, Port, PortId, ScopeId, Subject, Value},
+    machine::machines,
     report::{Diagnostic, Diagnostics},
     script::{Observed, Script, Seen, Step, Until, What},
     source::{Sources, Span},
@@ -248,9 +249,7 @@ impl Writer<'_> {
         let subjects = nodes.chain(self.graph.nested().map(Subject::Scope));
         let mut all: Vec<(String, What)> =
             subjects.map(|subject| (self.graph.subject_name(subject), What::Active(subject))).collect();
-        for (id, node) in self.graph.nodes.iter_enumerated() {
-            let NodeKind::Library(library) = &node.kind else { continue };
-            let Some(machine) = &self.scope.rust.catalog.signatures[library.signature].machine else { continue };
+        for (id, machine) in machines(self.graph, self.scope.rust.catalog) {
             let states = machine.all_states().into_iter();
             all.extend(
                 states.map(|(name, inside)| (format!("{}.{name}", self.graph.path(id)), What::InState(id, inside))),
@@ -266,42 +265,26 @@ impl Writer<'_> {
     /// The port with this name, or the field of its tokens: `port.field`, `node.port.field`.
     pub fn observed(&mut self, of: &PortRef) -> Option<Observed> {
         let shorter = |count: usize| PortRef { parts: of.parts[..count].to_vec(), span: of.span };
-        let is_port = |count: &usize| sending_port(self.graph, &shorter(*count).text()).is_some();
-        let is_probed = |count: &usize| *count == 1 && self.own_probe(&of.parts[0].text).is_some();
-        let count = (1..=of.parts.len()).rev().find(|count| is_probed(count) || is_port(count));
-        let (Some(count), true) = (count, count != Some(of.parts.len())) else {
-            let (probe, ty) = self.probe(of)?;
-            return Some(Observed { probe, fields: vec![], ty });
-        };
-        let (port, fields) = (shorter(count), &of.parts[count..]);
-        let mut ty = self.type_at(&port)?;
-        for field in fields {
+        let is_sent = |path: &str| self.own_probe(path).is_some() || sending_port(self.graph, path).is_some();
+        let all = of.parts.len();
+        // An unknown name is reported as a whole.
+        let count = (1..=all).rev().find(|count| is_sent(&shorter(*count).text())).unwrap_or(all);
+        let (probe, mut ty) = self.probe(&shorter(count))?;
+        let fields = &of.parts[count..];
+        for (number, field) in fields.iter().enumerate() {
             let Some(declared) = self.scope.rust.catalog.struct_of(&ty) else {
                 // More likely the name of a port is wrong.
-                if field.text == fields[0].text {
+                if number == 0 {
                     return self.probe(of).and(None);
                 }
-                let message = format!("a `{ty}` has no fields that a test can use",);
+                let message = format!("a `{ty}` has no fields that a test can use");
                 self.diagnostics.push(Diagnostic::error("wrong-field", field.span, message));
                 return None;
             };
-            match structs::field(&declared, field) {
-                Ok(field) => ty = field.ty.clone(),
-                Err(error) => {
-                    self.diagnostics.push(*error);
-                    return None;
-                }
-            }
+            let found = structs::field(&declared, field).map_err(|error| self.diagnostics.push(*error)).ok()?;
+            ty = found.ty.clone();
         }
-        let (probe, _) = self.probe(&port)?;
         Some(Observed { probe, fields: fields.iter().map(|field| field.text.clone()).collect(), ty })
-    }
-
-    /// Type of the tokens at a port.
-    fn type_at(&self, of: &PortRef) -> Option<Type> {
-        let path = of.text();
-        let of_probe = self.own_probe(&path).map(|node| &self.graph.nodes[node].ports[0].ty);
-        of_probe.or_else(|| Some(&self.graph.port(sending_port(self.graph, &path)?).ty)).cloned()
     }
 
     /// The probe that a port of the graph has become.
