@@ -47,8 +47,6 @@ pub mod studio;
 #[cfg(feature = "std")]
 mod switch;
 mod sync;
-#[doc(hidden)]
-pub mod tables;
 #[cfg(feature = "std")]
 #[doc(hidden)]
 pub mod testing;
@@ -58,6 +56,7 @@ mod timer;
 mod token;
 #[cfg(feature = "std")]
 mod watchdog;
+mod wired;
 
 pub use apex_attributes::{Outputs, Units, node};
 
@@ -104,6 +103,8 @@ pub use switch::Switch;
 pub use time::Time;
 pub use timer::{Agenda, ProgramTime, Silence, Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
+#[doc(hidden)]
+pub use wired::{Wired, rows};
 
 /// The items that most users of Apex need besides `apex_macros::graph`.
 pub mod prelude {

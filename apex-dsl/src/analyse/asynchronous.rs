@@ -20,9 +20,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// of rustc grows with the square of the size of a function.
 pub const MANY: usize = 32;
 
-/// Largest number of slots or timeouts that have functions of their own. More are rows of tables: fewer lines, but a
-/// call takes four times as many instructions.
-const MOST_FUNCTIONS: usize = 128;
+/// Largest number of slots that need no queue: each step is followed by all slots that it may reach.
+pub const MOST_UNQUEUED: usize = 128;
 
 /// The asynchronous part of a graph.
 #[derive(Debug)]
@@ -42,8 +41,6 @@ pub struct Asynchronous {
     pub endless: bool,
     /// Storage of the order of slot tokens.
     pub delivery: Delivery,
-    /// `true` if tables serve the slots or timeouts, as there are more than [`MANY`]. Slot tokens are queued then.
-    pub is_tabled: bool,
     /// For each connection, the connections on which its token may cause other tokens.
     causes: IdVec<ConnectionId, Vec<ConnectionId>>,
 }
@@ -60,9 +57,7 @@ impl Asynchronous {
         let links = &*links;
         let to_slot = |c: &ConnectionId| live[*c] && graph.flow(&graph.connections[*c]) == Flow::ToSlot;
         let slots: Vec<ConnectionId> = graph.connections.ids().filter(to_slot).collect();
-        let timeouts = graph.nodes.iter().filter(|node| node.modifiers.timeout.is_some()).count();
-        let is_tabled = slots.len().max(timeouts) > MOST_FUNCTIONS;
-        let single = !is_tabled && is_single(graph, catalog, links, &slots, &causes, regions);
+        let single = slots.len() <= MOST_UNQUEUED && is_single(graph, catalog, links, &slots, &causes, regions);
         let mut may_block = may_block(graph, links, &slots);
         live.iter_enumerated().filter(|(_, live)| !**live).for_each(|(c, _)| may_block[c] = false);
         if single {
@@ -83,7 +78,7 @@ impl Asynchronous {
             sent_with_activity(graph, node).into_iter().for_each(|c| has_occupancy_bit[c] = true);
         }
         let delivery = if single { Delivery::Single } else { Delivery::Queued };
-        Self { live, slots, may_block, has_occupancy_bit, endless: has_circle(&causes), delivery, is_tabled, causes }
+        Self { live, slots, may_block, has_occupancy_bit, endless: has_circle(&causes), delivery, causes }
     }
 
     /// Switches to [`Delivery::Ordered`]. Connections to slots then need no bits.

@@ -7,7 +7,7 @@
 
 use super::{
     Analysis, Asynchronous, Links,
-    asynchronous::{events, moves_activity},
+    asynchronous::{MOST_UNQUEUED, events, moves_activity},
 };
 use crate::graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId};
 use std::collections::{BTreeSet, VecDeque};
@@ -32,7 +32,7 @@ pub fn is_ordered(graph: &Graph, analysis: &Analysis) -> bool {
     let resets = graph.nodes.ids().any(|node| moves_activity(graph, node));
     let is_ordered = |sends: &Vec<ConnectionId>| ordered(graph, &analysis.links, asynchronous, sends).is_some();
     asynchronous.delivery == Delivery::Queued
-        && !asynchronous.is_tabled
+        && asynchronous.slots.len() <= MOST_UNQUEUED
         && !asynchronous.endless
         && !resets
         && !asynchronous.slots.iter().any(|c| asynchronous.may_block[*c])

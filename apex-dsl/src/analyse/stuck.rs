@@ -16,8 +16,8 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Largest number of queues that are visited.
-const MAX_QUEUES: usize = 20_000;
+/// Largest number of tokens in all queues that are visited.
+const MAX_TOKENS: usize = 200_000;
 
 /// A run to tokens that wait for one another.
 #[derive(Debug)]
@@ -91,9 +91,10 @@ fn search(graph: &Graph, analysis: &Analysis, is_silent: &dyn Fn(ConnectionId) -
             visited.push(Visited { queue, before: None });
         }
     }
-    let mut at = 0;
-    while at < visited.len().min(MAX_QUEUES) {
+    let (mut at, mut tokens) = (0, 0);
+    while at < visited.len() && tokens < MAX_TOKENS {
         let queue = visited[at].queue.clone();
+        tokens += queue.len();
         let Some(place) = (0..queue.len()).find(|place| blocks(&queue, queue[*place]).is_none()) else {
             if queue.is_empty() {
                 at += 1;

@@ -118,19 +118,19 @@ impl Generator<'_> {
     /// Expression that is `true` if a flag is set.
     pub fn is_set(&self, flag: Flag) -> TokenStream {
         let (set, bit) = self.flag(flag);
-        quote!(state.#set.has(#bit))
+        quote!(state.core.#set.has(#bit))
     }
 
     /// Sets a flag, or clears it.
     pub fn set(&self, flag: Flag, value: bool) -> TokenStream {
         let (set, bit) = self.flag(flag);
-        quote! { state.#set.set(#bit, #value); }
+        quote! { state.core.#set.set(#bit, #value); }
     }
 
     /// Clears a flag. The expression is `true` if it was set.
     pub fn take(&self, flag: Flag) -> TokenStream {
         let (set, bit) = self.flag(flag);
-        quote!(state.#set.take(#bit))
+        quote!(state.core.#set.take(#bit))
     }
 
     /// The set of a flag, and its number there.
@@ -167,24 +167,14 @@ impl Generator<'_> {
 
     /// A node becomes active, unless it is already.
     pub fn activate(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let (is_active, set) = (self.is_set(Flag::Active(node)), self.set(Flag::Active(node), true));
-        let observed = self.observed(view, node, true);
-        let (timeout, effects) = (self.start_timeout(view, node), self.turn_effects(view, node, true));
-        quote! { if !#is_active { #set #observed #timeout #effects } }
+        let (row, effects) = (self.node_constant(view, node), self.turn_effects(view, node, true));
+        followed(&quote!(state.core.activate(&#row, ctx, observer)), &effects)
     }
 
     /// A node is no longer active.
     pub fn deactivate(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let left = self.left(view, node);
-        let take = self.take(Flag::Active(node));
-        quote! { if #take { #left } }
-    }
-
-    /// Effects of the end of a node's activity.
-    fn left(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let observed = self.observed(view, node, false);
-        let (timeout, effects) = (self.stop_timeout(view, node), self.turn_effects(view, node, false));
-        quote! { #observed #timeout #effects }
+        let (row, effects) = (self.node_constant(view, node), self.turn_effects(view, node, false));
+        followed(&quote!(state.core.deactivate(&#row, observer)), &effects)
     }
 
     /// The event and the hook of a node that became active, or is no longer.
@@ -196,15 +186,6 @@ impl Generator<'_> {
         };
         let event = self.trigger(graph, node, event);
         quote! { #event #hook }
-    }
-
-    /// Tells the observer; not of a node that only passes tokens on.
-    fn observed(&self, view: ProgramView<'_>, node: NodeId, active: bool) -> TokenStream {
-        let index = self.index(node);
-        match is_observed(view.graph, node) {
-            true => quote! { observer.activity(#index, #active); },
-            false => quote!(),
-        }
     }
 
     /// Triggers an event that every node has, if it is connected.
@@ -270,22 +251,31 @@ impl Generator<'_> {
         let mut code = quote!();
         for port in view.wiring.of(node).iter().filter(|port| port.is_active) {
             let Some(present) = present(port.end) else { continue };
-            if !port.takes_away.is_empty() {
-                let away = port.takes_away.iter().map(|flag| self.set(*flag, true));
-                code.extend(quote! { if #present { #(#away)* } });
-            }
-            let Some(along) = &port.passes else { continue };
-            let along: TokenStream = along.iter().map(|flag| self.set(*flag, true)).collect();
-            if view.graph.nodes[node].is_delay() {
-                let held = self.held_activity(node);
-                code.extend(quote! { if state.#held.take().is_some() { #along } });
-            } else {
-                let (is_active, leave) = (self.is_set(Flag::Active(node)), self.set(Flag::Active(node), false));
-                let (left, check) = (self.left(view, node), self.check_claims());
-                code.extend(quote! { if #is_active && #present { #leave #left #along #check } });
-            }
+            let name = ident(&port.name);
+            let pass = quote!(state.core.pass(&Self::#name, #present, observer));
+            code.extend(match port.passes {
+                None if port.takes_away.is_empty() => quote!(),
+                None => quote! { #pass; },
+                Some(_) if view.graph.nodes[node].is_delay() => {
+                    let held = self.held_activity(node);
+                    let pass = (!port.takes_away.is_empty()).then(|| quote! { #pass; });
+                    quote! { #pass if state.#held.take().is_some() { state.core.carry(&Self::#name); } }
+                }
+                Some(_) => {
+                    let (effects, check) = (self.turn_effects(view, node, false), self.check_claims());
+                    followed(&pass, &quote!(#effects #check))
+                }
+            });
         }
         code
+    }
+}
+
+/// A call with what follows if it returns `true`.
+pub fn followed(call: &TokenStream, effects: &TokenStream) -> TokenStream {
+    match effects.is_empty() {
+        true => quote! { #call; },
+        false => quote! { if #call { #effects } },
     }
 }
 

@@ -68,15 +68,15 @@ impl Generator<'_> {
         let settle = (graph.port(c.from).kind == PortKind::Output)
             .then(|| bits.row(analysis.cluster_of[c.from.node]))
             .flatten()
-            .map(|row| quote! { self.state.dispatcher.settle(&Self::CLUSTERS, #row); });
+            .map(|row| quote! { self.state.core.dispatcher.settle(Self::CLUSTERS, #row); });
         let receiver = self.cell(far).1;
         let store = self.store(graph, c.from, &quote!(parcel.token), &value);
         let is_free = self.look(quote!(ends.#cell.is_free()));
         quote! {
-            if !self.state.dispatcher.has(#free) && #is_free {
-                if self.state.dispatcher.has(#token) {
+            if !self.state.core.dispatcher.has(#free) && #is_free {
+                if self.state.core.dispatcher.has(#token) {
                     let state = &mut self.state;
-                    state.dispatcher.clear(#token);
+                    state.core.dispatcher.clear(#token);
                     ends.#cell.put(|parcel| {
                         #store
                         #carries
@@ -84,7 +84,7 @@ impl Generator<'_> {
                     });
                     wake.wake(#receiver);
                 } else {
-                    self.state.dispatcher.raise(#free);
+                    self.state.core.dispatcher.raise(#free);
                     #settle
                     let state = &mut self.state;
                     #left
@@ -102,7 +102,7 @@ impl Generator<'_> {
             (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
         let told = sender.map(|sender| quote! { wake.wake(#sender); });
         let free = free_to_send(view, node);
-        let all_free = quote!(true #(&& self.state.dispatcher.has(#free))*);
+        let all_free = quote!(true #(&& self.state.core.dispatcher.has(#free))*);
         let test = self.allows(view, &[]);
         // Otherwise nothing but a token from the cell occupies the connections.
         let is_silent = wiring.silences.iter().any(|silence| {

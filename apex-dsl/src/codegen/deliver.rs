@@ -1,11 +1,11 @@
 //! Delivery of slot tokens: from a queue, or in an order that is known at compile time.
 
-use super::{Generator, activity::ProgramView, types::ident, wiring::Slot};
+use super::{Generator, activity::ProgramView, types::ident};
 use crate::{
     analyse::{Delivery, ordered},
     graph::{ConnectionId, NodeKind},
 };
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Generator<'_> {
@@ -14,26 +14,16 @@ impl Generator<'_> {
         let ProgramView { graph, analysis, wiring, .. } = view;
         let needs: Vec<&[usize]> = wiring.slots.iter().map(|slot| slot.needs.as_slice()).collect();
         let count = needs.len();
-        let call = match wiring.is_tabled {
-            true => quote! { self.slot(slot as usize, ctx, observer); },
-            false => {
-                let arms = wiring.slots.iter().enumerate().map(|(slot, Slot { name, .. })| {
-                    let (number, name) = (Literal::usize_unsuffixed(slot), ident(name));
-                    quote! { #number => self.#name(ctx, observer), }
-                });
-                quote! { match slot { #(#arms)* _ => {} } }
-            }
-        };
+        let call = self.slots(view).call();
         let has_needs = needs.iter().any(|needs| !needs.is_empty());
-        let ready = match (has_needs, wiring.is_tabled) {
-            (false, _) => quote!(|_| true),
-            (true, true) => quote!(|slot| self.state.dispatcher.holds(&Self::SLOTS[slot as usize].needs)),
-            (true, false) => quote!(|slot| self.state.dispatcher.holds(&Self::NEEDS[slot as usize])),
+        let ready = match has_needs {
+            false => quote!(|_| true),
+            true => quote!(|slot| self.state.core.dispatcher.holds(&Self::NEEDS[slot as usize])),
         };
-        let needs_table = (has_needs && !wiring.is_tabled).then(|| {
+        let needs_table = has_needs.then(|| {
             let ty = wiring.bits.set_type();
             let needs = needs.iter().map(|needs| wiring.bits.set(needs));
-            quote! { const NEEDS: [#ty; #count] = [#(#needs),*]; }
+            quote! { const NEEDS: &'static [#ty; #count] = &[#(#needs),*]; }
         });
         let (budget, step) = match analysis.asynchronous.endless {
             true => (
@@ -50,7 +40,7 @@ impl Generator<'_> {
                 let mut any = false;
                 loop {
                     #budget
-                    let Some(slot) = self.state.queue.next(#ready) else { break; };
+                    let Some(slot) = self.state.core.queue.next(#ready) else { break; };
                     #step
                     #call
                     any = true;

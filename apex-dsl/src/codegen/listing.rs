@@ -117,10 +117,9 @@ impl Generator<'_> {
     }
 
     fn list_slots(&self, lines: &mut Lines, view: ProgramView<'_>) {
-        let served = if view.wiring.is_tabled { " (from tables)" } else { "" };
         for (number, slot) in view.wiring.slots.iter().enumerate() {
             let Slot { name, connection, node, frees, carries, settles, needs } = slot;
-            lines.add(1, &format!("slot {number} {name}{served}: {}", view.graph.connection_text(*connection)));
+            lines.add(1, &format!("slot {number} {name}: {}", view.graph.connection_text(*connection)));
             if !needs.is_empty() {
                 lines.add(2, &format!("needs {}", numbers(needs.iter().copied())));
             }
@@ -147,9 +146,9 @@ impl Generator<'_> {
         for (number, (node, bit)) in view.wiring.timers.iter().enumerate() {
             lines.add(1, &format!("timer {number} of {}: raises {bit}", view.graph.path(*node)));
         }
-        for (number, Timeout { name, node, after, needs }) in view.wiring.timeouts.iter().enumerate() {
+        for (number, Timeout { node, after, needs }) in view.wiring.timeouts.iter().enumerate() {
             let needs = if needs.is_empty() { String::new() } else { format!(", needs {}", numbers(needs.clone())) };
-            lines.add(1, &format!("timeout {number} {name}: {} active for {after:?}{needs}", view.graph.path(*node)));
+            lines.add(1, &format!("timeout {number}: {} active for {after:?}{needs}", view.graph.path(*node)));
             self.list_ports(lines, view, *node, 2, |kind| kind == PortKind::Event);
         }
         for (number, Silence { guard, nodes, .. }) in view.wiring.silences.iter().enumerate() {

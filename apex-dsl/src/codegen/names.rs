@@ -102,8 +102,8 @@ impl Names {
 
 /// Names that the generated code itself uses, and those that stand for values in every module.
 #[rustfmt::skip]
-const OWN: [&str; 71] = [
-    "Err", "None", "Ok", "Some", "active", "agenda", "at", "begins", "bits", "carries", "code", "completes", "counts",
+const OWN: [&str; 72] = [
+    "Err", "None", "Ok", "Some", "active", "agenda", "at", "begins", "bits", "carries", "code", "completes", "core", "counts",
     "ctx", "dispatcher", "enabled", "ends", "event", "events", "exit", "first", "found", "gains",
     "i", "inputs", "last", "late", "left", "life", "list", "loses", "made", "missing", "next", "nodes",
     "now", "observer", "outputs", "parcel", "part", "parts", "place", "program", "queue", "quiet",

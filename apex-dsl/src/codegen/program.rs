@@ -1,8 +1,6 @@
 //! The struct of a program: nodes, state, `new`, `react`, and the table that describes it.
 
-use super::{
-    Generator, activity::ProgramView, names::unused, state, threads::group_info, types::ident, wiring::Wiring,
-};
+use super::{Generator, activity::ProgramView, names::unused, threads::group_info, types::ident, wiring::Wiring};
 use crate::{
     analyse::{Analysis, Cluster},
     graph::{Graph, Library, NodeId, NodeKind, PortId, camel},
@@ -123,8 +121,7 @@ impl Generator<'_> {
         let (mut fields, mut handed_in) = (BTreeMap::new(), vec![]);
         self.node_fields(graph, analysis, &mut fields, &mut handed_in);
         let nodes = node_structs(&self.item(graph, "Nodes"), &name, &fields, false);
-        let state =
-            Struct::new(&self.item(graph, "State"), "Tokens, activity and timers.", &state::fields(&self.state(view)));
+        let state = self.state_struct(view);
         let ports = self.port_structs(graph);
         let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
         let parts = self.parts_struct(graph, &handed_in);
@@ -328,7 +325,7 @@ impl Generator<'_> {
         let is_active = match view.analysis.active.iter().all(|node| view.graph.nodes[*node].is_delay()) {
             true if states.is_empty() => return quote!(),
             true => quote!(false),
-            false => quote!(self.state.active.has(node)),
+            false => quote!(self.state.core.active.has(node)),
         };
         let is_active = match states.is_empty() {
             true => is_active,

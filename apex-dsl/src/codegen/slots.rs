@@ -5,10 +5,10 @@ use super::{
     activity::{Carries, ProgramView},
     clusters::inlined,
     dispatch::free_to_send,
+    numbered::{Arm, Numbered},
     plan::is_buffer,
-    stamps,
     types::ident,
-    wiring::{Flag, Send, Slot},
+    wiring::{Flag, Slot},
 };
 use crate::{
     analyse::Delivery,
@@ -17,7 +17,7 @@ use crate::{
     machine::Move,
     syntax::tree::PortKind,
 };
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use syn::Ident;
 
@@ -44,53 +44,23 @@ impl Generator<'_> {
     /// The tokens of some ports of a node are on their way.
     pub fn emit_from(&self, view: ProgramView<'_>, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> TokenStream {
         let rows = view.wiring.of(node).iter().filter(|port| wanted(port.end) && !port.sends.is_empty());
-        let ports = rows.map(|port| {
-            let (always, sends): (Vec<&Send>, Vec<&Send>) = port.sends.iter().partition(|send| send.absent);
-            let always: TokenStream = always.into_iter().map(|send| self.sent(view, send)).collect();
-            let sent = self.all_sent(view, &sends);
-            let observed = self.observed_event(view.graph, port.end);
-            if sent.is_empty() && observed.is_none() {
-                return always;
-            }
-            let present = self.waits(view.graph, port.end);
-            quote! { #always if #present { #observed #sent } }
-        });
-        ports.collect()
+        rows.map(|port| self.send(view, port)).collect()
     }
 
-    /// A token goes off on each of several connections.
-    fn all_sent(&self, view: ProgramView<'_>, sends: &[&Send]) -> TokenStream {
-        const MOST_STRAIGHT: usize = 4;
-        let is_plain = |send: &&Send| send.queued.is_some() && stamps::number(view, send.connection).is_none();
-        if sends.len() <= MOST_STRAIGHT || !sends.iter().all(is_plain) {
-            return sends.iter().map(|send| self.sent(view, send)).collect();
+    /// A step of a node ends: its activity goes with the first of its `events` that were triggered, and all of them are
+    /// on their way.
+    pub fn leave(&self, view: ProgramView<'_>, node: NodeId, events: &dyn Fn(PortId) -> bool) -> TokenStream {
+        let pass = self.pass_activity(view, node, &|end| events(end).then(|| self.waits(view.graph, end)));
+        let send = self.emit_from(view, node, events);
+        let mut rows = view.wiring.of(node).iter().filter(|port| events(port.end));
+        let (Some(port), None) = (rows.next(), rows.next()) else { return quote!(#pass #send) };
+        let follows = !self.turn_effects(view, node, false).is_empty() || self.checks_claims();
+        let is_observed = self.observed_event(view.graph, port.end).is_some();
+        if pass.is_empty() || send.is_empty() || follows || is_observed || view.graph.nodes[node].is_delay() {
+            return quote!(#pass #send);
         }
-        let list = |numbers: &mut dyn Iterator<Item = usize>| {
-            let numbers = numbers.map(Literal::usize_unsuffixed);
-            quote!([#(#numbers),*])
-        };
-        let queued = list(&mut sends.iter().filter_map(|send| send.queued));
-        let occupied = sends.iter().any(|send| send.occupies.is_some()).then(|| {
-            let bits = list(&mut sends.iter().filter_map(|send| send.occupies));
-            quote! { for bit in #bits { state.dispatcher.clear(bit); } }
-        });
-        quote! {
-            for slot in #queued { state.queue.push(slot); }
-            #occupied
-        }
-    }
-
-    /// A token goes off on a connection.
-    fn sent(&self, view: ProgramView<'_>, send: &Send) -> TokenStream {
-        let stamp = self.stamp_sent(view, send.connection);
-        let raised = send.raises.map(|bit| quote! { state.dispatcher.raise(#bit); });
-        let queued = send.queued.map(|slot| {
-            let slot = slot as u16;
-            quote! { state.queue.push(#slot); }
-        });
-        let goes = raised.is_some() || queued.is_some();
-        let occupied = send.occupies.filter(|_| goes).map(|bit| quote! { state.dispatcher.clear(#bit); });
-        quote! { #raised #queued #occupied #stamp }
+        let (name, present) = (ident(&port.name), self.waits(view.graph, port.end));
+        quote! { state.core.leave(&Self::#name, #present, ctx, observer); }
     }
 
     /// Expression that is `true` if the state of the program holds a token.
@@ -140,13 +110,20 @@ impl Generator<'_> {
         }
     }
 
-    /// One function for each connection to a slot.
+    /// What the token on each connection to a slot does: by number where a queue has the numbers, else a function each.
     pub fn slot_functions(&self, view: ProgramView<'_>) -> TokenStream {
+        if view.analysis.asynchronous.delivery == Delivery::Queued {
+            return self.slots(view).functions();
+        }
         let slots = &view.wiring.slots;
         let inline = inlined(slots.len());
         let functions = slots.iter().enumerate().map(|(number, slot)| {
-            let (name, code) = (ident(&slot.name), self.slot(view, number, slot));
-            let docs = self.docs_of_connection(view.graph, slot.connection);
+            let (name, docs) = (ident(&slot.name), self.docs_of_connection(view.graph, slot.connection));
+            let code = self.slot(view, number, slot);
+            let code = match code.is_empty() {
+                true => quote! { state.core.only_enter(&Self::SLOTS[#number], ctx, observer); },
+                false => code,
+            };
             quote! {
                 #[doc = #docs]
                 #inline
@@ -159,40 +136,53 @@ impl Generator<'_> {
         functions.collect()
     }
 
+    /// The slots by number.
+    pub fn slots(&self, view: ProgramView<'_>) -> Numbered {
+        let slots = view.wiring.slots.iter().enumerate();
+        let arms = slots.map(|(number, slot)| {
+            let docs = self.docs_of_connection(view.graph, slot.connection);
+            Arm { number, docs, code: self.slot(view, number, slot) }
+        });
+        let arms = arms.filter(|arm| !arm.code.is_empty()).collect();
+        let rest = quote!(state.core.only_enter(&Self::SLOTS[slot as usize], ctx, observer));
+        Numbered { name: "slot", count: view.wiring.slots.len(), arms, rest }
+    }
+
     /// Documentation of what a connection leads to: ``` `stopped => waiting.enable`, mission.afg:27 ```.
     fn docs_of_connection(&self, graph: &Graph, connection: ConnectionId) -> String {
         format!(" `{}`, {}.", graph.connection_text(connection), self.line(graph.connections[connection].span))
     }
 
+    /// Code of a slot; none if it calls nothing.
     fn slot(&self, view: ProgramView<'_>, number: usize, slot: &Slot) -> TokenStream {
         let Slot { connection, node, .. } = *slot;
-        let free = slot.frees.map(|bit| quote! { state.dispatcher.raise(#bit); });
-        let settle = slot.settles.map(|row| quote! { state.dispatcher.settle(&Self::CLUSTERS, #row); });
-        let activity = match slot.carries_to(view.graph) {
-            Carries::Nothing => quote!(),
-            Carries::Always => self.activate(view, node),
-            Carries::Away => self.deactivate(view, node),
-            Carries::Sometimes => {
-                let (carried, activate) = (self.take(Flag::Carries(number)), self.activate(view, node));
-                quote! { if #carried { #activate } }
-            }
-        };
-        let check = if activity.is_empty() { quote!() } else { self.check_claims() };
+        let brings = slot.carries_to(view.graph);
+        let turns = brings != Carries::Nothing;
+        let effects = if turns { self.turn_effects(view, node, brings != Carries::Away) } else { quote!() };
+        let turned = if effects.is_empty() { quote!(_) } else { quote!(turned) };
+        let effects = (!effects.is_empty()).then(|| quote! { if *turned { #effects } });
+        let check = turns.then(|| self.check_claims());
+        let settle = slot.settles.map(|row| quote! { state.core.dispatcher.settle(Self::CLUSTERS, #row); });
         let call = self.call_slot(view, connection);
         let from = view.graph.connections[connection].from;
         let call = if takes(view, connection) { self.taken(view.graph, from, call) } else { call };
-        let tells = !activity.is_empty();
         let triggers = |end: PortId| match view.graph.port(end).tells_of_activity() {
-            true => tells,
+            true => turns,
             false => self.may_trigger(view, connection, end),
         };
         let clear = self.clear(view, node, &triggers);
-        let pass = self.pass_activity(view, node, &|end| self.sent_event(view, end).filter(|_| triggers(end)));
-        let emit = self.emit_from(view, node, &|end| view.graph.port(end).kind == PortKind::Event && triggers(end));
-        let (stamp, index) = (self.stamp_of_slot(view, connection), self.index(node));
-        let handled = self.connection(connection).map(|number| quote! { observer.handled(#number); });
-        let call = quote! { #call observer.finished(#index); };
-        quote! { #stamp #handled #free #clear #activity #check #call #pass #emit #settle }
+        let leave = self.leave(view, node, &|end| self.is_sent_event(view, end) && triggers(end));
+        let (before, after) = (quote!(#clear #effects #check #call), quote!(#leave #settle));
+        if before.is_empty() && after.is_empty() {
+            return quote!();
+        }
+        let index = self.index(node);
+        quote! {
+            let (ctx, #turned) = &state.core.enter(&Self::SLOTS[#number], ctx, observer);
+            #before
+            observer.finished(#index);
+            #after
+        }
     }
 
     /// Returns `true` if the call of a slot may trigger an event: one that is an argument, or tells how the call went.
@@ -259,7 +249,7 @@ impl Generator<'_> {
             }
             (NodeKind::Boundary(_), _) => {
                 let (port, token) = (ident(&graph.nodes[node].name), self.token(view, connection));
-                let room = view.wiring.bits.room().get(&node).map(|bit| quote! { state.dispatcher.clear(#bit); });
+                let room = view.wiring.bits.room().get(&node).map(|bit| quote! { state.core.dispatcher.clear(#bit); });
                 let copy = self.clone(graph, graph.connections[connection].from, &quote!(token));
                 quote! {
                     if let Some(token) = #token { let _ = events.#port.put(#copy); }
@@ -468,7 +458,7 @@ impl Generator<'_> {
         });
         let sets = self.activity_state(view).into_iter().map(|kept| kept.name);
         let clears = sets.filter(|name| ["gains", "loses", "carries"].iter().any(|set| name == set));
-        let clears = clears.map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
+        let clears = clears.map(|name| quote! { state.core.#name = ::apex_rt::Bits::NONE; });
         let remembered = view.analysis.active.iter().filter(|node| self.remembers(view, **node));
         let forgets =
             remembered.map(|node| self.held(*node)).map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });

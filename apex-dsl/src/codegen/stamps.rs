@@ -55,18 +55,6 @@ impl Generator<'_> {
         quote! { #since #left }
     }
 
-    /// A slot's token is as old as what sent it.
-    pub fn stamp_of_slot(&self, view: ProgramView<'_>, connection: ConnectionId) -> TokenStream {
-        let stamp = of_connection(view, connection);
-        stamp.map(|stamp| quote! { let ctx = &ctx.since(state.#stamp); }).unwrap_or_default()
-    }
-
-    /// A token is sent.
-    pub fn stamp_sent(&self, view: ProgramView<'_>, connection: ConnectionId) -> TokenStream {
-        let stamp = of_connection(view, connection);
-        stamp.map(|stamp| quote! { state.#stamp = ctx.stamp(); }).unwrap_or_default()
-    }
-
     /// Check of a node with a `deadline` when it has finished.
     pub fn check_late(&self, graph: &Graph, node: NodeId) -> TokenStream {
         let Some(deadline) = graph.nodes[node].modifiers.deadline else { return quote!() };
@@ -85,7 +73,7 @@ fn is_left(view: ProgramView<'_>, cluster: ClusterId) -> bool {
 /// The place of a connection's stamp in the state, if it is kept.
 pub fn of_connection(view: ProgramView<'_>, connection: ConnectionId) -> Option<TokenStream> {
     let index = number(view, connection)?;
-    Some(quote!(stamps[#index]))
+    Some(quote!(core.stamps[#index]))
 }
 
 /// The number of a connection's stamp, if it is kept.

@@ -4,7 +4,7 @@ use super::{
     Generator,
     activity::ProgramView,
     plan::{Storage, is_buffer, storage},
-    program::around_text,
+    program::{Struct, around_text},
     types::constant,
 };
 use crate::{
@@ -61,21 +61,49 @@ impl StateField {
 
     /// The places in the state that it consists of, with what they belong to.
     pub fn places(&self) -> impl Iterator<Item = (String, &str)> {
-        self.of.iter().enumerate().map(|(index, of)| match self.is_list {
-            true => (format!("{}[{index}]", self.name), of.as_str()),
-            false => (self.name.to_string(), of.as_str()),
+        let name = if self.is_core() { format!("core.{}", self.name) } else { self.name.to_string() };
+        self.of.iter().enumerate().map(move |(index, of)| match self.is_list {
+            true => (format!("{name}[{index}]"), of.as_str()),
+            false => (name.clone(), of.as_str()),
         })
+    }
+
+    /// Returns `true` if it is a field of the core of the state, which the functions of the runtime work on. Tokens are
+    /// not: they may be borrowed meanwhile.
+    fn is_core(&self) -> bool {
+        const CORE: [&str; 10] =
+            ["active", "agenda", "carries", "dispatcher", "enabled", "gains", "loses", "queue", "stamps", "timeouts"];
+        CORE.iter().any(|name| self.name == name)
     }
 }
 
-/// Fields of the state: declarations, and expressions with the initial values.
-pub fn fields(kept: &[StateField]) -> Vec<(TokenStream, TokenStream)> {
+/// A field of a struct: its declaration, and the expression with its initial value.
+type Declared = (TokenStream, TokenStream);
+
+/// Fields of a struct of such fields.
+pub fn fields<'a>(kept: impl IntoIterator<Item = &'a StateField>) -> Vec<Declared> {
     let inner = around_text();
     let field = |StateField { name, ty, make, .. }: &StateField| (quote!(#inner #name: #ty), quote!(#name: #make));
-    kept.iter().map(field).collect()
+    kept.into_iter().map(field).collect()
 }
 
 impl Generator<'_> {
+    /// The struct of the state, with that of its core.
+    pub fn state_struct(&self, view: ProgramView<'_>) -> Struct {
+        let kept = self.state(view);
+        let (core, own): (Vec<&StateField>, Vec<&StateField>) = kept.iter().partition(|kept| kept.is_core());
+        let core = Struct::new(&self.item(view.graph, "Core"), "Activity, and tokens on their way.", &fields(core));
+        let mut own = fields(own);
+        if !core.item.is_empty() || view.wiring.has_rows() {
+            let (inner, Struct { ty, make, .. }) = (around_text(), &core);
+            own.push((quote!(#inner core: #ty), quote!(core: #make)));
+        }
+        let mut state = Struct::new(&self.item(view.graph, "State"), "Tokens, activity and timers.", &own);
+        let wired = (!core.item.is_empty() && view.wiring.has_rows()).then(|| self.wired(view));
+        state.item.extend([core.item, wired.unwrap_or_default()]);
+        state
+    }
+
     /// The state of a program.
     pub fn state(&self, view: ProgramView<'_>) -> Vec<StateField> {
         let mut kept = self.token_state(view.graph, view.analysis);

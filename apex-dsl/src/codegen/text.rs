@@ -69,7 +69,7 @@ pub fn module(name: &Ident, graph: &str, items: TokenStream) -> TokenStream {
         true => (quote!(), items),
         false => (quote! { use ::apex_rt as rt; }, abbreviated(items)),
     };
-    quote! { pub mod #name { use ::core::prelude::rust_2024::*; use ::apex_rt::Observer as _; #alias #items } }
+    quote! { pub mod #name { use ::core::prelude::rust_2024::*; use ::apex_rt::{Observer as _, Wired as _}; #alias #items } }
 }
 
 /// Name of the runtime in the module of a program.

@@ -3,13 +3,13 @@
 use super::{
     Generator,
     activity::ProgramView,
-    clusters::inlined,
     dispatch::free_to_send,
+    numbered::{Arm, Numbered},
     plan::is_buffer,
     stamps,
     state::{Kind, StateField},
-    types::{ident, nanos},
-    wiring::{Entry, Flag, Silence},
+    types::nanos,
+    wiring::{Entry, Flag, Silence, Timeout},
 };
 use crate::{
     analyse::{Analysis, ClusterId, is_source, silence_parameter},
@@ -20,6 +20,14 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::time::Duration;
 use syn::Ident;
+
+/// Something that happens at a time.
+#[derive(PartialEq, Eq)]
+enum Timed {
+    Timer,
+    Timeout,
+    Silence,
+}
 
 impl Generator<'_> {
     /// The `timeout` of a node, if it can come.
@@ -83,11 +91,14 @@ impl Generator<'_> {
     }
 
     /// Lists of everything that happens at a time, with their lengths.
-    fn timed(view: ProgramView<'_>) -> impl Iterator<Item = (Ident, usize)> {
+    fn timed(view: ProgramView<'_>) -> impl Iterator<Item = (Timed, TokenStream, usize)> {
         let wiring = view.wiring;
-        let lists =
-            [("timers", wiring.timers.len()), ("timeouts", wiring.timeouts.len()), ("silences", wiring.silences.len())];
-        lists.into_iter().filter(|(_, count)| *count > 0).map(|(list, count)| (format_ident!("{list}"), count))
+        let lists = [
+            (Timed::Timer, quote!(timers), wiring.timers.len()),
+            (Timed::Timeout, quote!(core.timeouts), wiring.timeouts.len()),
+            (Timed::Silence, quote!(silences), wiring.silences.len()),
+        ];
+        lists.into_iter().filter(|(.., count)| *count > 0)
     }
 
     /// Returns `true` if something happens at a time, so that a late reaction has several instants.
@@ -113,13 +124,13 @@ impl Generator<'_> {
 
     /// The next instant of a reaction: the earliest time after the last instant at which something is due, else `now`.
     pub fn next_instant(&self, view: ProgramView<'_>) -> TokenStream {
-        let each = Self::timed(view).map(|(list, count)| match view.wiring.has_agenda() {
+        let each = Self::timed(view).map(|(_, list, count)| match view.wiring.has_agenda() {
             true => quote! { for timed in &self.state.#list { at = timed.instant(last, at); } },
             false => (0..count).map(|index| quote! { at = self.state.#list[#index].instant(last, at); }).collect(),
         });
         let each: TokenStream = each.collect();
         let each = match view.wiring.has_agenda() {
-            true => quote! { if self.state.agenda.is_due(now) { #each } },
+            true => quote! { if self.state.core.agenda.is_due(now) { #each } },
             false => each,
         };
         quote! {
@@ -137,7 +148,7 @@ impl Generator<'_> {
         let skips = skipping.map(|(timer, _)| quote! { self.state.timers[#timer].skip(now); });
         let skips: TokenStream = skips.collect();
         match view.wiring.has_agenda() && !skips.is_empty() {
-            true => quote! { if self.state.agenda.is_due(now) { #skips self.state.agenda.open(); } },
+            true => quote! { if self.state.core.agenda.is_due(now) { #skips self.state.core.agenda.open(); } },
             false => skips,
         }
     }
@@ -172,19 +183,19 @@ impl Generator<'_> {
     pub fn silences_end(&self, view: ProgramView<'_>) -> TokenStream {
         let ends = view.wiring.silences.iter().enumerate().map(|(index, silence)| match &silence.entry {
             Entry::Input { raises } => quote! {
-                if quiet && self.state.silences[#index].is_due(at) && !self.state.dispatcher.has(#raises) {
-                    self.state.dispatcher.raise(#raises);
+                if quiet && self.state.silences[#index].is_due(at) && !self.state.core.dispatcher.has(#raises) {
+                    self.state.core.dispatcher.raise(#raises);
                     quiet = false;
                 }
             },
             Entry::Connection { connection, raises, occupies, free } => {
                 let (clear, stamp) = self.absent_on(view, *connection);
                 quote! {
-                    if quiet && self.state.silences[#index].is_due(at) #(&& self.state.dispatcher.has(#free))* {
+                    if quiet && self.state.silences[#index].is_due(at) #(&& self.state.core.dispatcher.has(#free))* {
                         #clear
                         #stamp
-                        self.state.dispatcher.clear(#occupies);
-                        self.state.dispatcher.raise(#raises);
+                        self.state.core.dispatcher.clear(#occupies);
+                        self.state.core.dispatcher.raise(#raises);
                         quiet = false;
                     }
                 }
@@ -206,22 +217,14 @@ impl Generator<'_> {
 
     /// A timer changes.
     pub fn open_agenda(&self, view: ProgramView<'_>) -> Option<TokenStream> {
-        view.wiring.has_agenda().then(|| quote! { state.agenda.open(); })
+        view.wiring.has_agenda().then(|| quote! { state.core.agenda.open(); })
     }
 
     /// The time of a node's `timeout` begins, if it has one.
-    pub fn start_timeout(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+    fn start_timeout(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         let Some(index) = view.wiring.timeout(node) else { return quote!() };
         let after = nanos(view.wiring.timeouts[index].after);
-        let open = self.open_agenda(view);
-        quote! { state.timeouts[#index].start(ctx.now(), ::core::time::Duration::from_nanos(#after)); #open }
-    }
-
-    /// The time of a node's `timeout` ends.
-    pub fn stop_timeout(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let Some(index) = view.wiring.timeout(node) else { return quote!() };
-        let open = self.open_agenda(view);
-        quote! { state.timeouts[#index].stop(); #open }
+        quote! { state.core.start_timeout(#index, #after, ctx); }
     }
 
     /// The guards of timers that are due hold.
@@ -234,12 +237,12 @@ impl Generator<'_> {
             let bits = timers.iter().map(|(_, bit)| Literal::usize_unsuffixed(*bit));
             return quote! {
                 for (timer, bit) in self.state.timers.iter().zip([#(#bits),*]) {
-                    if timer.is_due(at) { self.state.dispatcher.raise(bit); }
+                    if timer.is_due(at) { self.state.core.dispatcher.raise(bit); }
                 }
             };
         }
         let looks = timers.iter().enumerate().map(|(index, (_, bit))| {
-            quote! { if self.state.timers[#index].is_due(at) { self.state.dispatcher.raise(#bit); } }
+            quote! { if self.state.timers[#index].is_due(at) { self.state.core.dispatcher.raise(#bit); } }
         });
         looks.collect()
     }
@@ -270,68 +273,80 @@ impl Generator<'_> {
     /// When a program wants to be called because of its timers.
     pub fn wishes(&self, view: ProgramView<'_>) -> TokenStream {
         if !view.wiring.has_agenda() {
-            let wishes = Self::timed(view).flat_map(|(list, count)| {
+            let wishes = Self::timed(view).flat_map(|(_, list, count)| {
                 (0..count).map(move |index| quote! { next = next.or(self.state.#list[#index].wish(at)); })
             });
             return wishes.collect();
         }
-        let wishes = Self::timed(view).map(|(list, _)| {
+        let wishes = Self::timed(view).map(|(what, list, _)| {
             // What is due already, but held back, is looked at again.
-            let held_back = (list != "timers").then(|| quote! { held_back |= timed.is_due(at); });
+            let held_back = (what != Timed::Timer).then(|| quote! { held_back |= timed.is_due(at); });
             quote! { for timed in &self.state.#list { wish = wish.or(timed.wish(at)); #held_back } }
         });
         quote! {
-            if self.state.agenda.is_due(at) {
+            if self.state.core.agenda.is_due(at) {
                 let (mut wish, mut held_back) = (::apex_rt::Next::Input, false);
                 #(#wishes)*
-                self.state.agenda.close(wish, held_back);
+                self.state.core.agenda.close(wish, held_back);
             }
-            next = next.or(self.state.agenda.wish());
+            next = next.or(self.state.core.agenda.wish());
         }
     }
 
-    /// Tests whether a node was active for as long as its `timeout` says. A node that is disabled sends nothing; it
-    /// does so when it is enabled, if it is still active.
-    pub fn expires(&self, view: ProgramView<'_>, index: usize) -> TokenStream {
-        let timeout = &view.wiring.timeouts[index];
-        let expire = ident(&timeout.name);
-        let mut test = self.allows(view, &timeout.needs);
-        if view.graph.nodes[timeout.node].can_be_disabled() {
+    /// Conditions under which a timeout that is due expires. A node that is disabled sends nothing; it does so when it is
+    /// enabled, if it is still active.
+    fn may_expire(&self, view: ProgramView<'_>, timeout: &Timeout) -> Option<TokenStream> {
+        let needs = timeout.needs.iter().map(|bit| quote!(self.state.core.dispatcher.has(#bit)));
+        let enabled = view.graph.nodes[timeout.node].can_be_disabled().then(|| {
             let is_enabled = self.is_set(Flag::Enabled(timeout.node));
-            test.extend(quote!(&& self.#is_enabled));
-        }
-        quote! {
-            if quiet && self.state.timeouts[#index].is_due(at) #test { self.#expire(ctx, observer); quiet = false; }
-        }
-    }
-
-    /// For each timeout the function that triggers its event, with the activity of the node.
-    pub fn expire_functions(&self, view: ProgramView<'_>) -> TokenStream {
-        let inline = inlined(view.wiring.timeouts.len());
-        (0..view.wiring.timeouts.len()).map(|index| self.expire(view, index, &inline)).collect()
-    }
-
-    fn expire(&self, view: ProgramView<'_>, index: usize, inline: &TokenStream) -> TokenStream {
-        let (graph, timeout) = (view.graph, &view.wiring.timeouts[index]);
-        let (node, expire) = (timeout.node, ident(&timeout.name));
-        let docs = format!(" `timeout` of `{}`, {}.", graph.path(node), self.line(graph.nodes[node].span));
-        let (clear, open) = (self.clear_events(view, node), self.open_agenda(view));
-        let trigger = self.trigger(graph, node, Standard::Timeout);
-        let pass = self.pass_activity(view, node, &|end| {
-            let standard = graph.port(end).standard;
-            let sent = matches!(standard, Some(Standard::Timeout | Standard::Deactivated));
-            self.sent_event(view, end).filter(|_| sent)
+            quote!(self.#is_enabled)
         });
-        let emit = self.emit(view, node, false);
-        let serve = self.deliver(view, &view.links.sends[node]);
+        needs.chain(enabled).reduce(|all, test| quote!(#all && #test))
+    }
+
+    /// What each timeout does, and the function by which the first of them expires that is due and can.
+    pub fn expire_functions(&self, view: ProgramView<'_>) -> TokenStream {
+        let timeouts = &view.wiring.timeouts;
+        if timeouts.is_empty() {
+            return quote!();
+        }
+        let arms = (0..timeouts.len()).map(|index| self.timeout_arm(view, index)).collect();
+        let numbered = Numbered { name: "timeout", count: timeouts.len(), arms, rest: quote!({}) };
+        let (functions, call) = (numbered.functions(), numbered.call());
+        let tests = timeouts.iter().enumerate().filter_map(|(index, timeout)| {
+            let (index, test) = (Literal::usize_unsuffixed(index), self.may_expire(view, timeout)?);
+            Some(quote! { #index => #test, })
+        });
+        let tests: Vec<TokenStream> = tests.collect();
+        let test = (!tests.is_empty()).then(|| quote! { && match timeout { #(#tests)* _ => true } });
+        let count = Literal::usize_unsuffixed(timeouts.len());
         quote! {
-            #[doc = #docs]
-            #inline
-            fn #expire<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
-                let Self { nodes, state, .. } = self;
-                state.timeouts[#index].stop();
-                #open #clear #trigger #pass #emit #serve
+            #functions
+            /// The first timeout expires that is due and can. Returns `true` if there is one.
+            #[inline]
+            fn expire<O: ::apex_rt::Observer>(&mut self, at: ::apex_rt::Time, ctx: &::apex_rt::Ctx, observer: &mut O) -> bool {
+                for timeout in 0..#count {
+                    if self.state.core.timeouts[timeout as usize].is_due(at) #test {
+                        #call
+                        return true;
+                    }
+                }
+                false
             }
         }
+    }
+
+    /// The event of a timeout is triggered, with the activity of the node.
+    fn timeout_arm(&self, view: ProgramView<'_>, index: usize) -> Arm {
+        let (graph, node) = (view.graph, view.wiring.timeouts[index].node);
+        let docs = format!(" `timeout` of `{}`, {}.", graph.path(node), self.line(graph.nodes[node].span));
+        let clear = self.clear_events(view, node);
+        let trigger = self.trigger(graph, node, Standard::Timeout);
+        let leave = self.leave(view, node, &|end| {
+            let sent = matches!(graph.port(end).standard, Some(Standard::Timeout | Standard::Deactivated));
+            sent && self.is_sent_event(view, end)
+        });
+        let serve = self.deliver(view, &view.links.sends[node]);
+        Arm { number: index, docs, code: quote! { state.core.stop_timeout(#index); #clear #trigger #leave #serve } }
     }
 }

@@ -1,10 +1,16 @@
 //! The asynchronous and active half of a program as data: where the tokens of a port go, where activity goes with
 //! them, and what the token on a connection does to the node of a slot.
 //!
-//! It is made once from graph and analysis. Few slots become straight-line code, many become tables: both are written
-//! from this.
+//! It is made once from graph and analysis.
 
-use super::{Generator, activity::Carries, bits::Bits, cells::carries_missing, names::unused};
+use super::{
+    Generator,
+    activity::Carries,
+    bits::Bits,
+    cells::carries_missing,
+    names::unused,
+    rows::{constant_name, valid},
+};
 use crate::{
     analyse::{Analysis, ClusterId, Delivery, Guard, may_get_stuck, takes_activity},
     graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
@@ -34,6 +40,8 @@ pub enum Flag {
 /// Effects of a token at a port outside its region. A port may have several of these rows.
 #[derive(Debug)]
 pub struct Port {
+    /// Name of its row: `WAITING_SIGNAL`.
+    pub name: String,
     pub end: PortId,
     /// An active connection leads on from it, and this row says what that does.
     pub is_active: bool,
@@ -88,8 +96,6 @@ impl Slot {
 /// The `timeout` of a node: how long it may be active.
 #[derive(Debug)]
 pub struct Timeout {
-    /// Name of its function: `expire_waiting`.
-    pub name: String,
     pub node: NodeId,
     pub after: Duration,
     /// The conditions under which its event can be triggered.
@@ -121,6 +127,8 @@ pub enum Entry {
 pub struct Wiring {
     /// The numbers of the conditions.
     pub bits: Bits,
+    /// Names of the rows of the nodes that can be active: `WAITING`.
+    pub nodes: BTreeMap<NodeId, String>,
     /// The rows of each node: activity goes with the first token in the order of the ports (A5), tokens are sent in
     /// the order of the text (R7).
     ports: BTreeMap<NodeId, Vec<Port>>,
@@ -134,8 +142,6 @@ pub struct Wiring {
     pub timeouts: Vec<Timeout>,
     /// The silences, in the order of their guards.
     pub silences: Vec<Silence>,
-    /// Slots and timeouts are so many that tables serve them.
-    pub is_tabled: bool,
     /// Slot tokens may wait for one another forever, which the program then reports.
     pub may_get_stuck: bool,
 }
@@ -145,8 +151,6 @@ impl Wiring {
     pub fn new(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis) -> Self {
         let links = &analysis.links;
         let mut used = BTreeSet::new();
-        // Relays, probes and hidden slots have names that are not identifiers.
-        let valid = |c: char| if c.is_alphanumeric() { c } else { '_' };
         let mut named = |name: String| unused(name.chars().map(valid).collect(), &mut used);
         let path = |node: NodeId| graph.path(node).replace('.', "_");
         let bits = Bits::new(graph, analysis);
@@ -171,7 +175,14 @@ impl Wiring {
         });
         let slots: Vec<Slot> = slots.collect();
         let rows = graph.nodes.ids().map(|node| (node, rows(generator, graph, analysis, &bits, node)));
-        let ports = rows.filter(|(_, rows)| !rows.is_empty()).collect();
+        let mut ports: BTreeMap<NodeId, Vec<Port>> = rows.filter(|(_, rows)| !rows.is_empty()).collect();
+        let mut used = BTreeSet::new();
+        let mut constant = |name: &str| unused(constant_name(name), &mut used);
+        let is_plain = |node: &&NodeId| !graph.nodes[**node].is_delay();
+        let nodes = analysis.active.iter().filter(is_plain).map(|node| (*node, constant(&path(*node)))).collect();
+        for port in ports.values_mut().flatten() {
+            port.name = constant(&generator.name(port.end).to_string());
+        }
         let timers = analysis.guards.iter().enumerate().filter_map(|(guard, what)| match what {
             Guard::Timer(node) => Some((*node, bits.guard(guard)?)),
             _ => None,
@@ -181,13 +192,9 @@ impl Wiring {
         let timeouts = graph.nodes.ids().filter_map(|node| {
             let holding = analysis.asynchronous.holding_back(graph, links, node);
             let needs = holding.filter_map(|connection| bits.free(connection)).collect();
-            let name = format!("expire_{}", path(node));
-            Some(Timeout { name, node, after: generator.timeout(graph, analysis, node)?, needs })
+            Some(Timeout { node, after: generator.timeout(graph, analysis, node)?, needs })
         });
-        let mut timeouts: Vec<Timeout> = timeouts.collect();
-        for timeout in &mut timeouts {
-            timeout.name = named(std::mem::take(&mut timeout.name));
-        }
+        let timeouts = timeouts.collect();
         let clusters = analysis.clusters.iter().map(|cluster| {
             let first = cluster.schedule().first().map(|node| path(*node)).unwrap_or_default();
             named(format!("fire_{first}"))
@@ -198,9 +205,8 @@ impl Wiring {
             Some(Silence { guard, entry: entry(graph, analysis, &bits, guard)?, nodes })
         });
         let silences = silences.collect();
-        let is_tabled = analysis.asynchronous.is_tabled;
         let may_get_stuck = may_get_stuck(graph, analysis);
-        Self { bits, ports, slots, timers, clusters, timeouts, silences, is_tabled, may_get_stuck }
+        Self { bits, nodes, ports, slots, timers, clusters, timeouts, silences, may_get_stuck }
     }
 
     /// The number of the silence of a guard.
@@ -222,6 +228,16 @@ impl Wiring {
     pub fn has_agenda(&self) -> bool {
         const FEWEST: usize = 3;
         self.timers.len() + self.timeouts.len() + self.silences.len() >= FEWEST
+    }
+
+    /// Returns `true` if the program has rows, which the functions of the runtime work on.
+    pub fn has_rows(&self) -> bool {
+        !self.slots.is_empty() || !self.ports.is_empty() || !self.nodes.is_empty() || !self.timeouts.is_empty()
+    }
+
+    /// The rows of all nodes.
+    pub fn ports(&self) -> impl Iterator<Item = &Port> {
+        self.ports.values().flatten()
     }
 
     /// The rows of a node.
@@ -260,7 +276,9 @@ fn rows(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, bits: &Bi
         }
         let mut row = match active.next_if(|next| *next == end) {
             Some(end) => passing(generator, graph, analysis, end),
-            None => Port { end, is_active: false, takes_away: vec![], passes: None, sends: vec![] },
+            None => {
+                Port { name: String::new(), end, is_active: false, takes_away: vec![], passes: None, sends: vec![] }
+            }
         };
         row.sends.extend(connections.iter().map(|connection| send(graph, analysis, bits, *connection)));
         rows.push(row);
@@ -301,5 +319,5 @@ fn passing(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, end: P
     let leaves = analysis.active.contains(&end.node) && !takes_activity(graph, generator.catalog, end.node);
     // A delay keeps what its tokens carry, not what it is.
     let leaves = leaves || graph.nodes[end.node].is_delay();
-    Port { end, is_active: true, takes_away, passes: leaves.then_some(along), sends: vec![] }
+    Port { name: String::new(), end, is_active: true, takes_away, passes: leaves.then_some(along), sends: vec![] }
 }

@@ -1,0 +1,226 @@
+//! Rows of generated code: constants that say what tokens at a port do to activity and to other nodes, and the parts
+//! of the state that the functions of `apex_rt::Wired` work on.
+
+use super::{
+    Generator,
+    activity::{Carries, ProgramView, is_observed},
+    stamps,
+    types::{ident, nanos},
+    wiring::{Flag, Port, Send, Slot},
+};
+use crate::{analyse::Delivery, graph::NodeId};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use syn::Ident;
+
+/// A row in the making: a constant, with the methods that add to it.
+struct Row(TokenStream);
+
+impl Row {
+    fn number(&mut self, method: &str, number: Option<usize>) {
+        if let Some(number) = number {
+            let number = Literal::usize_unsuffixed(number);
+            self.add(method, &quote!(#number));
+        }
+    }
+
+    fn list(&mut self, method: &str, numbers: impl IntoIterator<Item = usize>) {
+        let mut numbers = numbers.into_iter().map(Literal::usize_unsuffixed).peekable();
+        if numbers.peek().is_some() {
+            self.add(method, &quote!(&[#(#numbers),*]));
+        }
+    }
+
+    fn add(&mut self, method: &str, arguments: &TokenStream) {
+        let method = format_ident!("{method}");
+        self.0.extend(quote!(.#method(#arguments)));
+    }
+}
+
+impl Generator<'_> {
+    /// Constants for the nodes that can be active and for the ports whose tokens have effects.
+    pub fn row_constants(&self, view: ProgramView<'_>) -> TokenStream {
+        let nodes = view.wiring.nodes.iter().map(|(node, name)| {
+            let (name, row) = (ident(name), self.node_row(view, *node));
+            quote! { const #name: ::apex_rt::rows::Node = #row; }
+        });
+        let ports = view.wiring.ports().map(|port| {
+            let (name, row) = (ident(&port.name), self.port_row(view, port));
+            quote! { const #name: ::apex_rt::rows::Port = #row; }
+        });
+        let anyway = view.wiring.ports().filter(|port| port.sends.iter().any(|send| send.absent)).map(|port| {
+            let mut row = Row(quote!(::apex_rt::rows::Port::NEW));
+            add_sends(&mut row, view, port.sends.iter().filter(|send| send.absent));
+            let (name, row) = (anyway(port), row.0);
+            quote! { const #name: ::apex_rt::rows::Port = #row; }
+        });
+        let slots = self.slot_table(view);
+        quote! { #(#nodes)* #(#ports)* #(#anyway)* #slots }
+    }
+
+    fn node_row(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let number = Literal::usize_unsuffixed(self.index(node));
+        let mut row = Row(quote!(::apex_rt::rows::Node::new(#number)));
+        if let Some(timeout) = view.wiring.timeout(node) {
+            let (number, after) = (Literal::usize_unsuffixed(timeout), nanos(view.wiring.timeouts[timeout].after));
+            row.add("timeout", &quote!(#number, #after));
+        }
+        if !is_observed(view.graph, node) {
+            row.add("unobserved", &quote!());
+        }
+        row.0
+    }
+
+    fn port_row(&self, view: ProgramView<'_>, port: &Port) -> TokenStream {
+        let mut row = Row(quote!(::apex_rt::rows::Port::NEW));
+        let number = |flag: &Flag| match *flag {
+            Flag::Active(node) | Flag::Gains(node) | Flag::Loses(node) | Flag::Enabled(node) => self.index(node),
+            Flag::Carries(slot) => slot,
+        };
+        if let Some(along) = &port.passes {
+            // A delay keeps what its tokens carry, and has no activity of its own.
+            if let Some(name) = view.wiring.nodes.get(&port.end.node) {
+                let name = ident(name);
+                row.add("passes", &quote!(Self::#name));
+            }
+            let (carries, gains): (Vec<&Flag>, Vec<&Flag>) =
+                along.iter().partition(|flag| matches!(flag, Flag::Carries(_)));
+            row.list("carries", carries.into_iter().map(number));
+            row.list("gains", gains.into_iter().map(number));
+        }
+        row.list("loses", port.takes_away.iter().map(number));
+        add_sends(&mut row, view, port.sends.iter().filter(|send| !send.absent));
+        row.0
+    }
+
+    /// The table of connections to slots.
+    fn slot_table(&self, view: ProgramView<'_>) -> TokenStream {
+        let rows = view.wiring.slots.iter().enumerate().map(|(number, slot)| self.slot_row(view, number, slot));
+        let (rows, count) = (rows.collect::<Vec<_>>(), view.wiring.slots.len());
+        if count == 0 {
+            return quote!();
+        }
+        quote! { const SLOTS: &'static [::apex_rt::rows::Slot; #count] = { use ::apex_rt::rows::Slot; &[#(#rows),*] }; }
+    }
+
+    /// The row of a connection to a slot.
+    fn slot_row(&self, view: ProgramView<'_>, number: usize, slot: &Slot) -> TokenStream {
+        let node = Literal::usize_unsuffixed(self.index(slot.node));
+        let mut row = Row(quote!(Slot::new(#node)));
+        row.number("on", self.connection(slot.connection));
+        row.number("frees", slot.frees);
+        row.number("stamp", stamps::number(view, slot.connection));
+        let number = Literal::usize_unsuffixed(number);
+        let node = || self.node_constant(view, slot.node);
+        match slot.carries_to(view.graph) {
+            Carries::Nothing => {}
+            Carries::Always => row.add("always_activates", &node()),
+            Carries::Sometimes => {
+                let node = node();
+                row.add("activates", &quote!(#number, #node));
+            }
+            Carries::Away => row.add("deactivates", &node()),
+        }
+        row.0
+    }
+
+    /// The row of a node that can be active.
+    pub fn node_constant(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        match view.wiring.nodes.get(&node) {
+            Some(name) => {
+                let name = ident(name);
+                quote!(Self::#name)
+            }
+            None => self.bug(view.graph.nodes[node].span, "a node that becomes active has no row"),
+        }
+    }
+
+    /// The parts of the state that rows refer to.
+    pub fn wired(&self, view: ProgramView<'_>) -> TokenStream {
+        let wiring = view.wiring;
+        let core = self.item(view.graph, "Core");
+        let sets = self.activity_state(view).into_iter().filter_map(|set| {
+            let name = ["active", "gains", "loses", "carries"].into_iter().find(|name| set.name == name)?;
+            let name = ident(name);
+            Some(quote! { #[inline(always)] fn #name(&mut self) -> &mut [u64] { &mut self.#name.0 } })
+        });
+        let stamps = (!view.analysis.stamps.connections.is_empty()).then(|| {
+            quote! { #[inline(always)] fn stamps(&mut self) -> &mut [::apex_rt::Time] { &mut self.stamps } }
+        });
+        let timeouts = (!wiring.timeouts.is_empty()).then(|| {
+            let open = wiring
+                .has_agenda()
+                .then(|| quote! { #[inline(always)] fn open_agenda(&mut self) { self.agenda.open(); } });
+            quote! {
+                #[inline(always)]
+                fn timeouts(&mut self) -> &mut [::apex_rt::Timeout] { &mut self.timeouts }
+                #open
+            }
+        });
+        let is_queued = !wiring.slots.is_empty() && view.analysis.asynchronous.delivery == Delivery::Queued;
+        let queue =
+            is_queued.then(|| quote! { #[inline(always)] fn queue(&mut self, slot: u16) { self.queue.push(slot); } });
+        let bits = (wiring.bits.words() > 0).then(|| {
+            quote! {
+                #[inline(always)]
+                fn raise(&mut self, bit: usize) { self.dispatcher.raise(bit); }
+                #[inline(always)]
+                fn occupy(&mut self, bit: usize) { self.dispatcher.clear(bit); }
+            }
+        });
+        quote! { impl ::apex_rt::Wired for #core { #(#sets)* #stamps #timeouts #queue #bits } }
+    }
+
+    /// A token at a port goes off, if it is there; observers see events.
+    pub fn send(&self, view: ProgramView<'_>, port: &Port) -> TokenStream {
+        let goes = |absent: bool| port.sends.iter().any(|send| send.absent == absent && has_effect(view, send));
+        let anyway = goes(true).then(|| {
+            let name = anyway(port);
+            quote! { state.core.send(&Self::#name, true, ctx); }
+        });
+        let (name, present) = (ident(&port.name), self.waits(view.graph, port.end));
+        let sent = match (goes(false), self.observed_event(view.graph, port.end)) {
+            (false, None) => quote!(),
+            (true, None) => quote! { state.core.send(&Self::#name, #present, ctx); },
+            (false, Some(observed)) => quote! { if #present { #observed } },
+            (true, Some(observed)) => quote! { if #present { #observed state.core.send(&Self::#name, true, ctx); } },
+        };
+        quote! { #anyway #sent }
+    }
+}
+
+/// Name of the row of the connections on which a port sends ⊥, too.
+fn anyway(port: &Port) -> Ident {
+    format_ident!("{}_ANYWAY", port.name)
+}
+
+/// Returns `true` if a token that goes off on a connection changes the state.
+fn has_effect(view: ProgramView<'_>, send: &Send) -> bool {
+    send.queued.is_some() || send.raises.is_some() || stamps::number(view, send.connection).is_some()
+}
+
+fn add_sends<'a>(row: &mut Row, view: ProgramView<'_>, sends: impl Iterator<Item = &'a Send> + Clone) {
+    row.list("queues", sends.clone().filter_map(|send| send.queued));
+    row.list("raises", sends.clone().filter_map(|send| send.raises));
+    let goes = |send: &&Send| send.queued.is_some() || send.raises.is_some();
+    row.list("occupies", sends.clone().filter(goes).filter_map(|send| send.occupies));
+    row.list("stamps", sends.filter_map(|send| stamps::number(view, send.connection)));
+}
+
+/// Name of a constant: `WAITING_SIGNAL` of `waiting.signal`. Its own names are those of the tables.
+pub fn constant_name(name: &str) -> String {
+    const OWN: [&str; 9] = ["CLUSTERS", "MISSING", "NEEDS", "ORDER", "FREE", "INFO", "PARAMS", "SLOTS", "SELF"];
+    let mut name: String = name.chars().flat_map(char::to_uppercase).map(valid).collect();
+    if OWN.contains(&name.as_str()) {
+        name.push('_');
+    }
+    if name.starts_with(char::is_numeric) {
+        name.insert(0, '_');
+    }
+    name
+}
+
+/// Relays, probes and hidden slots have names that are not identifiers.
+pub fn valid(c: char) -> char {
+    if c.is_alphanumeric() { c } else { '_' }
+}
