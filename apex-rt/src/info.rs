@@ -152,9 +152,24 @@ impl KindInfo {
 }
 
 impl PortInfo {
-    /// Returns a row of a table of ports.
-    pub const fn new(name: &'static str, kind: PortKind, ty: &'static str) -> Self {
-        Self { name, kind, ty }
+    /// Returns the row of an input.
+    pub const fn input(name: &'static str, ty: &'static str) -> Self {
+        Self { name, kind: PortKind::Input, ty }
+    }
+
+    /// Returns the row of an output.
+    pub const fn output(name: &'static str, ty: &'static str) -> Self {
+        Self { name, kind: PortKind::Output, ty }
+    }
+
+    /// Returns the row of a slot.
+    pub const fn slot(name: &'static str, ty: &'static str) -> Self {
+        Self { name, kind: PortKind::Slot, ty }
+    }
+
+    /// Returns the row of an event.
+    pub const fn event(name: &'static str, ty: &'static str) -> Self {
+        Self { name, kind: PortKind::Event, ty }
     }
 }
 

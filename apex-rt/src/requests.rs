@@ -271,10 +271,7 @@ mod tests {
     use super::*;
     use crate::params::{IntoParam as _, ParamRange, ParamRef, Rejection};
 
-    const PARAMS: [ParamInfo; 2] = [
-        ParamInfo::new("a.x", "f64", None, ParamRange::new(None, None, false)),
-        ParamInfo::new("b.x", "f64", None, ParamRange::new(None, None, false)),
-    ];
+    const PARAMS: [ParamInfo; 2] = [ParamInfo::new("a.x", "f64"), ParamInfo::new("b.x", "f64")];
 
     /// A group with one of the two parameters.
     struct Part(&'static ParamInfo, f64);

@@ -4,7 +4,7 @@
 //! Row and state are known where a function is inlined, so that mostly a few bit operations remain. rustc inlines them
 //! in small programs; large ones share them.
 
-use crate::{Ctx, Observer, Time, Timeout};
+use crate::{Ctx, Observer, Out, Time, Timeout};
 use core::time::Duration;
 use rows::{Brings, Node, Port, Slot};
 
@@ -192,6 +192,33 @@ pub mod rows {
     }
 }
 
+/// Token that may be ⊥, or whether it is there.
+pub trait There {
+    /// Returns `true` unless it is ⊥.
+    fn is_there(&self) -> bool;
+}
+
+impl There for bool {
+    #[inline(always)]
+    fn is_there(&self) -> bool {
+        *self
+    }
+}
+
+impl<T> There for Option<T> {
+    #[inline(always)]
+    fn is_there(&self) -> bool {
+        self.is_some()
+    }
+}
+
+impl<T> There for Out<T> {
+    #[inline(always)]
+    fn is_there(&self) -> bool {
+        self.get().is_some()
+    }
+}
+
 /// State of a program's asynchronous half. A program has those parts that its rows refer to; the default of each is
 /// that the program has none.
 pub trait Wired {
@@ -277,9 +304,9 @@ pub trait Wired {
 
     /// Ends the step of a node that sends at one port only: its activity goes with the token.
     #[inline(always)]
-    fn leave<O: Observer>(&mut self, port: &Port, is_there: bool, ctx: &Ctx, observer: &mut O) {
-        self.pass(port, is_there, observer);
-        self.send(port, is_there, ctx);
+    fn leave<O: Observer>(&mut self, port: &Port, token: &impl There, ctx: &Ctx, observer: &mut O) {
+        self.pass(port, token, observer);
+        self.send(port, token, ctx);
     }
 
     /// Activates a node. Returns `true` unless it was active.
@@ -313,10 +340,10 @@ pub trait Wired {
         true
     }
 
-    /// Passes the activity of a node on with a token at a port, if it `is_there`. Returns `true` if it went along.
+    /// Passes the activity of a node on with a token at a port, if there is one. Returns `true` if it went along.
     #[inline(always)]
-    fn pass<O: Observer>(&mut self, port: &Port, is_there: bool, observer: &mut O) -> bool {
-        if !is_there {
+    fn pass<O: Observer>(&mut self, port: &Port, token: &impl There, observer: &mut O) -> bool {
+        if !token.is_there() {
             return false;
         }
         for node in port.loses {
@@ -340,10 +367,10 @@ pub trait Wired {
         }
     }
 
-    /// Sends a token from a port, if it `is_there`.
+    /// Sends the token at a port, if there is one.
     #[inline(always)]
-    fn send(&mut self, port: &Port, is_there: bool, ctx: &Ctx) {
-        if !is_there {
+    fn send(&mut self, port: &Port, token: &impl There, ctx: &Ctx) {
+        if !token.is_there() {
             return;
         }
         for slot in port.queues {

@@ -118,19 +118,19 @@ impl Generator<'_> {
     /// Expression that is `true` if a flag is set.
     pub fn is_set(&self, flag: Flag) -> TokenStream {
         let (set, bit) = self.flag(flag);
-        quote!(state.core.#set.has(#bit))
+        quote!(core.#set.has(#bit))
     }
 
     /// Sets a flag, or clears it.
     pub fn set(&self, flag: Flag, value: bool) -> TokenStream {
         let (set, bit) = self.flag(flag);
-        quote! { state.core.#set.set(#bit, #value); }
+        quote! { core.#set.set(#bit, #value); }
     }
 
     /// Clears a flag. The expression is `true` if it was set.
     pub fn take(&self, flag: Flag) -> TokenStream {
         let (set, bit) = self.flag(flag);
-        quote!(state.core.#set.take(#bit))
+        quote!(core.#set.take(#bit))
     }
 
     /// The set of a flag, and its number there.
@@ -168,13 +168,13 @@ impl Generator<'_> {
     /// A node becomes active, unless it is already.
     pub fn activate(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         let (row, effects) = (self.node_constant(view, node), self.turn_effects(view, node, true));
-        followed(&quote!(state.core.activate(&#row, ctx, observer)), &effects)
+        followed(&quote!(core.activate(&#row, ctx, observer)), &effects)
     }
 
     /// A node is no longer active.
     pub fn deactivate(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         let (row, effects) = (self.node_constant(view, node), self.turn_effects(view, node, false));
-        followed(&quote!(state.core.deactivate(&#row, observer)), &effects)
+        followed(&quote!(core.deactivate(&#row, observer)), &effects)
     }
 
     /// The event and the hook of a node that became active, or is no longer.
@@ -252,14 +252,14 @@ impl Generator<'_> {
         for port in view.wiring.of(node).iter().filter(|port| port.is_active) {
             let Some(present) = present(port.end) else { continue };
             let name = ident(&port.name);
-            let pass = quote!(state.core.pass(&Self::#name, #present, observer));
+            let pass = quote!(core.pass(&Self::#name, #present, observer));
             code.extend(match port.passes {
                 None if port.takes_away.is_empty() => quote!(),
                 None => quote! { #pass; },
                 Some(_) if view.graph.nodes[node].is_delay() => {
                     let held = self.held_activity(node);
                     let pass = (!port.takes_away.is_empty()).then(|| quote! { #pass; });
-                    quote! { #pass if state.#held.take().is_some() { state.core.carry(&Self::#name); } }
+                    quote! { #pass if state.#held.take().is_some() { core.carry(&Self::#name); } }
                 }
                 Some(_) => {
                     let (effects, check) = (self.turn_effects(view, node, false), self.check_claims());

@@ -64,19 +64,19 @@ impl Generator<'_> {
         });
         let carries = carries.filter(|_| !far.takes_activity);
         let left = carries.is_some().then(|| self.set(Flag::Active(node), false));
-        let stamp = super::stamps::of_connection(view, index).map(|stamp| quote! { parcel.stamp = state.#stamp; });
+        let stamp = super::stamps::of_connection(view, index).map(|stamp| quote! { parcel.stamp = #stamp; });
         let settle = (graph.port(c.from).kind == PortKind::Output)
             .then(|| bits.row(analysis.cluster_of[c.from.node]))
             .flatten()
-            .map(|row| quote! { self.state.core.dispatcher.settle(Self::CLUSTERS, #row); });
+            .map(|row| quote! { self.core.dispatcher.settle(Self::CLUSTERS, #row); });
         let receiver = self.cell(far).1;
         let store = self.store(graph, c.from, &quote!(parcel.token), &value);
         let is_free = self.look(quote!(ends.#cell.is_free()));
         quote! {
-            if !self.state.core.dispatcher.has(#free) && #is_free {
-                if self.state.core.dispatcher.has(#token) {
-                    let state = &mut self.state;
-                    state.core.dispatcher.clear(#token);
+            if !self.core.dispatcher.has(#free) && #is_free {
+                if self.core.dispatcher.has(#token) {
+                    let Self { state, core, .. } = &mut *self;
+                    core.dispatcher.clear(#token);
                     ends.#cell.put(|parcel| {
                         #store
                         #carries
@@ -84,9 +84,9 @@ impl Generator<'_> {
                     });
                     wake.wake(#receiver);
                 } else {
-                    self.state.core.dispatcher.raise(#free);
+                    self.core.dispatcher.raise(#free);
                     #settle
-                    let state = &mut self.state;
+                    let Self { state, core, .. } = &mut *self;
                     #left
                     quiet = false;
                 }
@@ -102,7 +102,7 @@ impl Generator<'_> {
             (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);
         let told = sender.map(|sender| quote! { wake.wake(#sender); });
         let free = free_to_send(view, node);
-        let all_free = quote!(true #(&& self.state.core.dispatcher.has(#free))*);
+        let all_free = quote!(true #(&& self.core.dispatcher.has(#free))*);
         let test = self.allows(view, &[]);
         // Otherwise nothing but a token from the cell occupies the connections.
         let is_silent = wiring.silences.iter().any(|silence| {
@@ -115,7 +115,7 @@ impl Generator<'_> {
         });
         let stamped = links.sends[node].iter().any(|c| analysis.stamps.connections.contains(c));
         let since = stamped.then(|| quote! { let ctx = &ctx.since(stamp.min(ctx.now())); });
-        let pass = self.pass_activity(view, node, &|end| Some(self.waits(graph, end)));
+        let pass = self.pass_activity(view, node, &|end| Some(self.kept(end)));
         let emit = self.emit(view, node, false);
         let serve = self.deliver(view, &links.sends[node]);
         let is_full = self.look(quote!(ends.#cell.is_full()));
@@ -126,7 +126,7 @@ impl Generator<'_> {
                 #told
             }
             if !self.state.#holding #is_all_free && #is_full #test {
-                let Self { nodes, state, .. } = self;
+                let Self { nodes, state, core, .. } = self;
                 let mut stamp = now;
                 ends.#cell.take(|parcel| {
                     ::core::mem::swap(&mut state.#name, &mut parcel.token);

@@ -41,7 +41,7 @@ impl Generator<'_> {
     /// Activity has moved: the claims are looked at, if there are any.
     pub fn check_claims(&self) -> TokenStream {
         if self.checks_claims() {
-            quote! { Self::check_claims(state, observer); }
+            quote! { Self::check_claims(state, core, observer); }
         } else {
             quote!()
         }
@@ -91,9 +91,9 @@ impl Generator<'_> {
                 state.#name = broken;
             }
         });
-        let state = self.item(view.graph, "State");
+        let [state, core] = self.state_types(view);
         quote! {
-            fn check_claims<O: ::apex_rt::Observer>(state: &mut #state, observer: &mut O) { #(#looks)* }
+            fn check_claims<O: ::apex_rt::Observer>(state: &mut #state, core: &mut #core, observer: &mut O) { #(#looks)* }
         }
     }
 
@@ -113,7 +113,7 @@ impl Generator<'_> {
         });
         quote! {
             fn is_graph_active(&self, graph: usize) -> bool {
-                let state = &self.state;
+                let (state, core) = (&self.state, &self.core);
                 match graph { #(#arms)* _ => false }
             }
         }

@@ -64,7 +64,7 @@ impl Generator<'_> {
                 #[doc = #docs]
                 #[inline]
                 fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
-                    let Self { nodes, state, inputs, outputs, .. } = self;
+                    let Self { nodes, state, core, inputs, outputs, .. } = self;
                     #code
                 }
             }
@@ -82,7 +82,7 @@ impl Generator<'_> {
         quote! {
             #[inline(never)]
             fn #name<O: ::apex_rt::Observer>(&mut self, cluster: usize, ctx: &::apex_rt::Ctx, observer: &mut O) {
-                let Self { nodes, state, inputs, outputs, .. } = self;
+                let Self { nodes, state, core, inputs, outputs, .. } = self;
                 match cluster { #(#arms)* _ => {} }
             }
         }
@@ -96,7 +96,7 @@ impl Generator<'_> {
             _ => None,
         });
         let advances = timers.map(|timer| match view.wiring.has_agenda() {
-            true => quote! { state.core.agenda.advance(&mut state.timers[#timer]); },
+            true => quote! { core.agenda.advance(&mut state.timers[#timer]); },
             false => quote! { state.timers[#timer].advance(); },
         });
         let advances: TokenStream = advances.collect();
@@ -133,10 +133,10 @@ impl Firing {
         let budget = budget.map(|budget| quote!(#budget &&));
         let step = slots.map(|slots| slots + row).map(|kind| quote! { self.state.steps.take(#kind); });
         quote! {
-            if #budget self.state.core.dispatcher.start(&Self::CLUSTERS[#row]) {
+            if #budget self.core.dispatcher.start(&Self::CLUSTERS[#row]) {
                 #step
                 #fire
-                self.state.core.dispatcher.finish(Self::CLUSTERS, #row);
+                self.core.dispatcher.finish(Self::CLUSTERS, #row);
                 #served #exit
                 quiet = false;
             }
@@ -163,10 +163,10 @@ pub fn table(firing: &[Firing], all: usize, slots: Option<usize>, exit: Option<&
     let body = if once.is_empty() {
         quote! {
             let row = place;
-            if !self.state.core.dispatcher.start(&clusters[row]) { continue; }
+            if !self.core.dispatcher.start(&clusters[row]) { continue; }
             #step
             #fire
-            self.state.core.dispatcher.finish(clusters, row);
+            self.core.dispatcher.finish(clusters, row);
             quiet = false;
         }
     } else {
@@ -177,10 +177,10 @@ pub fn table(firing: &[Firing], all: usize, slots: Option<usize>, exit: Option<&
                 #fire
             } else {
                 let row = place - [#(#once),*].iter().filter(|once| **once < place).count();
-                if !self.state.core.dispatcher.start(&clusters[row]) { continue; }
+                if !self.core.dispatcher.start(&clusters[row]) { continue; }
                 #step
                 #fire
-                self.state.core.dispatcher.finish(clusters, row);
+                self.core.dispatcher.finish(clusters, row);
                 quiet = false;
             }
         }

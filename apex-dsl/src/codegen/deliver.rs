@@ -18,7 +18,7 @@ impl Generator<'_> {
         let has_needs = needs.iter().any(|needs| !needs.is_empty());
         let ready = match has_needs {
             false => quote!(|_| true),
-            true => quote!(|slot| self.state.core.dispatcher.holds(&Self::NEEDS[slot as usize])),
+            true => quote!(|slot| self.core.dispatcher.holds(&Self::NEEDS[slot as usize])),
         };
         let needs_table = has_needs.then(|| {
             let ty = wiring.bits.set_type();
@@ -40,7 +40,7 @@ impl Generator<'_> {
                 let mut any = false;
                 loop {
                     #budget
-                    let Some(slot) = self.state.core.queue.next(#ready) else { break; };
+                    let Some(slot) = self.core.queue.next(#ready) else { break; };
                     #step
                     #call
                     any = true;

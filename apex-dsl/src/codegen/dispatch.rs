@@ -105,16 +105,16 @@ impl Generator<'_> {
             let begin = self.first(view);
             code.extend(quote! {
                 fn begin<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
-                    let Self { nodes, state, .. } = self;
+                    let Self { nodes, state, core, .. } = self;
                     #begin
                 }
             });
         }
         if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
             let reset = self.reset(view);
-            let (nodes, state) = (self.nodes_type(view), self.item(graph, "State"));
+            let (nodes, [state, core]) = (self.nodes_type(view), self.state_types(view));
             code.extend(quote! {
-                fn reset<O: ::apex_rt::Observer>(nodes: &mut #nodes, state: &mut #state, ctx: &::apex_rt::Ctx, observer: &mut O) {
+                fn reset<O: ::apex_rt::Observer>(nodes: &mut #nodes, state: &mut #state, core: &mut #core, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     #reset
                 }
             });
@@ -139,16 +139,16 @@ impl Generator<'_> {
         let (raises, expires, wishes) = (self.raises(view), self.expires_first(view), self.wishes(view));
         let once = analysis.guards.iter().enumerate().filter(|(_, g)| **g == Guard::React).filter_map(|(i, _)| {
             let bit = bits.guard(i)?;
-            Some(quote! { self.state.core.dispatcher.raise(#bit); })
+            Some(quote! { self.core.dispatcher.raise(#bit); })
         });
         let once: Vec<TokenStream> = once.collect();
         let next = self.next(view);
         let serve = |quiet: bool| match (serves, quiet) {
             (false, _) => quote!(),
             (true, true) => {
-                quote! { if !self.state.core.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } }
+                quote! { if !self.core.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } }
             }
-            (true, false) => quote! { if !self.state.core.queue.is_empty() { self.serve(ctx, observer); } },
+            (true, false) => quote! { if !self.core.queue.is_empty() { self.serve(ctx, observer); } },
         };
         let loops = !bits.dispatched().is_empty() || !raises.is_empty() || !expires.is_empty();
         let any_stays = !bits.is_all_free();
@@ -178,8 +178,8 @@ impl Generator<'_> {
         // In a reaction that makes no cluster ready none is looked at.
         let inside = match (bits.dispatched().is_empty(), in_turn) {
             (true, _) => clusters,
-            (false, true) => quote! { if self.state.core.dispatcher.take_news() || first { #clusters } },
-            (false, false) => quote! { if self.state.core.dispatcher.take_news() { #clusters } },
+            (false, true) => quote! { if self.core.dispatcher.take_news() || first { #clusters } },
+            (false, false) => quote! { if self.core.dispatcher.take_news() { #clusters } },
         };
         let start = self.has_start(view).then(|| {
             let serve = if queued { serve(false) } else { self.deliver(view, &at_start(graph, analysis)) };
@@ -188,7 +188,7 @@ impl Generator<'_> {
         let begin_steps = endless.then(|| {
             // What the reaction before left when its steps were used up.
             let serve = self.deliver(view, &analysis.asynchronous.slots);
-            let ready = (!bits.dispatched().is_empty()).then(|| quote! { self.state.core.dispatcher.look_again(); });
+            let ready = (!bits.dispatched().is_empty()).then(|| quote! { self.core.dispatcher.look_again(); });
             quote! { self.state.steps.begin(); #ready #serve }
         });
         let used_up = endless.then(|| self.used_up(view));
@@ -330,7 +330,7 @@ impl Generator<'_> {
             return if plain.next().is_some() { quote!(::apex_rt::Next::Now) } else { quote!(::apex_rt::Next::Input) };
         }
         let fired = plain.map(|guard| match bits.guard(*guard) {
-            Some(bit) => quote!(!self.state.core.dispatcher.has(#bit)),
+            Some(bit) => quote!(!self.core.dispatcher.has(#bit)),
             None => quote!(true),
         });
         quote!(if false #(|| #fired)* { ::apex_rt::Next::Now } else { ::apex_rt::Next::Input })
@@ -345,7 +345,7 @@ impl Generator<'_> {
         quote! {
             fn waiting(&self, mut found: impl FnMut(usize)) {
                 for missing in Self::MISSING {
-                    if self.state.core.dispatcher.misses(missing) { found(missing.connection); }
+                    if self.core.dispatcher.misses(missing) { found(missing.connection); }
                 }
             }
         }
@@ -385,10 +385,10 @@ impl Generator<'_> {
         let before = claim.map(|_| quote! { let before = state.stuck; });
         let claim = claim.map(|claim| quote! { if before == 0 && state.stuck > 0 { observer.claim_failed(#claim); } });
         quote! {
-            if !self.state.core.queue.is_empty() {
-                let Self { state, .. } = self;
+            if !self.core.queue.is_empty() {
+                let Self { state, core, .. } = self;
                 #before
-                state.core.queue.stuck(&[#(#rows),*], &mut state.stuck, |slot| match slot { #(#arms)* _ => {} });
+                core.queue.stuck(&[#(#rows),*], &mut state.stuck, |slot| match slot { #(#arms)* _ => {} });
                 #claim
             }
         }
@@ -401,15 +401,14 @@ impl Generator<'_> {
         let mut raises = Raises { has_agenda: view.wiring.has_agenda(), code: quote!(), timed: quote!() };
         for (node, bit) in bits.room() {
             let port = ident(&graph.nodes[*node].name);
-            raises.always(quote! { if !self.events.#port.is_full() { self.state.core.dispatcher.raise(#bit); } });
+            raises.always(quote! { if !self.events.#port.is_full() { self.core.dispatcher.raise(#bit); } });
         }
         for (index, guard) in analysis.guards.iter().enumerate() {
             let Some(bit) = bits.guard(index) else { continue };
             match guard {
                 Guard::Input(node) => {
                     let port = ident(&graph.nodes[*node].name);
-                    raises
-                        .always(quote! { if self.inputs.#port.is_full() { self.state.core.dispatcher.raise(#bit); } });
+                    raises.always(quote! { if self.inputs.#port.is_full() { self.core.dispatcher.raise(#bit); } });
                 }
                 Guard::Timer(_) | Guard::React | Guard::Token(_) | Guard::Events(_) => {}
             }
@@ -441,7 +440,7 @@ impl Generator<'_> {
         if timeouts.is_none() && silences.is_empty() {
             return quote!();
         }
-        let is_due = view.wiring.has_agenda().then(|| quote!(&&self.state.core.agenda.is_due(at)));
+        let is_due = view.wiring.has_agenda().then(|| quote!(&&self.core.agenda.is_due(at)));
         quote! { if quiet #is_due { #silences #timeouts } }
     }
 
@@ -450,9 +449,9 @@ impl Generator<'_> {
         const MOST_STRAIGHT: usize = 4;
         let free = if free.len() > MOST_STRAIGHT {
             let (ty, free) = (view.wiring.bits.set_type(), view.wiring.bits.set(free));
-            quote!(&& { const FREE: #ty = #free; self.state.core.dispatcher.holds(&FREE) })
+            quote!(&& { const FREE: #ty = #free; self.core.dispatcher.holds(&FREE) })
         } else {
-            quote!(#(&& self.state.core.dispatcher.has(#free))*)
+            quote!(#(&& self.core.dispatcher.has(#free))*)
         };
         let budget = view.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
         quote!(#free #budget)
@@ -490,7 +489,7 @@ impl Raises {
     fn flush(&mut self) {
         let timed = std::mem::take(&mut self.timed);
         self.code.extend(match self.has_agenda && !timed.is_empty() {
-            true => quote! { if self.state.core.agenda.is_due(at) { #timed } },
+            true => quote! { if self.core.agenda.is_due(at) { #timed } },
             false => timed,
         });
     }

@@ -258,9 +258,9 @@ impl<'a> Emitter<'a> {
         self.generator.pass_activity(self.view, node, &|end| match self.graph.port(end).kind {
             PortKind::Output => {
                 let token = self.option(end, block);
-                Some(quote!(#token.is_some()))
+                Some(quote!(&#token.is_some()))
             }
-            _ => self.generator.sent_event(self.view, end),
+            _ => self.generator.is_sent_event(self.view, end).then(|| self.generator.kept(end)),
         })
     }
 

@@ -45,7 +45,8 @@ impl Generator<'_> {
             let nodes = nodes.iter().map(|node| Literal::usize_unsuffixed(node.index()));
             quote!(&[#(#nodes),*])
         });
-        quote! {
+        quote! {{
+            use ::apex_rt::{ConnectionInfo, KindInfo, NodeInfo, PortInfo};
             ::apex_rt::Info {
                 name: #name,
                 docs: #docs,
@@ -59,7 +60,7 @@ impl Generator<'_> {
                 end_if_hung: #end_if_hung,
                 claims: &[#(#claims),*],
             }
-        }
+        }}
     }
 
     fn rows(&self, graph: &Graph, analysis: &Analysis, prefix: &str, rows: &mut Rows) {
@@ -69,7 +70,7 @@ impl Generator<'_> {
             let (c, place) = (analysis.characteristics[id], self.place_row(node.span, &mut rows.files));
             let (required, siblings) = (c.required, c.siblings);
             let every = node.modifiers.every.map(nanos).map(|period| quote!(.every(#period)));
-            rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, #required, #siblings)#every));
+            rows.nodes.push(quote!(NodeInfo::new(#name, #kind, #place, #required, #siblings)#every));
         }
         for c in &graph.connections {
             let (from, to) =
@@ -77,7 +78,7 @@ impl Generator<'_> {
             let taker = &graph.nodes[c.to.node];
             let (output, input) = (&graph.port(c.from).name, &taker.ports[taker.declared(c.to.port)].name);
             let activity = c.active;
-            rows.connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input, #activity)));
+            rows.connections.push(quote!(ConnectionInfo::new(#from, #output, #to, #input, #activity)));
         }
         for (id, node) in graph.nodes.iter_enumerated() {
             if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
@@ -90,12 +91,12 @@ impl Generator<'_> {
     /// Adds the states of all state machines.
     fn state_rows(&self, graph: &Graph, rows: &mut Rows) {
         for (id, machine) in machines(graph, self.catalog) {
-            let kind = rows.kinds.number(quote!(::apex_rt::KindInfo::new("state", "", &[])));
+            let kind = rows.kinds.number(quote!(KindInfo::new("state", "", &[])));
             let (kind, path) = (Literal::usize_unsuffixed(kind), graph.path(id));
             let place = self.place_row(graph.nodes[id].span, &mut rows.files);
             for state in &machine.states {
                 let name = format!("{path}.{state}");
-                rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, false, false)));
+                rows.nodes.push(quote!(NodeInfo::new(#name, #kind, #place, false, false)));
             }
         }
     }
@@ -120,14 +121,14 @@ impl Generator<'_> {
         let ports = own.map(|port| {
             let (name, ty) = (&port.name, port.ty.to_string());
             let kind = match port.kind {
-                PortKind::Input => quote!(Input),
-                PortKind::Output => quote!(Output),
-                PortKind::Slot => quote!(Slot),
-                PortKind::Event => quote!(Event),
+                PortKind::Input => quote!(input),
+                PortKind::Output => quote!(output),
+                PortKind::Slot => quote!(slot),
+                PortKind::Event => quote!(event),
             };
-            quote!(::apex_rt::PortInfo::new(#name, ::apex_rt::PortKind::#kind, #ty))
+            quote!(PortInfo::#kind(#name, #ty))
         });
-        quote!(::apex_rt::KindInfo::new(#name, #docs, &[#(#ports),*]))
+        quote!(KindInfo::new(#name, #docs, &[#(#ports),*]))
     }
 
     /// Name of a node's kind, and the first sentence of its documentation.

@@ -51,11 +51,11 @@ impl Generator<'_> {
                 let machines = takes.iter().map(|node| self.move_machine(view, *node, how));
                 let end = PortId { node, port };
                 let (name, docs) = (self.interrupt_function(view, end), format!(" `{}`", view.graph.end_name(end)));
-                let (place, state) = (self.nodes_type(view), self.item(view.graph, "State"));
+                let (place, [state, core]) = (self.nodes_type(view), self.state_types(view));
                 code.extend(quote! {
                     #[doc = #docs]
                     #[allow(unused_variables)]
-                    fn #name<O: ::apex_rt::Observer>(nodes: &mut #place, state: &mut #state, ctx: &::apex_rt::Ctx, observer: &mut O) {
+                    fn #name<O: ::apex_rt::Observer>(nodes: &mut #place, state: &mut #state, core: &mut #core, ctx: &::apex_rt::Ctx, observer: &mut O) {
                         #(#machines)*
                         #body
                     }

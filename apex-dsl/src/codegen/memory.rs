@@ -69,11 +69,7 @@ impl Generator<'_> {
         let mut state = self.state(view);
         state.sort_by_key(|kept| kept.kind);
         for kept in &state {
-            pieces.extend(kept.places().map(|(place, of)| Piece {
-                what: word(kept.kind),
-                of: of.to_owned(),
-                place: format!("state.{place}"),
-            }));
+            pieces.extend(kept.places().map(|(place, of)| Piece { what: word(kept.kind), of: of.to_owned(), place }));
         }
         pieces
     }

@@ -43,7 +43,7 @@ impl Numbered {
             quote! {
                 #inline
                 fn #name<O: ::apex_rt::Observer>(&mut self, #number: u16, ctx: &::apex_rt::Ctx, observer: &mut O) {
-                    let Self { nodes, state, inputs, outputs, events } = self;
+                    let Self { nodes, state, core, inputs, outputs, events } = self;
                     match #number { #(#arms)* _ => #rest }
                 }
             }

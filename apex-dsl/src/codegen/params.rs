@@ -16,7 +16,7 @@ use syn::Ident;
 pub struct ParamRows {
     /// Rows of the table.
     table: Vec<TokenStream>,
-    /// Calls of the visitor, each with the node beside which the parameter's node is kept.
+    /// For each node with parameters, a visit of them: the node beside which it is kept, and the visit.
     visits: Vec<(NodeId, TokenStream)>,
 }
 
@@ -28,7 +28,7 @@ impl ParamRows {
         let visit = self.visit(&|node| Some(place(node)));
         quote! {
             impl ::apex_rt::params::Parameters for #name {
-                const PARAMS: &'static [::apex_rt::params::ParamInfo] = &[#(#table),*];
+                const PARAMS: &'static [::apex_rt::params::ParamInfo] = { use ::apex_rt::params::ParamInfo; &[#(#table),*] };
                 #visit
             }
         }
@@ -36,12 +36,18 @@ impl ParamRows {
 
     /// The function that visits the parameters of those nodes that have a `place`.
     pub fn visit(&self, place: &dyn Fn(NodeId) -> Option<TokenStream>) -> TokenStream {
+        let mut before = String::new();
         let places = self.visits.iter().filter_map(|(node, visit)| Some((place(*node)?, visit)));
-        let visits = places.map(|(place, visit)| quote! { let nodes = &mut #place; #visit });
+        let visits = places.map(|(place, visit)| {
+            let changes = std::mem::replace(&mut before, place.to_string()) != before;
+            let nodes = changes.then(|| quote! { let nodes = &mut #place; });
+            quote! { #nodes #visit }
+        });
+        let visits: TokenStream = visits.collect();
         quote! {
             fn visit_params<V: ::apex_rt::params::ParamVisitor>(&mut self, visitor: &mut V) {
                 use ::apex_rt::params::{Known as _, Opaque as _};
-                #(#visits)*
+                #visits
             }
         }
     }
@@ -62,11 +68,14 @@ impl Generator<'_> {
             match &node.kind {
                 NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {
                     let (path, place) = (self.node_path(graph, id).join("."), self.node_place(graph, id));
-                    for (param, declared) in self.catalog.signatures[library.signature].params.iter().enumerate() {
-                        let row = rows.table.len();
-                        rows.table.push(self.param_row(library, param, declared, &path));
+                    let params = &self.catalog.signatures[library.signature].params;
+                    let (first, numbers) = (rows.table.len(), (0..params.len()).map(Literal::usize_unsuffixed));
+                    let rows_of = params.iter().enumerate();
+                    rows.table.extend(rows_of.map(|(param, declared)| self.param_row(library, param, declared, &path)));
+                    if !params.is_empty() {
+                        let first = Literal::usize_unsuffixed(first);
                         let visit = quote! {
-                            ::apex_rt::params::Probe::<_, #param>::new(&mut #place).visit(&Self::PARAMS[#row], visitor);
+                            ::apex_rt::visit_params!(visitor, Self::PARAMS, #first, #place, #(#numbers)*);
                         };
                         rows.visits.push((owner, visit));
                     }
@@ -91,17 +100,15 @@ impl Generator<'_> {
         } else {
             given.map_or(units::Dimension::NONE, |u| u.dimension)
         };
-        let unit = option((!dimension.is_none()).then(|| dimension.to_string()).map(|unit| quote!(#unit)));
+        let unit = (!dimension.is_none()).then(|| dimension.to_string()).map(|unit| quote!(.unit(#unit)));
         let (min, max, inclusive) = declared.range.unwrap_or((None, None, false));
-        let (min, max) = (option(min.and_then(float)), option(max.and_then(float)));
-        quote! {
-            ::apex_rt::params::ParamInfo::new(#name, #spelled, #unit, ::apex_rt::params::ParamRange::new(#min, #max, #inclusive))
-        }
+        let min = min.and_then(float).map(|min| quote!(.at_least(#min)));
+        let max = max.and_then(float).map(|max| match inclusive {
+            true => quote!(.at_most(#max)),
+            false => quote!(.below(#max)),
+        });
+        quote!(ParamInfo::new(#name, #spelled) #unit #min #max)
     }
-}
-
-pub fn option(value: Option<TokenStream>) -> TokenStream {
-    value.map_or(quote!(None), |value| quote!(Some(#value)))
 }
 
 /// A number as an expression; `None` if there is no literal for it.

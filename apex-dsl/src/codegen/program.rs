@@ -121,7 +121,7 @@ impl Generator<'_> {
         let (mut fields, mut handed_in) = (BTreeMap::new(), vec![]);
         self.node_fields(graph, analysis, &mut fields, &mut handed_in);
         let nodes = node_structs(&self.item(graph, "Nodes"), &name, &fields, false);
-        let state = self.state_struct(view);
+        let [state, core] = self.state_structs(view);
         let ports = self.port_structs(graph);
         let docs = if graph.docs.is_empty() { format!("The graph `{}`.", graph.name) } else { graph.docs.clone() };
         let parts = self.parts_struct(graph, &handed_in);
@@ -135,9 +135,9 @@ impl Generator<'_> {
         let place = quote!(self);
         let accessors =
             [nodes.accessor("The nodes, by instance name.", "nodes", &place), port_accessors(&ports, &place)];
-        let fields = ["nodes", "state", "inputs", "outputs", "events"].map(ident);
+        let fields = ["nodes", "state", "core", "inputs", "outputs", "events"].map(ident);
         let [inputs, outputs, events] = ports;
-        let all = [nodes, state, inputs, outputs, events];
+        let all = [nodes, state, core, inputs, outputs, events];
         let (types, makes, items) =
             (all.iter().map(|s| &s.ty), all.iter().map(|s| &s.make), all.iter().map(|s| &s.item));
         let (clusters, stop) = (self.clusters(view), self.stop_nodes(graph, analysis));
@@ -325,7 +325,7 @@ impl Generator<'_> {
         let is_active = match view.analysis.active.iter().all(|node| view.graph.nodes[*node].is_delay()) {
             true if states.is_empty() => return quote!(),
             true => quote!(false),
-            false => quote!(self.state.core.active.has(node)),
+            false => quote!(self.core.active.has(node)),
         };
         let is_active = match states.is_empty() {
             true => is_active,

@@ -176,14 +176,17 @@ impl Generator<'_> {
         let goes = |absent: bool| port.sends.iter().any(|send| send.absent == absent && has_effect(view, send));
         let anyway = goes(true).then(|| {
             let name = anyway(port);
-            quote! { state.core.send(&Self::#name, true, ctx); }
+            quote! { core.send(&Self::#name, &true, ctx); }
         });
         let (name, present) = (ident(&port.name), self.waits(view.graph, port.end));
         let sent = match (goes(false), self.observed_event(view.graph, port.end)) {
             (false, None) => quote!(),
-            (true, None) => quote! { state.core.send(&Self::#name, #present, ctx); },
+            (true, None) => {
+                let token = self.kept(port.end);
+                quote! { core.send(&Self::#name, #token, ctx); }
+            }
             (false, Some(observed)) => quote! { if #present { #observed } },
-            (true, Some(observed)) => quote! { if #present { #observed state.core.send(&Self::#name, true, ctx); } },
+            (true, Some(observed)) => quote! { if #present { #observed core.send(&Self::#name, &true, ctx); } },
         };
         quote! { #anyway #sent }
     }

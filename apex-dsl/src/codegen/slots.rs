@@ -50,7 +50,7 @@ impl Generator<'_> {
     /// A step of a node ends: its activity goes with the first of its `events` that were triggered, and all of them are
     /// on their way.
     pub fn leave(&self, view: ProgramView<'_>, node: NodeId, events: &dyn Fn(PortId) -> bool) -> TokenStream {
-        let pass = self.pass_activity(view, node, &|end| events(end).then(|| self.waits(view.graph, end)));
+        let pass = self.pass_activity(view, node, &|end| events(end).then(|| self.kept(end)));
         let send = self.emit_from(view, node, events);
         let mut rows = view.wiring.of(node).iter().filter(|port| events(port.end));
         let (Some(port), None) = (rows.next(), rows.next()) else { return quote!(#pass #send) };
@@ -59,8 +59,8 @@ impl Generator<'_> {
         if pass.is_empty() || send.is_empty() || follows || is_observed || view.graph.nodes[node].is_delay() {
             return quote!(#pass #send);
         }
-        let (name, present) = (ident(&port.name), self.waits(view.graph, port.end));
-        quote! { state.core.leave(&Self::#name, #present, ctx, observer); }
+        let (name, token) = (ident(&port.name), self.kept(port.end));
+        quote! { core.leave(&Self::#name, #token, ctx, observer); }
     }
 
     /// Expression that is `true` if the state of the program holds a token.
@@ -70,6 +70,12 @@ impl Generator<'_> {
             true => quote!(state.#name.get().is_some()),
             false => quote!(state.#name.is_some()),
         }
+    }
+
+    /// Reference to a token in the state of the program, for the functions of the runtime.
+    pub fn kept(&self, end: PortId) -> TokenStream {
+        let name = self.name(end);
+        quote!(&state.#name)
     }
 
     /// Events of a node that are connected are empty before it may trigger them.
@@ -121,14 +127,14 @@ impl Generator<'_> {
             let (name, docs) = (ident(&slot.name), self.docs_of_connection(view.graph, slot.connection));
             let code = self.slot(view, number, slot);
             let code = match code.is_empty() {
-                true => quote! { state.core.only_enter(&Self::SLOTS[#number], ctx, observer); },
+                true => quote! { core.only_enter(&Self::SLOTS[#number], ctx, observer); },
                 false => code,
             };
             quote! {
                 #[doc = #docs]
                 #inline
                 fn #name<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
-                    let Self { nodes, state, inputs, outputs, events } = self;
+                    let Self { nodes, state, core, inputs, outputs, events } = self;
                     #code
                 }
             }
@@ -144,7 +150,7 @@ impl Generator<'_> {
             Arm { number, docs, code: self.slot(view, number, slot) }
         });
         let arms = arms.filter(|arm| !arm.code.is_empty()).collect();
-        let rest = quote!(state.core.only_enter(&Self::SLOTS[slot as usize], ctx, observer));
+        let rest = quote!(core.only_enter(&Self::SLOTS[slot as usize], ctx, observer));
         Numbered { name: "slot", count: view.wiring.slots.len(), arms, rest }
     }
 
@@ -162,7 +168,7 @@ impl Generator<'_> {
         let turned = if effects.is_empty() { quote!(_) } else { quote!(turned) };
         let effects = (!effects.is_empty()).then(|| quote! { if *turned { #effects } });
         let check = turns.then(|| self.check_claims());
-        let settle = slot.settles.map(|row| quote! { state.core.dispatcher.settle(Self::CLUSTERS, #row); });
+        let settle = slot.settles.map(|row| quote! { core.dispatcher.settle(Self::CLUSTERS, #row); });
         let call = self.call_slot(view, connection);
         let from = view.graph.connections[connection].from;
         let call = if takes(view, connection) { self.taken(view.graph, from, call) } else { call };
@@ -178,7 +184,7 @@ impl Generator<'_> {
         }
         let index = self.index(node);
         quote! {
-            let (ctx, #turned) = &state.core.enter(&Self::SLOTS[#number], ctx, observer);
+            let (ctx, #turned) = &core.enter(&Self::SLOTS[#number], ctx, observer);
             #before
             observer.finished(#index);
             #after
@@ -233,10 +239,10 @@ impl Generator<'_> {
                 self.see(view.graph, node, from, &self.token(view, connection))
             }
             (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
-            (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, ctx, observer); },
+            (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, core, ctx, observer); },
             (NodeKind::Interrupt(_), _) => {
                 let name = self.interrupt_function(view, c.to);
-                let call = quote! { Self::#name(nodes, state, ctx, observer); };
+                let call = quote! { Self::#name(nodes, state, core, ctx, observer); };
                 // Over `=>`, only activity is given back.
                 match c.active && Standard::Resume.is_of_interrupt(c.to.port) {
                     true if !view.analysis.active.contains(&node) => quote!(),
@@ -249,7 +255,7 @@ impl Generator<'_> {
             }
             (NodeKind::Boundary(_), _) => {
                 let (port, token) = (ident(&graph.nodes[node].name), self.token(view, connection));
-                let room = view.wiring.bits.room().get(&node).map(|bit| quote! { state.core.dispatcher.clear(#bit); });
+                let room = view.wiring.bits.room().get(&node).map(|bit| quote! { core.dispatcher.clear(#bit); });
                 let copy = self.clone(graph, graph.connections[connection].from, &quote!(token));
                 quote! {
                     if let Some(token) = #token { let _ = events.#port.put(#copy); }
@@ -396,7 +402,7 @@ impl Generator<'_> {
         let emit = self.emit(view, node, false);
         let serve = self.deliver(view, &view.links.sends[node]);
         let goes_on = quote! {
-            let Self { state, inputs, .. } = self;
+            let Self { state, core, inputs, .. } = self;
             state.#name = inputs.#port.take();
             #emit
             #serve
@@ -458,7 +464,7 @@ impl Generator<'_> {
         });
         let sets = self.activity_state(view).into_iter().map(|kept| kept.name);
         let clears = sets.filter(|name| ["gains", "loses", "carries"].iter().any(|set| name == set));
-        let clears = clears.map(|name| quote! { state.core.#name = ::apex_rt::Bits::NONE; });
+        let clears = clears.map(|name| quote! { core.#name = ::apex_rt::Bits::NONE; });
         let remembered = view.analysis.active.iter().filter(|node| self.remembers(view, **node));
         let forgets =
             remembered.map(|node| self.held(*node)).map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });

@@ -40,14 +40,14 @@ impl Generator<'_> {
         let c = &view.analysis.clusters[cluster];
         let upstream = c.upstream.iter().map(|up| {
             let name = of_cluster(*up);
-            quote!(#name)
+            quote!(state.#name)
         });
         let events = c.own_guards.iter().filter_map(|g| match view.analysis.guards[*g] {
             Guard::Token(connection) => of_connection(view, connection),
             _ => None,
         });
         let ages: Vec<TokenStream> = upstream.chain(events).collect();
-        let since = (!ages.is_empty()).then(|| quote! { let ctx = &ctx.since(ctx.now() #(.min(state.#ages))*); });
+        let since = (!ages.is_empty()).then(|| quote! { let ctx = &ctx.since(ctx.now() #(.min(#ages))*); });
         let left = is_left(view, cluster).then(|| {
             let name = of_cluster(cluster);
             quote! { state.#name = ctx.stamp(); }

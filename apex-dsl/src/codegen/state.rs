@@ -61,16 +61,16 @@ impl StateField {
 
     /// The places in the state that it consists of, with what they belong to.
     pub fn places(&self) -> impl Iterator<Item = (String, &str)> {
-        let name = if self.is_core() { format!("core.{}", self.name) } else { self.name.to_string() };
+        let name = format!("{}.{}", if self.is_core() { "core" } else { "state" }, self.name);
         self.of.iter().enumerate().map(move |(index, of)| match self.is_list {
             true => (format!("{name}[{index}]"), of.as_str()),
             false => (name.clone(), of.as_str()),
         })
     }
 
-    /// Returns `true` if it is a field of the core of the state, which the functions of the runtime work on. Tokens are
-    /// not: they may be borrowed meanwhile.
-    fn is_core(&self) -> bool {
+    /// Returns `true` if it belongs to the core, which the functions of the runtime work on. Tokens do not: they may be
+    /// borrowed meanwhile.
+    pub fn is_core(&self) -> bool {
         const CORE: [&str; 10] =
             ["active", "agenda", "carries", "dispatcher", "enabled", "gains", "loses", "queue", "stamps", "timeouts"];
         CORE.iter().any(|name| self.name == name)
@@ -88,20 +88,22 @@ pub fn fields<'a>(kept: impl IntoIterator<Item = &'a StateField>) -> Vec<Declare
 }
 
 impl Generator<'_> {
-    /// The struct of the state, with that of its core.
-    pub fn state_struct(&self, view: ProgramView<'_>) -> Struct {
+    /// The structs of the state and of its core.
+    pub fn state_structs(&self, view: ProgramView<'_>) -> [Struct; 2] {
         let kept = self.state(view);
-        let (core, own): (Vec<&StateField>, Vec<&StateField>) = kept.iter().partition(|kept| kept.is_core());
-        let core = Struct::new(&self.item(view.graph, "Core"), "Activity, and tokens on their way.", &fields(core));
-        let mut own = fields(own);
-        if !core.item.is_empty() || view.wiring.has_rows() {
-            let (inner, Struct { ty, make, .. }) = (around_text(), &core);
-            own.push((quote!(#inner core: #ty), quote!(core: #make)));
+        let (core, state): (Vec<&StateField>, Vec<&StateField>) = kept.iter().partition(|kept| kept.is_core());
+        let state = Struct::new(&self.item(view.graph, "State"), "Tokens and timers.", &fields(state));
+        let docs = "Activity, and which tokens are on their way.";
+        let mut core = Struct::new(&self.item(view.graph, "Core"), docs, &fields(core));
+        if !core.item.is_empty() && view.wiring.has_rows() {
+            core.item.extend(self.wired(view));
         }
-        let mut state = Struct::new(&self.item(view.graph, "State"), "Tokens, activity and timers.", &own);
-        let wired = (!core.item.is_empty() && view.wiring.has_rows()).then(|| self.wired(view));
-        state.item.extend([core.item, wired.unwrap_or_default()]);
-        state
+        [state, core]
+    }
+
+    /// The types of the state and of its core.
+    pub fn state_types(&self, view: ProgramView<'_>) -> [TokenStream; 2] {
+        self.state_structs(view).map(|state| state.ty)
     }
 
     /// The state of a program.

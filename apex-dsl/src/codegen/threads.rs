@@ -7,7 +7,7 @@ use super::{
     cells::cell_name,
     params::ParamRows,
     program::{Field, around_text, node_structs, port_accessors},
-    types::{duration, ident},
+    types::{duration, ident, option},
     wiring::Wiring,
 };
 use crate::{
@@ -397,9 +397,9 @@ impl Program<'_> {
 /// Settings of a group's thread.
 pub fn group_info(graph: &Graph, group: &str) -> TokenStream {
     let settings = graph.threads.iter().find(|t| t.group == group).cloned().unwrap_or_default();
-    let (cores, priority) = (&settings.cores, super::params::option(settings.priority.map(|p| quote!(#p))));
+    let (cores, priority) = (&settings.cores, option(settings.priority.map(|p| quote!(#p))));
     let (round_robin, strict) = (settings.round_robin, settings.strict);
-    let hang = super::params::option(settings.hang.map(duration));
+    let hang = option(settings.hang.map(duration));
     quote! {
         ::apex_rt::GroupInfo {
             name: #group,
@@ -419,7 +419,7 @@ pub fn end_if_hung(graph: &Graph) -> TokenStream {
             (NodeKind::Watchdog, NodeKind::Exit(code)) => Some(quote!(#code)),
             _ => None,
         });
-    super::params::option(code)
+    option(code)
 }
 
 /// The nodes of a part as references, in `into`.

@@ -94,9 +94,9 @@ impl Generator<'_> {
     fn timed(view: ProgramView<'_>) -> impl Iterator<Item = (Timed, TokenStream, usize)> {
         let wiring = view.wiring;
         let lists = [
-            (Timed::Timer, quote!(timers), wiring.timers.len()),
+            (Timed::Timer, quote!(state.timers), wiring.timers.len()),
             (Timed::Timeout, quote!(core.timeouts), wiring.timeouts.len()),
-            (Timed::Silence, quote!(silences), wiring.silences.len()),
+            (Timed::Silence, quote!(state.silences), wiring.silences.len()),
         ];
         lists.into_iter().filter(|(.., count)| *count > 0)
     }
@@ -125,12 +125,12 @@ impl Generator<'_> {
     /// The next instant of a reaction: the earliest time after the last instant at which something is due, else `now`.
     pub fn next_instant(&self, view: ProgramView<'_>) -> TokenStream {
         let each = Self::timed(view).map(|(_, list, count)| match view.wiring.has_agenda() {
-            true => quote! { for timed in &self.state.#list { at = timed.instant(last, at); } },
-            false => (0..count).map(|index| quote! { at = self.state.#list[#index].instant(last, at); }).collect(),
+            true => quote! { for timed in &self.#list { at = timed.instant(last, at); } },
+            false => (0..count).map(|index| quote! { at = self.#list[#index].instant(last, at); }).collect(),
         });
         let each: TokenStream = each.collect();
         let each = match view.wiring.has_agenda() {
-            true => quote! { if self.state.core.agenda.is_due(now) { #each } },
+            true => quote! { if self.core.agenda.is_due(now) { #each } },
             false => each,
         };
         quote! {
@@ -148,7 +148,7 @@ impl Generator<'_> {
         let skips = skipping.map(|(timer, _)| quote! { self.state.timers[#timer].skip(now); });
         let skips: TokenStream = skips.collect();
         match view.wiring.has_agenda() && !skips.is_empty() {
-            true => quote! { if self.state.core.agenda.is_due(now) { #skips self.state.core.agenda.open(); } },
+            true => quote! { if self.core.agenda.is_due(now) { #skips self.core.agenda.open(); } },
             false => skips,
         }
     }
@@ -183,19 +183,19 @@ impl Generator<'_> {
     pub fn silences_end(&self, view: ProgramView<'_>) -> TokenStream {
         let ends = view.wiring.silences.iter().enumerate().map(|(index, silence)| match &silence.entry {
             Entry::Input { raises } => quote! {
-                if quiet && self.state.silences[#index].is_due(at) && !self.state.core.dispatcher.has(#raises) {
-                    self.state.core.dispatcher.raise(#raises);
+                if quiet && self.state.silences[#index].is_due(at) && !self.core.dispatcher.has(#raises) {
+                    self.core.dispatcher.raise(#raises);
                     quiet = false;
                 }
             },
             Entry::Connection { connection, raises, occupies, free } => {
                 let (clear, stamp) = self.absent_on(view, *connection);
                 quote! {
-                    if quiet && self.state.silences[#index].is_due(at) #(&& self.state.core.dispatcher.has(#free))* {
+                    if quiet && self.state.silences[#index].is_due(at) #(&& self.core.dispatcher.has(#free))* {
                         #clear
                         #stamp
-                        self.state.core.dispatcher.clear(#occupies);
-                        self.state.core.dispatcher.raise(#raises);
+                        self.core.dispatcher.clear(#occupies);
+                        self.core.dispatcher.raise(#raises);
                         quiet = false;
                     }
                 }
@@ -212,19 +212,19 @@ impl Generator<'_> {
             true => quote! { self.state.#name.clear(); },
             false => quote! { self.state.#name = None; },
         };
-        (clear, stamps::of_connection(view, connection).map(|stamp| quote! { self.state.#stamp = at; }))
+        (clear, stamps::of_connection(view, connection).map(|stamp| quote! { self.#stamp = at; }))
     }
 
     /// A timer changes.
     pub fn open_agenda(&self, view: ProgramView<'_>) -> Option<TokenStream> {
-        view.wiring.has_agenda().then(|| quote! { state.core.agenda.open(); })
+        view.wiring.has_agenda().then(|| quote! { core.agenda.open(); })
     }
 
     /// The time of a node's `timeout` begins, if it has one.
     fn start_timeout(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         let Some(index) = view.wiring.timeout(node) else { return quote!() };
         let after = nanos(view.wiring.timeouts[index].after);
-        quote! { state.core.start_timeout(#index, #after, ctx); }
+        quote! { core.start_timeout(#index, #after, ctx); }
     }
 
     /// The guards of timers that are due hold.
@@ -237,12 +237,12 @@ impl Generator<'_> {
             let bits = timers.iter().map(|(_, bit)| Literal::usize_unsuffixed(*bit));
             return quote! {
                 for (timer, bit) in self.state.timers.iter().zip([#(#bits),*]) {
-                    if timer.is_due(at) { self.state.core.dispatcher.raise(bit); }
+                    if timer.is_due(at) { self.core.dispatcher.raise(bit); }
                 }
             };
         }
         let looks = timers.iter().enumerate().map(|(index, (_, bit))| {
-            quote! { if self.state.timers[#index].is_due(at) { self.state.core.dispatcher.raise(#bit); } }
+            quote! { if self.state.timers[#index].is_due(at) { self.core.dispatcher.raise(#bit); } }
         });
         looks.collect()
     }
@@ -255,7 +255,7 @@ impl Generator<'_> {
         let (emit, serve) = (self.emit(view, node, false), self.deliver(view, sends));
         quote! {
             if self.state.#told != self.state.time.ahead() #test {
-                let Self { state, .. } = self;
+                let Self { state, core, .. } = self;
                 state.#told = state.time.ahead();
                 state.#name = Some(());
                 #emit
@@ -274,29 +274,29 @@ impl Generator<'_> {
     pub fn wishes(&self, view: ProgramView<'_>) -> TokenStream {
         if !view.wiring.has_agenda() {
             let wishes = Self::timed(view).flat_map(|(_, list, count)| {
-                (0..count).map(move |index| quote! { next = next.or(self.state.#list[#index].wish(at)); })
+                (0..count).map(move |index| quote! { next = next.or(self.#list[#index].wish(at)); })
             });
             return wishes.collect();
         }
         let wishes = Self::timed(view).map(|(what, list, _)| {
             // What is due already, but held back, is looked at again.
             let held_back = (what != Timed::Timer).then(|| quote! { held_back |= timed.is_due(at); });
-            quote! { for timed in &self.state.#list { wish = wish.or(timed.wish(at)); #held_back } }
+            quote! { for timed in &self.#list { wish = wish.or(timed.wish(at)); #held_back } }
         });
         quote! {
-            if self.state.core.agenda.is_due(at) {
+            if self.core.agenda.is_due(at) {
                 let (mut wish, mut held_back) = (::apex_rt::Next::Input, false);
                 #(#wishes)*
-                self.state.core.agenda.close(wish, held_back);
+                self.core.agenda.close(wish, held_back);
             }
-            next = next.or(self.state.core.agenda.wish());
+            next = next.or(self.core.agenda.wish());
         }
     }
 
     /// Conditions under which a timeout that is due expires. A node that is disabled sends nothing; it does so when it is
     /// enabled, if it is still active.
     fn may_expire(&self, view: ProgramView<'_>, timeout: &Timeout) -> Option<TokenStream> {
-        let needs = timeout.needs.iter().map(|bit| quote!(self.state.core.dispatcher.has(#bit)));
+        let needs = timeout.needs.iter().map(|bit| quote!(self.core.dispatcher.has(#bit)));
         let enabled = view.graph.nodes[timeout.node].can_be_disabled().then(|| {
             let is_enabled = self.is_set(Flag::Enabled(timeout.node));
             quote!(self.#is_enabled)
@@ -326,7 +326,7 @@ impl Generator<'_> {
             #[inline]
             fn expire<O: ::apex_rt::Observer>(&mut self, at: ::apex_rt::Time, ctx: &::apex_rt::Ctx, observer: &mut O) -> bool {
                 for timeout in 0..#count {
-                    if self.state.core.timeouts[timeout as usize].is_due(at) #test {
+                    if self.core.timeouts[timeout as usize].is_due(at) #test {
                         #call
                         return true;
                     }
@@ -347,6 +347,6 @@ impl Generator<'_> {
             sent && self.is_sent_event(view, end)
         });
         let serve = self.deliver(view, &view.links.sends[node]);
-        Arm { number: index, docs, code: quote! { state.core.stop_timeout(#index); #clear #trigger #leave #serve } }
+        Arm { number: index, docs, code: quote! { core.stop_timeout(#index); #clear #trigger #leave #serve } }
     }
 }

@@ -259,3 +259,8 @@ pub fn duration(time: std::time::Duration) -> TokenStream {
 pub fn nanos(time: std::time::Duration) -> Literal {
     Literal::i64_unsuffixed(i64::try_from(time.as_nanos()).unwrap_or(i64::MAX))
 }
+
+/// `Some` of a value, or `None`.
+pub fn option(value: Option<TokenStream>) -> TokenStream {
+    value.map_or(quote!(None), |value| quote!(Some(#value)))
+}

@@ -63,9 +63,33 @@ pub struct ParamRange {
 }
 
 impl ParamInfo {
-    /// Returns a row of the table.
-    pub const fn new(name: &'static str, ty: &'static str, unit: Option<&'static str>, range: ParamRange) -> Self {
-        Self { name, ty, unit, range }
+    /// Returns the row of a parameter without unit and range.
+    pub const fn new(name: &'static str, ty: &'static str) -> Self {
+        Self { name, ty, unit: None, range: ParamRange::new(None, None, false) }
+    }
+
+    /// Sets the SI unit.
+    #[must_use]
+    pub const fn unit(self, unit: &'static str) -> Self {
+        Self { unit: Some(unit), ..self }
+    }
+
+    /// Sets the smallest value.
+    #[must_use]
+    pub const fn at_least(self, min: f64) -> Self {
+        Self { range: ParamRange { min: Some(min), ..self.range }, ..self }
+    }
+
+    /// Sets the largest value.
+    #[must_use]
+    pub const fn at_most(self, max: f64) -> Self {
+        Self { range: ParamRange { max: Some(max), inclusive: true, ..self.range }, ..self }
+    }
+
+    /// Sets the end of the range, which is not part of it.
+    #[must_use]
+    pub const fn below(self, max: f64) -> Self {
+        Self { range: ParamRange { max: Some(max), inclusive: false, ..self.range }, ..self }
     }
 }
 

@@ -65,3 +65,12 @@ impl<N, const I: usize> Opaque for &Probe<'_, N, I> {
         visitor.param(info, None);
     }
 }
+
+/// Visits parameters of a node: those with these numbers. The first has the row `$first` of the table.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! visit_params {
+    ($visitor:ident, $table:expr, $first:literal, $node:expr, $($param:literal)*) => {
+        $($crate::params::Probe::<_, $param>::new(&mut $node).visit(&$table[$first + $param], $visitor);)*
+    };
+}

@@ -234,7 +234,7 @@ mod tests {
             docs: "",
             files: &["cart.afg"],
             nodes: &[crate::NodeInfo::new("motor", 0, [0, 3, 5], false, false)],
-            kinds: &[crate::KindInfo::new("Motor", "Turns.", &[crate::PortInfo::new("go", PortKind::Slot, "()")])],
+            kinds: &[crate::KindInfo::new("Motor", "Turns.", &[crate::PortInfo::slot("go", "()")])],
             graphs: &[],
             connections: &[crate::ConnectionInfo::new(0, "out", 0, "go", true)],
             clusters: &[],
