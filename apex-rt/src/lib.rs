@@ -57,6 +57,7 @@ mod token;
 #[cfg(feature = "std")]
 mod watchdog;
 mod wired;
+mod witness;
 
 pub use apex_attributes::{Outputs, Units, node};
 

@@ -19,7 +19,7 @@ pub struct Arm {
 pub struct Numbered {
     /// Name of the number, and beginning of the names of the functions: `slot`.
     pub name: &'static str,
-    /// How many there are, with those that have no arm.
+    /// Number of all things, with those that have no arm.
     pub count: usize,
     pub arms: Vec<Arm>,
     /// Code for those that have no arm.

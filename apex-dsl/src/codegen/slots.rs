@@ -116,7 +116,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What the token on each connection to a slot does: by number where a queue has the numbers, else a function each.
+    /// Functions for the connections to slots: by number where a queue has the numbers, else one for each.
     pub fn slot_functions(&self, view: ProgramView<'_>) -> TokenStream {
         if view.analysis.asynchronous.delivery == Delivery::Queued {
             return self.slots(view).functions();

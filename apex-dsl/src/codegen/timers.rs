@@ -293,8 +293,8 @@ impl Generator<'_> {
         }
     }
 
-    /// Conditions under which a timeout that is due expires. A node that is disabled sends nothing; it does so when it is
-    /// enabled, if it is still active.
+    /// Conditions under which a timeout that is due expires. A node that is disabled sends nothing; it does so when it
+    /// is enabled, if it is still active.
     fn may_expire(&self, view: ProgramView<'_>, timeout: &Timeout) -> Option<TokenStream> {
         let needs = timeout.needs.iter().map(|bit| quote!(self.core.dispatcher.has(#bit)));
         let enabled = view.graph.nodes[timeout.node].can_be_disabled().then(|| {
@@ -304,7 +304,7 @@ impl Generator<'_> {
         needs.chain(enabled).reduce(|all, test| quote!(#all && #test))
     }
 
-    /// What each timeout does, and the function by which the first of them expires that is due and can.
+    /// Functions for the timeouts by number, and the one by which the first of them expires that is due and can.
     pub fn expire_functions(&self, view: ProgramView<'_>) -> TokenStream {
         let timeouts = &view.wiring.timeouts;
         if timeouts.is_empty() {

@@ -158,59 +158,34 @@ impl Generator<'_> {
         let c = &graph.connections[connection];
         let text =
             format!("`{}` sends `{{Self}}`, but `{}` takes `{{T}}`", graph.end_name(c.from), graph.end_name(c.to));
-        let message = self.message(&Message { text, place: c.span, note: None });
-        quote! {
-            #message
-            trait #name<T: ?Sized> { fn pass(&self) -> &T; }
-            impl<T: ?Sized> #name<T> for T { #[inline(always)] fn pass(&self) -> &T { self } }
-        }
+        self.witness(&quote!(passes), name, &Message { text, place: c.span, note: None })
     }
 
     fn first_item(&self, graph: &Graph, delay: NodeId, name: &Ident) -> TokenStream {
         let from = graph.incoming(PortId { node: delay, port: 0 }).map_or_else(String::new, |c| graph.end_name(c.from));
-        let (message, silent) = (
-            self.message(&Message {
-                text: format!("the delay of `{from}` needs a first token, and `{{Self}}` is not `Default`"),
-                place: graph.nodes[delay].span,
-                note: Some("derive `Default` for it, or give the delay a value: `delay crate::FIRST`".to_owned()),
-            }),
-            self.silent(),
-        );
-        quote! {
-            #message
-            trait #name { fn first() -> Self; }
-            #silent
-            impl<T: ::core::default::Default> #name for T { fn first() -> Self { ::core::default::Default::default() } }
-        }
+        let message = Message {
+            text: format!("the delay of `{from}` needs a first token, and `{{Self}}` is not `Default`"),
+            place: graph.nodes[delay].span,
+            note: Some("derive `Default` for it, or give the delay a value: `delay crate::FIRST`".to_owned()),
+        };
+        self.witness(&quote!(starts), name, &message)
     }
 
     /// The traits that copy the tokens of a node.
     fn copy_items(&self, graph: &Graph, node: NodeId) -> TokenStream {
-        let silent = self.silent();
         let ports = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port });
         let copies = ports.filter(|end| graph.origin(*end) == *end).filter_map(|end| {
             let name = self.copying(graph, end)?;
             let connection = graph.connections.iter().find(|c| c.from == end)?;
-            let message = self.message(&Message {
+            let message = Message {
                 text: format!("the tokens of `{}` are copied, and `{{Self}}` is not `Clone`", graph.end_name(end)),
                 place: connection.span,
                 note: Some(
                     "a token is copied where it is kept: for a `delay`, an event, a slot, an output of the graph, a test or another thread"
                         .to_owned(),
                 ),
-            });
-            Some(quote! {
-                #message
-                trait #name: Sized {
-                    fn copied(&self) -> Self;
-                    fn store(place: &mut ::core::option::Option<Self>, token: ::core::option::Option<&Self>);
-                }
-                #silent
-                impl<T: ::core::clone::Clone> #name for T {
-                    #[inline(always)] fn copied(&self) -> Self { ::core::clone::Clone::clone(self) }
-                    #[inline(always)] fn store(place: &mut ::core::option::Option<Self>, token: ::core::option::Option<&Self>) { ::apex_rt::store(place, token) }
-                }
-            })
+            };
+            Some(self.witness(&quote!(copies), &name, &message))
         });
         quote! { #(#copies)* }
     }
@@ -218,9 +193,8 @@ impl Generator<'_> {
     /// The traits through which the parameters of a node go, and the one by which it is made.
     fn library_items(&self, graph: &Graph, node: NodeId, library: &Library) -> TokenStream {
         let (n, signature) = (&graph.nodes[node], &self.catalog.signatures[library.signature]);
-        let silent = self.silent();
         let make = self.making(node, library).map(|name| {
-            let message = self.message(&Message {
+            let message = Message {
                 text: format!(
                     "`{}` cannot be made by the graph: state of `{{Self}}` is not `Default`",
                     graph.path(node)
@@ -230,25 +204,13 @@ impl Generator<'_> {
                     "derive `Default` for it, or make the node in Rust: `node {}: {};`",
                     n.name, signature.name
                 )),
-            });
-            quote! {
-                #message
-                trait #name<P>: Sized { fn made(params: P) -> Self; }
-                #silent
-                impl<P, N: ::apex_rt::Construct<P>> #name<P> for N {
-                    #[inline(always)] fn made(params: P) -> Self { <N as ::apex_rt::Construct<P>>::construct(params) }
-                }
-            }
+            };
+            self.witness(&quote!(makes), &name, &message)
         });
         let arguments = (0..library.params.len()).filter_map(|param| {
             let (name, declared) = (self.fitting(node, library, param)?, &signature.params[param].name);
             let text = format!("`{declared}` of `{}` takes `{{T}}`, not `{{Self}}`", graph.path(node));
-            let message = self.message(&Message { text, place: n.span, note: None });
-            Some(quote! {
-                #message
-                trait #name<T> { fn fitting(self) -> T; }
-                impl<T> #name<T> for T { #[inline(always)] fn fitting(self) -> T { self } }
-            })
+            Some(self.witness(&quote!(fits), &name, &Message { text, place: n.span, note: None }))
         });
         quote! { #make #(#arguments)* }
     }
@@ -325,13 +287,13 @@ impl Generator<'_> {
 
     /// A trait without methods for all types that have `bound`.
     fn question(&self, name: &Ident, bound: &TokenStream, message: &Message) -> TokenStream {
+        self.witness(&quote!(has #bound,), name, message)
+    }
+
+    /// A trait of some kind.
+    fn witness(&self, kind: &TokenStream, name: &Ident, message: &Message) -> TokenStream {
         let (message, silent) = (self.message(message), self.silent());
-        quote! {
-            #message
-            trait #name {}
-            #silent
-            impl<T: #bound> #name for T {}
-        }
+        quote! { ::apex_rt::witness! { #kind #message #name #silent } }
     }
 
     fn message(&self, Message { text, place, note }: &Message) -> TokenStream {
