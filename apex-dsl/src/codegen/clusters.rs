@@ -96,8 +96,8 @@ impl Generator<'_> {
             _ => None,
         });
         let advances = timers.map(|timer| match view.wiring.has_agenda() {
-            true => quote! { core.agenda.advance(&mut state.timers[#timer]); },
-            false => quote! { state.timers[#timer].advance(); },
+            true => quote! { core.agenda.advance(&mut core.timers[#timer]); },
+            false => quote! { core.timers[#timer].advance(); },
         });
         let advances: TokenStream = advances.collect();
         let hear = self.hear(view, cluster);

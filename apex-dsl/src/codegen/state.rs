@@ -71,8 +71,20 @@ impl StateField {
     /// Returns `true` if it belongs to the core, which the functions of the runtime work on. Tokens do not: they may be
     /// borrowed meanwhile.
     pub fn is_core(&self) -> bool {
-        const CORE: [&str; 10] =
-            ["active", "agenda", "carries", "dispatcher", "enabled", "gains", "loses", "queue", "stamps", "timeouts"];
+        const CORE: [&str; 12] = [
+            "active",
+            "agenda",
+            "carries",
+            "dispatcher",
+            "enabled",
+            "gains",
+            "loses",
+            "queue",
+            "silences",
+            "stamps",
+            "timeouts",
+            "timers",
+        ];
         CORE.iter().any(|name| self.name == name)
     }
 }
@@ -92,8 +104,8 @@ impl Generator<'_> {
     pub fn state_structs(&self, view: ProgramView<'_>) -> [Struct; 2] {
         let kept = self.state(view);
         let (core, state): (Vec<&StateField>, Vec<&StateField>) = kept.iter().partition(|kept| kept.is_core());
-        let state = Struct::new(&self.item(view.graph, "State"), "Tokens and timers.", &fields(state));
-        let docs = "Activity, and which tokens are on their way.";
+        let state = Struct::new(&self.item(view.graph, "State"), "Tokens.", &fields(state));
+        let docs = "Activity, timers, and which tokens are on their way.";
         let mut core = Struct::new(&self.item(view.graph, "Core"), docs, &fields(core));
         if !core.item.is_empty() && view.wiring.has_rows() {
             core.item.extend(self.wired(view));

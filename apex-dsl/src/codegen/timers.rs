@@ -94,9 +94,9 @@ impl Generator<'_> {
     fn timed(view: ProgramView<'_>) -> impl Iterator<Item = (Timed, TokenStream, usize)> {
         let wiring = view.wiring;
         let lists = [
-            (Timed::Timer, quote!(state.timers), wiring.timers.len()),
+            (Timed::Timer, quote!(core.timers), wiring.timers.len()),
             (Timed::Timeout, quote!(core.timeouts), wiring.timeouts.len()),
-            (Timed::Silence, quote!(state.silences), wiring.silences.len()),
+            (Timed::Silence, quote!(core.silences), wiring.silences.len()),
         ];
         lists.into_iter().filter(|(.., count)| *count > 0)
     }
@@ -145,7 +145,7 @@ impl Generator<'_> {
     pub fn skips(&self, view: ProgramView<'_>) -> TokenStream {
         let timers = view.wiring.timers.iter().enumerate();
         let skipping = timers.filter(|(_, (node, _))| view.graph.nodes[*node].modifiers.skip);
-        let skips = skipping.map(|(timer, _)| quote! { self.state.timers[#timer].skip(now); });
+        let skips = skipping.map(|(timer, _)| quote! { self.core.timers[#timer].skip(now); });
         let skips: TokenStream = skips.collect();
         match view.wiring.has_agenda() && !skips.is_empty() {
             true => quote! { if self.core.agenda.is_due(now) { #skips self.core.agenda.open(); } },
@@ -160,7 +160,7 @@ impl Generator<'_> {
         let starts: TokenStream = silences
             .map(|index| {
                 let after = self.silence(view, &view.wiring.silences[index]);
-                quote! { state.silences[#index].start(ctx.now(), #after); }
+                quote! { core.silences[#index].start(ctx.now(), #after); }
             })
             .collect();
         let open = (!starts.is_empty()).then(|| self.open_agenda(view));
@@ -183,7 +183,7 @@ impl Generator<'_> {
     pub fn silences_end(&self, view: ProgramView<'_>) -> TokenStream {
         let ends = view.wiring.silences.iter().enumerate().map(|(index, silence)| match &silence.entry {
             Entry::Input { raises } => quote! {
-                if quiet && self.state.silences[#index].is_due(at) && !self.core.dispatcher.has(#raises) {
+                if quiet && self.core.silences[#index].is_due(at) && !self.core.dispatcher.has(#raises) {
                     self.core.dispatcher.raise(#raises);
                     quiet = false;
                 }
@@ -191,7 +191,7 @@ impl Generator<'_> {
             Entry::Connection { connection, raises, occupies, free } => {
                 let (clear, stamp) = self.absent_on(view, *connection);
                 quote! {
-                    if quiet && self.state.silences[#index].is_due(at) #(&& self.core.dispatcher.has(#free))* {
+                    if quiet && self.core.silences[#index].is_due(at) #(&& self.core.dispatcher.has(#free))* {
                         #clear
                         #stamp
                         self.core.dispatcher.clear(#occupies);
@@ -236,13 +236,13 @@ impl Generator<'_> {
         if view.wiring.has_agenda() {
             let bits = timers.iter().map(|(_, bit)| Literal::usize_unsuffixed(*bit));
             return quote! {
-                for (timer, bit) in self.state.timers.iter().zip([#(#bits),*]) {
+                for (timer, bit) in self.core.timers.iter().zip([#(#bits),*]) {
                     if timer.is_due(at) { self.core.dispatcher.raise(bit); }
                 }
             };
         }
         let looks = timers.iter().enumerate().map(|(index, (_, bit))| {
-            quote! { if self.state.timers[#index].is_due(at) { self.core.dispatcher.raise(#bit); } }
+            quote! { if self.core.timers[#index].is_due(at) { self.core.dispatcher.raise(#bit); } }
         });
         looks.collect()
     }
