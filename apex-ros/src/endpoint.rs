@@ -10,7 +10,7 @@ use crate::{
 use std::{
     any::Any,
     collections::hash_map::DefaultHasher,
-    hash::{Hash as _, Hasher as _},
+    hash::{BuildHasher as _, Hash as _, Hasher as _, RandomState},
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicU64, Ordering},
@@ -30,6 +30,8 @@ pub struct Endpoints {
     pub time: RosTime,
     pub watch: Arc<Watch>,
     pub tell: Tell,
+    /// Seed of the identifications of goals.
+    pub seed: u64,
     next: AtomicU64,
     /// Subscribers, servers and tokens, which end when they are dropped.
     kept: Mutex<Vec<Box<dyn Any + Send>>>,
@@ -59,7 +61,9 @@ impl Endpoints {
         tell: Tell,
         is_simulated: bool,
     ) -> Self {
+        let seed = RandomState::new().hash_one(zenoh.zid().to_string());
         Self {
+            seed,
             zenoh,
             domain,
             scope,

@@ -1,5 +1,6 @@
-//! Programs of Apex beside ROS 2, without ROS installed: topics, services and parameters over Zenoh, as `rmw_zenoh`
-//! has them.
+//! Programs of Apex beside ROS 2, without ROS installed: topics, services, actions and parameters over Zenoh, as
+//! `rmw_zenoh` has them.
+mod action;
 mod args;
 mod attachment;
 mod distribution;
@@ -21,6 +22,7 @@ mod tf;
 mod time;
 mod token;
 
+pub use action::{SendingGoals, ServingGoals};
 pub use args::{Args, Remapping};
 pub use attachment::Attachment;
 pub use distribution::{Distribution, NO_HASH};

@@ -1,10 +1,7 @@
 //! Publishers: from the events of a program to topics.
 
 use crate::{Attachment, Error, Kind, Qos, Reliability, Ros, endpoint::Declared, time::RosTime, time::calendar};
-use apex_messages::{
-    Message,
-    cdr::{Outside, Writer},
-};
+use apex_messages::Message;
 use apex_rt::PortReceiver;
 use std::{
     marker::PhantomData,
@@ -177,9 +174,7 @@ impl<M: Message> Publisher<M> {
     /// # Errors
     /// The node has ended.
     pub fn send(&self, message: &M) -> Result<(), Error> {
-        let (zero, now) = (self.time.known_zero(), self.time.now());
-        let mut bytes = vec![];
-        message.write(&mut Writer::new(&mut bytes).for_others(Outside { zero, now, frame: self.frame.as_deref() }));
+        let bytes = self.time.write(message, self.frame.as_deref());
         let number = self.number.fetch_add(1, Ordering::Relaxed);
         let attachment = Attachment { number, time: calendar(), sender: self.id }.to_bytes();
         let (payload, attachment) = (ZBytes::from(bytes), ZBytes::from(attachment.to_vec()));

@@ -26,6 +26,7 @@ pub struct Opening {
     domain: Option<u32>,
     router: Option<String>,
     distribution: Option<Distribution>,
+    seed: Option<u64>,
     tell: Tell,
 }
 
@@ -54,6 +55,14 @@ impl Opening {
         Self { distribution: Some(distribution), ..self }
     }
 
+    /// Makes the identifications of the goals that the node sends follow from this number and the names of the node and
+    /// the action, so that a simulated run can be repeated. By default they differ each time, so that servers never
+    /// confuse the goals of two runs.
+    #[must_use]
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed: Some(seed), ..self }
+    }
+
     /// Calls `tell` with what is otherwise written to standard error: reasons for silence, and messages that cannot be
     /// read.
     #[must_use]
@@ -80,7 +89,9 @@ impl Opening {
             })
         };
         let is_simulated = args.flag("use_sim_time");
-        let endpoints = Arc::new(Endpoints::new(zenoh, domain, scope, args, self.distribution, tell, is_simulated));
+        let mut endpoints = Endpoints::new(zenoh, domain, scope, args, self.distribution, tell, is_simulated);
+        endpoints.seed = self.seed.unwrap_or(endpoints.seed);
+        let endpoints = Arc::new(endpoints);
         let node = Token {
             domain,
             session: endpoints.session_id(),
@@ -125,7 +136,7 @@ fn domain() -> Result<u32, Error> {
 pub struct Ros {
     pub(crate) endpoints: Arc<Endpoints>,
     pub(crate) log: Log,
-    graph: Graph,
+    pub(crate) graph: Graph,
     router: String,
 }
 
@@ -139,6 +150,7 @@ impl Ros {
             domain: None,
             router: None,
             distribution: None,
+            seed: None,
             tell: Arc::new(tell),
         }
     }
