@@ -14,7 +14,11 @@ use apex_messages::{
 };
 use apex_ros::{Endpoint, Kind, Opening, Qos, Ros, Token, key, wire_type};
 use apex_rt::{PortReceiver, PortSender, Ports, Switch, UntilStopped, drive_from, prelude::*};
-use common::{Collected, Router, within};
+use common::{
+    Collected, Router,
+    python::{Peer, python},
+    within,
+};
 use std::{
     env,
     process::{Child, Command, Stdio},
@@ -98,6 +102,7 @@ fn counting(opening: Opening) -> Running {
 
 /// A node that sends goals to `/fibonacci`, and what becomes of them.
 struct Asker {
+    action: String,
     want: PortSender<FibonacciGoal>,
     stop: PortSender<()>,
     /// Names of the events.
@@ -105,7 +110,7 @@ struct Asker {
     feedback: Collected<Vec<i32>>,
     results: Collected<Vec<i32>>,
     said: Collected<String>,
-    _running: Running,
+    running: Running,
 }
 
 fn collect<T: Send + 'static>(port: PortReceiver<T>, add: impl Fn(T) + Send + 'static) {
@@ -114,13 +119,17 @@ fn collect<T: Send + 'static>(port: PortReceiver<T>, add: impl Fn(T) + Send + 's
 
 impl Asker {
     fn start(opening: Opening, timeout: Duration) -> Self {
+        Self::of("fibonacci", opening, timeout)
+    }
+
+    fn of(action: &str, opening: Opening, timeout: Duration) -> Self {
         let said = Collected::new();
         let say = said.collector();
         let ros = opening.tell(move |text| say(text.to_owned())).open().expect("a node");
         let mut ports = Ports::<Asking>::new();
         let (orders, reports) = (ports.event(|events| &mut events.orders), ports.input(|inputs| &mut inputs.reports));
-        let action = ros.send_goals::<Fibonacci>("fibonacci").timeout(timeout);
-        action.through(orders, reports).expect("an action");
+        let goals = ros.send_goals::<Fibonacci>(action).timeout(timeout);
+        goals.through(orders, reports).expect("an action");
         let (events, feedback, results) = (Collected::new(), Collected::new(), Collected::new());
         let named = |name: &'static str| {
             let events = events.clone();
@@ -137,7 +146,8 @@ impl Asker {
         let add = results.collector();
         collect(ports.event(|events| &mut events.result), move |result| add(result.sequence));
         let (want, stop) = (ports.input(|inputs| &mut inputs.want), ports.input(|inputs| &mut inputs.stop));
-        Self { want, stop, events, feedback, results, said, _running: Running::start(ros, Asking::new(), ports) }
+        let (action, running) = (format!("/{action}"), Running::start(ros, Asking::new(), ports));
+        Self { action, want, stop, events, feedback, results, said, running }
     }
 
     fn at(router: &Router, name: &str) -> Self {
@@ -153,8 +163,9 @@ impl Asker {
 
     /// Waits until the node sees a server.
     fn meets(&self) {
-        let ros = self._running.ros.as_ref().expect("it runs");
-        within(5.0, "a server", || ros.sees(Kind::Server, "/fibonacci/_action/send_goal", FibonacciSendGoal::NAME));
+        let ros = self.running.ros.as_ref().expect("it runs");
+        let goals = format!("{}/_action/send_goal", self.action);
+        within(5.0, "a server", || ros.sees(Kind::Server, &goals, FibonacciSendGoal::NAME));
         // A route comes a moment after the token.
         thread::sleep(Duration::from_millis(200));
     }
@@ -515,4 +526,64 @@ fn goals_of_a_run_with_a_seed_have_the_same_identifications() {
     assert!(first[0] != first[1] && first[1] != first[2]);
     // Names of types follow from the action.
     assert_eq!(<Fibonacci as Action>::SendGoal::NAME, FibonacciSendGoal::NAME);
+}
+
+/// A program in Python with an action, and with a client of another one.
+fn peer() -> Option<Peer> {
+    let types = [
+        format!("{}={}", FibonacciSendGoal::NAME, FibonacciSendGoal::HASH),
+        format!("{}={}", FibonacciGetResult::NAME, FibonacciGetResult::HASH),
+        format!("{}={}", CancelGoal::NAME, CancelGoal::HASH),
+    ];
+    Some(Peer::start(&python()?, "action_peer.py", &types.each_ref().map(String::as_str)))
+}
+
+#[test]
+fn a_program_in_python_carries_goals_out() {
+    let Some(peer) = peer() else { return };
+    let opening = Ros::node("asker").args([""; 0]).domain(0).router(&peer.address);
+    let asker = Asker::of("py_fibonacci", opening, Duration::from_secs(10));
+    asker.meets();
+    asker.want(8);
+    asker.expect(5.0, &["accepted", "succeeded"]);
+    assert_eq!(asker.results.all(), [[0, 1, 1, 2, 3, 5, 8, 13]]);
+    let feedback = asker.feedback.all();
+    assert!(feedback.len() >= 5 && feedback.last().is_some_and(|last| last.len() == 8), "{feedback:?}");
+    asker.want(66);
+    asker.expect(5.0, &["accepted", "succeeded", "rejected"]);
+    asker.want(99);
+    asker.expect(5.0, &["accepted", "succeeded", "rejected", "accepted"]);
+    asker.stop();
+    within(5.0, "the cancel", || peer.says("cancel 0 0") && peer.says("ended 5"));
+    for line in ["goal 8 v4", "goal 66 v4", "goal 99 v4"] {
+        assert!(peer.says(line), "{line}");
+    }
+    asker.expect_no_more(&["accepted", "succeeded", "rejected", "accepted"]);
+}
+
+#[test]
+fn a_program_in_python_has_its_goals_carried_out() {
+    let Some(mut peer) = peer() else { return };
+    let _server = counting(Ros::node("counter").args([""; 0]).domain(0).router(&peer.address));
+    // Each line, by waiting for its answer.
+    let does = |peer: &mut Peer, word: &str, answer: &str| {
+        peer.does(word);
+        within(10.0, &format!("{answer} after {word}, but {:?}", peer.lines.all()), || peer.says(answer));
+    };
+    within(10.0, "an answer", || {
+        peer.does("result 9");
+        thread::sleep(Duration::from_millis(200));
+        peer.says("result 0")
+    });
+    does(&mut peer, "goal 1 6", "accepted");
+    // It asks while the goal is under way, and again when it has ended.
+    does(&mut peer, "result 1", "result 4 0 1 1 2 3 5");
+    does(&mut peer, "result 1", "result 4 0 1 1 2 3 5");
+    does(&mut peer, "goal 1 6", "refused");
+    does(&mut peer, "goal 2 1000", "feedback 0 1 1");
+    does(&mut peer, "cancel 2", "canceling 0 1");
+    within(5.0, "the states", || peer.says("states 4 5"));
+    does(&mut peer, "result 2", "result 5");
+    does(&mut peer, "cancel 2", "canceling 3 0");
+    does(&mut peer, "cancel 7", "canceling 2 0");
 }
