@@ -6,6 +6,7 @@ use crate::{
     ros::Tell,
     silence::{Ours, Watch},
     time::RosTime,
+    voice::Voice,
 };
 use std::{
     any::Any,
@@ -32,6 +33,8 @@ pub struct Endpoints {
     pub tell: Tell,
     /// Seed of the identifications of goals.
     pub seed: u64,
+    /// Whether the events of the program are published.
+    pub voice: Arc<Voice>,
     next: AtomicU64,
     /// Subscribers, servers and tokens, which end when they are dropped.
     kept: Mutex<Vec<Box<dyn Any + Send>>>,
@@ -64,6 +67,7 @@ impl Endpoints {
         let seed = RandomState::new().hash_one(zenoh.zid().to_string());
         Self {
             seed,
+            voice: Arc::default(),
             zenoh,
             domain,
             scope,

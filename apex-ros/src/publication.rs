@@ -5,7 +5,10 @@ use apex_messages::Message;
 use apex_rt::PortReceiver;
 use std::{
     marker::PhantomData,
-    sync::atomic::{AtomicI64, Ordering},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicI64, Ordering},
+    },
     time::Duration,
 };
 use zenoh::{
@@ -129,17 +132,28 @@ impl<'a> Publishing<'a> {
         send: fn(&Publisher<M>, &T) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let ros = self.ros;
-        let (publisher, tell) = (self.open::<M>()?, ros.endpoints.tell.clone());
+        let (publisher, tell) = (Arc::new(self.open::<M>()?), ros.endpoints.tell.clone());
+        let (last, voice) = (Arc::new(Mutex::new(last)), Arc::clone(&ros.endpoints.voice));
+        let say_last = {
+            let (publisher, tell) = (Arc::clone(&publisher), ros.endpoints.tell.clone());
+            move || {
+                let last = last.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some(Err(error)) = last.as_ref().map(|last| send(&publisher, last)) {
+                    tell(&error.to_string());
+                }
+            }
+        };
+        voice.at_silence(say_last.clone());
         ros.endpoints.spawn(&publisher.topic.clone(), move || {
             while let Some(token) = port.receive().as_ref() {
+                let Some(leave) = voice.leave() else { continue };
                 if let Err(error) = send(&publisher, token) {
                     tell(&error.to_string());
                     break;
                 }
+                drop(leave);
             }
-            if let Some(Err(error)) = last.map(|last| send(&publisher, &last)) {
-                tell(&error.to_string());
-            }
+            say_last();
         })
     }
 }
