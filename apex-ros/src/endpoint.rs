@@ -33,7 +33,7 @@ pub struct Endpoints {
     pub tell: Tell,
     /// Seed of the identifications of goals.
     pub seed: u64,
-    /// Whether the events of the program are published.
+    /// Leave to publish the events of the program.
     pub voice: Arc<Voice>,
     next: AtomicU64,
     /// Subscribers, servers and tokens, which end when they are dropped.

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError, RwLock, RwLockReadGuard};
 
-/// Whether the events of a program are published.
+/// Leave to publish the events of a program.
 #[derive(Default)]
 pub struct Voice {
     is_silent: RwLock<bool>,

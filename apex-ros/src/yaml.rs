@@ -28,7 +28,7 @@ pub enum Kind {
     Map(Vec<(String, Place, Value)>),
 }
 
-/// What is wrong, and where.
+/// Mistake, and its place.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Problem {
     pub place: Place,

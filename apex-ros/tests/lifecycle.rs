@@ -31,7 +31,7 @@ where
     client
 }
 
-/// What a manager of `/robot` uses.
+/// Manager of `/robot`.
 struct Manager {
     ros: Ros,
     change: Client<ChangeState>,

@@ -18,7 +18,7 @@ const KEPT: Duration = Duration::from_secs(15 * 60);
 /// Most results that are kept. The oldest makes room.
 const ROOM: usize = 200;
 
-/// What is to be done at a server. The questions are those that were passed in.
+/// Task at a server. The questions are those that were passed in.
 pub enum Deed<G, F, R, Q: Questions> {
     /// Pass an order to the program.
     Order(Order<G>),
@@ -145,6 +145,7 @@ impl<R: Clone + Default, Q: Questions> Desk<R, Q> {
                 self.begin();
                 out.push(Deed::Status(self.status()));
             }
+            Report::AllAborted => self.abort_all(now, out),
             Report::Lost { id, .. } => self.end(id, End::Aborted, R::default(), now, out),
         }
     }
@@ -153,6 +154,11 @@ impl<R: Clone + Default, Q: Questions> Desk<R, Q> {
     pub fn close<G, F>(&mut self, now: Instant, out: &mut Vec<Deed<G, F, R, Q>>) {
         let asked = std::mem::take(&mut self.asked).into_values();
         out.extend(asked.map(|question| Deed::Answer(question, false, Time::default())));
+        self.abort_all(now, out);
+    }
+
+    /// Ends all goals that were accepted.
+    fn abort_all<G, F>(&mut self, now: Instant, out: &mut Vec<Deed<G, F, R, Q>>) {
         let all: Vec<GoalId> = self.goals.iter().map(|goal| goal.id).collect();
         all.into_iter().for_each(|id| self.end(id, End::Aborted, R::default(), now, out));
         out.push(Deed::Status(self.status()));
@@ -347,6 +353,18 @@ mod tests {
         let mut out: Deeds = vec![];
         test.desk.close(test.now, &mut out);
         assert_eq!(words(out), ["answer 11 false", "result 20 6 0", "status 6"]);
+    }
+
+    #[test]
+    fn a_program_aborts_all_its_goals() {
+        let mut test = Test::new();
+        for id in 1..=3 {
+            test.goal(id, id as u32);
+        }
+        test.accept(1);
+        test.accept(2);
+        assert_eq!(test.report(Report::AllAborted), ["status 6 6"]);
+        assert_eq!(test.accept(3), ["answer 3 true", "status 6 6 2"], "it had not answered yet");
     }
 
     #[test]

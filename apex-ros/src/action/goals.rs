@@ -11,7 +11,7 @@ use std::{
 /// Time without a server after which a goal is lost.
 pub const PATIENCE: Duration = Duration::from_millis(2500);
 
-/// What is to be done for a goal. The identifications are those among all programs, but in reports.
+/// Task for a goal. The identifications are those among all programs, but in reports.
 #[derive(Debug, PartialEq)]
 pub enum Deed<G, F, R> {
     /// Ask the server to accept it.

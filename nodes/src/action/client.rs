@@ -65,12 +65,12 @@ impl<G: Clone, F: Clone, R: Clone> ActionClient<G, F, R> {
         let Some(goal) = self.under_way else { return };
         if report.ends(goal) {
             self.under_way = None;
-        } else if report.id() != goal {
+        } else if report.id() != Some(goal) {
             return;
         }
         match report {
             Report::Accepted { id, .. } if *id == goal => accepted.emit(()),
-            Report::Accepted { .. } => aborted.emit(()),
+            Report::Accepted { .. } | Report::AllAborted => aborted.emit(()),
             Report::Rejected { .. } => rejected.emit(()),
             Report::Feedback { feedback: message, .. } => feedback.emit(message.clone()),
             Report::Ended { end, result: of_goal, .. } => {
@@ -148,11 +148,11 @@ mod tests {
     }
 
     /// Events of a call of `report`: accepted, feedback, and the end of the goal by its number in the list of events.
-    fn report(client: &mut ActionClient<u8, u8, u8>, report: &Report<u8, u8>) -> (bool, Option<u8>, Option<usize>) {
+    fn report(client: &mut ActionClient<u8, u8, u8>, token: &Report<u8, u8>) -> (bool, Option<u8>, Option<usize>) {
         let (mut accepted, mut feedback, mut result, mut succeeded, mut aborted) = (None, None, None, None, None);
         let (mut canceled, mut rejected, mut lost, mut loss) = (None, None, None, None);
         client.report(
-            report,
+            token,
             event(&mut accepted),
             event(&mut feedback),
             event(&mut result),
@@ -165,7 +165,8 @@ mod tests {
         );
         let ends = [succeeded.is_some(), aborted.is_some(), canceled.is_some(), rejected.is_some(), lost.is_some()];
         assert!(ends.iter().filter(|end| **end).count() <= 1);
-        assert_eq!((result.is_some(), loss.is_some()), (ends[0] || ends[1] || ends[2], lost.is_some()));
+        let is_end = matches!(token, Report::Ended { .. }) && ends.contains(&true);
+        assert_eq!((result.is_some(), loss.is_some()), (is_end, lost.is_some()));
         (accepted.is_some(), feedback, ends.iter().position(|end| *end))
     }
 
@@ -195,7 +196,7 @@ mod tests {
                         let number = random.below(count + 2);
                         let is_present = present == Some(number);
                         let goal = id(number);
-                        let which = random.below(7);
+                        let which = random.below(8);
                         let token = match which {
                             0 => Report::Accepted { id: goal, replaces: None },
                             1 => Report::Feedback { id: goal, feedback: 9 },
@@ -203,12 +204,16 @@ mod tests {
                             3 => Report::Ended { id: goal, end: End::Aborted, result: 1 },
                             4 => Report::Ended { id: goal, end: End::Canceled, result: 1 },
                             5 => Report::Rejected { id: goal },
+                            7 => Report::AllAborted,
                             _ => Report::Lost { id: goal, loss: Loss::NoServer },
                         };
                         let (accepted, feedback, end) = report(&mut client, &token);
                         assert_eq!(accepted, is_present && which == 0);
                         assert_eq!(feedback, (is_present && which == 1).then_some(9));
-                        let expected = which.checked_sub(2).map(|end| end as usize).filter(|_| is_present);
+                        let expected = match which {
+                            7 => present.map(|_| 1),
+                            _ => which.checked_sub(2).map(|end| end as usize).filter(|_| is_present),
+                        };
                         assert_eq!(end, expected);
                         present = present.filter(|_| end.is_none());
                     }

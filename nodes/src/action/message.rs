@@ -74,6 +74,7 @@ const ENDS: [End; 3] = [End::Succeeded, End::Canceled, End::Aborted];
 const FIRST_END: u8 = 3;
 const LOSSES: [Loss; 4] = [Loss::NoServer, Loss::NoAnswer, Loss::ServerGone, Loss::Forgotten];
 const FIRST_LOSS: u8 = FIRST_END + ENDS.len() as u8;
+const ALL_ABORTED: u8 = FIRST_LOSS + LOSSES.len() as u8;
 
 impl<F: Message, R: Message> Message for Report<F, R> {
     const NAME: &'static str = "apex/msg/ActionReport";
@@ -88,6 +89,7 @@ impl<F: Message, R: Message> Message for Report<F, R> {
                 Parts { content: result.to_bytes(), ..Parts::new(FIRST_END + *end as u8, *id) }
             }
             Self::Lost { id, loss } => Parts::new(FIRST_LOSS + *loss as u8, *id),
+            Self::AllAborted => Parts::new(ALL_ABORTED, GoalId::default()),
         };
         parts.write(to);
     }
@@ -99,6 +101,7 @@ impl<F: Message, R: Message> Message for Report<F, R> {
         match kind {
             ACCEPTED => Ok(Self::Accepted { id, replaces }),
             REJECTED => Ok(Self::Rejected { id }),
+            ALL_ABORTED => Ok(Self::AllAborted),
             FEEDBACK => Ok(Self::Feedback { id, feedback: F::from_bytes(&content)? }),
             _ => match (end(kind), loss(kind)) {
                 (Some(end), _) => Ok(Self::Ended { id, end, result: R::from_bytes(&content)? }),
@@ -126,7 +129,7 @@ mod tests {
         let accepted = other.map(|replaces| Report::Accepted { id, replaces });
         let ended = ENDS.map(|end| Report::Ended { id, end, result: "r".to_owned() });
         let lost = LOSSES.map(|loss| Report::Lost { id, loss });
-        let rest = [Report::Rejected { id }, Report::Feedback { id, feedback: 0.5_f64 }];
+        let rest = [Report::Rejected { id }, Report::Feedback { id, feedback: 0.5_f64 }, Report::AllAborted];
         for report in accepted.into_iter().chain(ended).chain(lost).chain(rest) {
             assert_eq!(Report::<f64, String>::from_bytes(&report.to_bytes()), Ok(report));
         }

@@ -5,7 +5,8 @@ use apex_rt::{Ctx, Event, node};
 use core::marker::PhantomData;
 
 /// Goals of other programs, one at a time. The node is active while it waits for a goal. The activity leaves with
-/// `goal` for the nodes that carry it out, and comes back with the end: to `succeed`, `abort`, `give_up` or `canceled`.
+/// `goal` for the nodes that carry it out, and comes back with the end: to `succeed`, `reached`, `abort`, `canceled` or
+/// `give_up`.
 /// A goal that comes while the activity is elsewhere, and no goal is under way, is refused: the robot is busy.
 ///
 /// `stop` is triggered when the client calls its goal off. It takes the activity away from the work, which brings it
@@ -91,10 +92,23 @@ impl<G: Clone, F: Clone, R: Clone + Default> ActionServer<G, F, R> {
         self.end(End::Aborted, result.clone(), ctx, goal, reports);
     }
 
-    /// Ends the goal without success and without a result.
+    /// Ends the goal with success and without a result.
     #[slot]
-    fn give_up(&mut self, ctx: &Ctx, goal: Event<G>, reports: Event<Report<F, R>>) {
-        self.end(End::Aborted, R::default(), ctx, goal, reports);
+    fn reached(&mut self, ctx: &Ctx, goal: Event<G>, reports: Event<Report<F, R>>) {
+        self.end(End::Succeeded, R::default(), ctx, goal, reports);
+    }
+
+    /// Ends the goal without success and without a result, and one that waits for its end, too: the robot is to stop.
+    #[slot]
+    fn give_up(&mut self, reports: Event<Report<F, R>>) {
+        let (current, next) = (self.current.take(), self.next.take());
+        match (current, next) {
+            (None, None) => {}
+            (Some(Current { id, .. }), None) | (None, Some((id, _))) => {
+                reports.emit(Report::Ended { id, end: End::Aborted, result: R::default() });
+            }
+            (Some(_), Some(_)) => reports.emit(Report::AllAborted),
+        }
     }
 
     /// Notes that the work was cancelled.
@@ -176,6 +190,10 @@ mod tests {
                 Some(Report::Rejected { id }) => assert_eq!(self.ends.remove(&id), Some(None)),
                 Some(Report::Ended { id, .. }) => self.end(id),
                 Some(Report::Feedback { id, .. }) => assert_eq!(self.ends.get(&id), Some(&Some(0))),
+                Some(Report::AllAborted) => {
+                    let open = self.ends.values_mut().flatten().filter(|ends| **ends == 0);
+                    open.for_each(|ends| *ends = 1);
+                }
                 Some(Report::Lost { .. }) => panic!("a server loses nothing"),
                 None => {}
             }
@@ -198,7 +216,7 @@ mod tests {
             let mut test = Test { server, is_here: false, ends: BTreeMap::new() };
             let mut count = 0;
             for _ in 0..40 {
-                match random.below(6) {
+                match random.below(7) {
                     0 | 1 => {
                         count += 1;
                         let id = GoalId(count);
@@ -227,6 +245,7 @@ mod tests {
                         test.is_here = true;
                         test.call(|server, ctx, goal, _, reports| server.ready(ctx, goal, reports));
                     }
+                    5 => drop(test.call(|server, _, _, _, reports| server.give_up(reports))),
                     // A result without activity.
                     _ => drop(test.call(|server, ctx, goal, _, reports| server.abort(&1, ctx, goal, reports))),
                 }

@@ -55,6 +55,8 @@ pub enum Report<F, R> {
         /// Result.
         result: R,
     },
+    /// All goals that were accepted have ended: aborted.
+    AllAborted,
     /// Nothing more will be heard of the goal.
     Lost {
         /// Identification of the goal.
@@ -92,14 +94,15 @@ pub enum Loss {
 }
 
 impl<F, R> Report<F, R> {
-    /// Identification of the goal.
-    pub fn id(&self) -> GoalId {
+    /// Identification of the goal; `None` if it is a report of all goals.
+    pub fn id(&self) -> Option<GoalId> {
         match self {
             Self::Accepted { id, .. }
             | Self::Rejected { id }
             | Self::Feedback { id, .. }
             | Self::Ended { id, .. }
-            | Self::Lost { id, .. } => *id,
+            | Self::Lost { id, .. } => Some(*id),
+            Self::AllAborted => None,
         }
     }
 
@@ -108,6 +111,7 @@ impl<F, R> Report<F, R> {
         match self {
             Self::Accepted { replaces, .. } => *replaces == Some(goal),
             Self::Feedback { .. } => false,
+            Self::AllAborted => true,
             Self::Rejected { id } | Self::Ended { id, .. } | Self::Lost { id, .. } => *id == goal,
         }
     }
