@@ -209,7 +209,8 @@ fn a_goal_is_carried_out_by_another_node() {
     asker.expect(5.0, &["accepted", "succeeded"]);
     assert_eq!(asker.results.all(), [[0, 1, 1, 2, 3, 5, 8, 13]]);
     let feedback = asker.feedback.all();
-    assert!(feedback.len() == 6 && feedback[0] == [0, 1, 1] && feedback[5].len() == 8, "{feedback:?}");
+    // The result may overtake the last ones.
+    assert!(feedback.len() > 2 && feedback.iter().all(|some| asker.results.all()[0].starts_with(some)), "{feedback:?}");
 
     // Whoever comes late finds the state and the result.
     let late = router.node("late").open().expect("a node");
@@ -548,7 +549,8 @@ fn a_program_in_python_carries_goals_out() {
     asker.expect(5.0, &["accepted", "succeeded"]);
     assert_eq!(asker.results.all(), [[0, 1, 1, 2, 3, 5, 8, 13]]);
     let feedback = asker.feedback.all();
-    assert!(feedback.len() >= 5 && feedback.last().is_some_and(|last| last.len() == 8), "{feedback:?}");
+    // The result may overtake the last ones.
+    assert!(feedback.len() > 2 && feedback.iter().all(|some| asker.results.all()[0].starts_with(some)), "{feedback:?}");
     asker.want(66);
     asker.expect(5.0, &["accepted", "succeeded", "rejected"]);
     asker.want(99);

@@ -6,7 +6,6 @@ use apex_ros::{Error, Ros};
 use apex_rt::Ports;
 use std::process::ExitCode;
 
-#[cfg(test)]
 mod tokens;
 
 graph!("goals.afg");

@@ -1,4 +1,5 @@
 //! Tokens of the tests of `goals.afg`: the first goal, its orders, and reports of it.
+#![allow(dead_code, reason = "only the tests of the graphs use them")]
 
 use apex_messages::example_interfaces::{FibonacciFeedback, FibonacciGoal, FibonacciResult};
 use apex_nodes::action::{End, GoalId, Order, Report};
