@@ -135,6 +135,11 @@ impl Endpoints {
         self.zenoh.liveliness().declare_token(token.to_string()).wait().map_err(Error::zenoh(&what))
     }
 
+    /// Returns the number of endpoints so far: the same in each run of a program.
+    pub fn count(&self) -> u64 {
+        self.next.load(Ordering::Relaxed)
+    }
+
     /// Keeps something until the node ends.
     pub fn keep(&self, it: impl Any + Send) {
         locked(&self.kept).push(Box::new(it));

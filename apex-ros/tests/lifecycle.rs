@@ -13,7 +13,11 @@ use apex_messages::{
 use apex_nodes::lifecycle::Outcome;
 use apex_ros::{Client, Distribution, Kind, Ros};
 use apex_rt::{PortReceiver, PortSender, Ports, Switch, UntilStopped, drive_from};
-use common::{Collected, Router, within};
+use common::{
+    Collected, Router,
+    python::{Peer, python},
+    within,
+};
 use std::{
     sync::{Arc, Mutex},
     thread::{self, JoinHandle},
@@ -231,4 +235,25 @@ fn transitions_have_another_form_since_lyrical() {
     jazzy.subscribe("/robot/transition_event").each(|_: TransitionEvent| {}).expect("a topic");
     let why = "with another definition of `lifecycle_msgs/msg/TransitionEvent` (`RIHS01_78b19e2b…`";
     within(3.0, why, || said.all().iter().any(|text| text.contains(why)));
+}
+
+#[test]
+fn a_manager_in_python_starts_and_stops_the_robot() {
+    let Some(python) = python() else { return };
+    let types =
+        [format!("{}={}", ChangeState::NAME, ChangeState::HASH), format!("{}={}", GetState::NAME, GetState::HASH)];
+    let mut manager = Peer::start(&python, "lifecycle_peer.py", &types.each_ref().map(String::as_str));
+    let ros = manager.node("robot");
+    ros.manage().by(|_| Outcome::Success).expect("services");
+    within(10.0, "the state", || manager.does("state").iter().any(|line| line == "state 1 unconfigured"));
+    let mut change = |id: u8, events: [&str; 2]| {
+        let lines = manager.does(&format!("change {id}"));
+        assert!(lines.iter().any(|line| line == "changed 1"), "{lines:?}");
+        within(5.0, events[1], || events.iter().all(|event| manager.says(event)));
+    };
+    change(1, ["event 1 unconfigured configuring", "event 10 configuring inactive"]);
+    change(3, ["event 3 inactive activating", "event 30 activating active"]);
+    change(4, ["event 4 active deactivating", "event 40 deactivating inactive"]);
+    assert!(manager.does("change 4").iter().any(|line| line == "changed 0"), "it is not active");
+    assert!(manager.does("state").iter().any(|line| line == "state 2 inactive"));
 }

@@ -73,6 +73,8 @@ where
         let Self { ros, name, timeout, .. } = self;
         let endpoints = &ros.endpoints;
         let full = endpoints.resolve(&name)?;
+        // Two clients of one action are two.
+        let number = endpoints.count();
         let (sender, happens) = mpsc::channel();
         let of = |part: &str| format!("{full}{part}");
         let goals = ros.call::<SendGoal<A>>(&of(SEND_GOAL)).timeout(LONG).open()?;
@@ -83,7 +85,7 @@ where
             // The client has ended.
             drop(feedback.send(Happening::Feedback(message.id, message.feedback)));
         })?;
-        let ids = Ids::new(endpoints.seed, &ros.name(), &full);
+        let ids = Ids::new(endpoints.seed, (&ros.name(), &full, number));
         let ty = (<SendGoal<A> as Service>::NAME, <SendGoal<A> as Service>::HASH);
         let server = endpoints.endpoint(Kind::Server, &of(SEND_GOAL), ty.0, ty.1, crate::Qos::DEFAULT);
         let worker = Worker {

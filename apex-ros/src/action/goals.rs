@@ -243,7 +243,7 @@ mod tests {
     impl Test {
         fn new() -> Self {
             let start = Instant::now();
-            Self { goals: Goals::new(Ids::new(1, "/a", "/b"), Duration::from_secs(10), start), start, now: start }
+            Self { goals: Goals::new(Ids::new(1, "/a"), Duration::from_secs(10), start), start, now: start }
         }
 
         fn outside(&self) -> GoalId {

@@ -1,16 +1,16 @@
 //! Identifications of goals among those of all programs.
 
 use apex_nodes::action::GoalId;
-use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::hash::{DefaultHasher, Hash, Hasher as _};
 
 /// Makes the numbers of a program's goals identifications that no other program has.
 pub struct Ids(u64);
 
 impl Ids {
-    /// Returns the identifications of an action's client: the same for the same seed and client.
-    pub fn new(seed: u64, client: &str, action: &str) -> Self {
+    /// Returns the identifications of a client: the same for the same seed and client.
+    pub fn new(seed: u64, client: impl Hash) -> Self {
         let mut hasher = DefaultHasher::new();
-        (seed, client, action).hash(&mut hasher);
+        (seed, client).hash(&mut hasher);
         Self(hasher.finish())
     }
 
@@ -40,7 +40,7 @@ mod tests {
 
     #[test]
     fn identifications_follow_from_the_seed() {
-        let ids = |seed, client| Ids::new(seed, client, "/dock");
+        let ids = |seed, client| Ids::new(seed, client);
         let of = |ids: Ids| (0..500).map(|goal| ids.of(GoalId(goal << 60))).collect::<Vec<_>>();
         assert_eq!(of(ids(7, "/a")), of(ids(7, "/a")));
         let all: BTreeSet<_> = [ids(7, "/a"), ids(8, "/a"), ids(7, "/b")].into_iter().flat_map(of).collect();
