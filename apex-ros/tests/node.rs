@@ -219,6 +219,34 @@ fn a_file_has_parameters_by_the_names_of_nodes() {
     assert!(error.starts_with(&format!("{path}:3:5: `drive.factr`: ")) && error.contains("drive.factor"), "{error}");
 }
 
+/// Messages that find the program waiting go straight to it, others wait for it: their order stays.
+#[test]
+fn messages_come_in_their_order_however_fast() {
+    let router = Router::start();
+    beside(&router, &["--ros-args", "-p", "drive.factor:=1"], |tools| {
+        let speeds = Collected::<f64>::new();
+        tools.subscribe("speed").depth(10_000).each(speeds.collector()).expect("a topic");
+        let command = tools.publish("command").depth(10_000).open::<f64>().expect("a topic");
+        within(5.0, "a route", || {
+            command.send(&0.0).expect("it is there");
+            thread::sleep(Duration::from_millis(20));
+            !speeds.all().is_empty()
+        });
+        thread::sleep(Duration::from_millis(300));
+        speeds.clear();
+        for number in 1..=3000_u32 {
+            command.send(&number.into()).expect("it is there");
+            // Bursts, and pauses in which the program waits.
+            if number % 100 < 50 {
+                thread::sleep(Duration::from_micros(u64::from(number % 7) * 50));
+            }
+        }
+        within(5.0, "the last one", || speeds.all().last() == Some(&3000.0));
+        let all = speeds.all();
+        assert!(all.len() > 500 && all.is_sorted_by(|a, b| a < b), "{} of 3000", all.len());
+    });
+}
+
 #[test]
 fn problems_are_in_rosout_and_diagnostics() {
     let router = Router::start();
