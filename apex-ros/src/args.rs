@@ -1,6 +1,11 @@
 //! The arguments of ROS 2 on the command line: `--ros-args -r scan:=front -p near:=0.5`.
 
-use crate::{Error, name::Scope};
+use crate::{
+    Error,
+    name::Scope,
+    params_file::{self, FileParam},
+    yaml,
+};
 
 /// The arguments of ROS 2, and the others.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -13,6 +18,8 @@ pub struct Args {
     pub remappings: Vec<Remapping>,
     /// Values of parameters (`-p mission.near:=0.5`), as written.
     pub params: Vec<(String, String)>,
+    /// Values of parameters in files (`--params-file robot.yaml`), which those of `params` replace.
+    pub file_params: Vec<FileParam>,
     /// Enclave (`-e /robot1`).
     pub enclave: Option<String>,
     /// The arguments outside of `--ros-args … --`.
@@ -36,21 +43,27 @@ impl Args {
     /// An argument that is not known, or without its value.
     pub fn read(arguments: impl IntoIterator<Item = String>, node: &str) -> Result<Self, Error> {
         let (mut args, mut is_ros, mut arguments) = (Self::default(), false, arguments.into_iter());
+        let mut files = vec![];
         while let Some(argument) = arguments.next() {
             match (is_ros, argument.as_str()) {
                 (_, "--ros-args") => is_ros = true,
                 (false, _) => args.others.push(argument),
                 (true, "--") => is_ros = false,
+                (true, "--params-file") => files.push(value_of("--params-file", &mut arguments)?),
                 (true, flag) => args.one(flag, node, &mut arguments)?,
             }
+        }
+        // The names of the node may stand behind the file.
+        let names = Scope::new(args.namespace.as_deref().unwrap_or(""), args.node.as_deref().unwrap_or(node))?;
+        for file in &files {
+            args.file_params.extend(params_file::load(file, &names.full())?);
         }
         Ok(args)
     }
 
     /// Reads an argument of ROS.
     fn one(&mut self, flag: &str, node: &str, rest: &mut impl Iterator<Item = String>) -> Result<(), Error> {
-        let mut value =
-            || rest.next().ok_or_else(|| Error::new(format!("`{flag}` is the last argument: its value is missing")));
+        let mut value = || value_of(flag, rest);
         match flag {
             "-r" | "--remap" => self.remap(&value()?, node),
             "-p" | "--param" => self.param(&value()?, node),
@@ -61,12 +74,8 @@ impl Args {
             // Programs of Apex have no levels of messages.
             "--log-level" | "--log-file-name" => value().map(drop),
             flag if flag.starts_with("--enable-") || flag.starts_with("--disable-") => Ok(()),
-            "--params-file" => Err(Error::new(
-                "`--params-file` is for YAML, which is not read: give values with `-p NAME:=VALUE`, or all of them as \
-                 TOML, as `apex run --params FILE` does",
-            )),
             _ => Err(Error::new(format!(
-                "`{flag}` is not an argument of ROS that is known: `-r`, `-p`, `-e`, `--log-level`"
+                "`{flag}` is not an argument of ROS that is known: `-r`, `-p`, `--params-file`, `-e`, `--log-level`"
             ))),
         }
     }
@@ -109,25 +118,27 @@ impl Args {
 
     /// Value of the parameter `name` of ROS itself, such as `use_sim_time`.
     pub(crate) fn flag(&self, name: &str) -> bool {
-        let value = self.params.iter().rev().find(|(other, _)| other == name);
-        value.is_some_and(|(_, value)| matches!(value.as_str(), "true" | "True" | "1"))
+        let given = self.params.iter().rev().find(|(other, _)| other == name);
+        let in_file = || self.file_params.iter().rev().find(|param| param.name == name);
+        match given {
+            Some((_, value)) => value == "1" || toml(value).is_ok_and(|value| value == "true"),
+            None => in_file().is_some_and(|param| param.value == "true"),
+        }
     }
 }
 
-/// Returns the value of a parameter, which is YAML on the command line, in TOML: a word is a text.
-pub(crate) fn toml(value: &str) -> String {
-    let value = value.trim();
-    let is_number = value.parse::<f64>().is_ok();
+/// Returns the value of a parameter, which is YAML on the command line, in TOML.
+pub(crate) fn toml(value: &str) -> Result<String, Error> {
+    let value = yaml::read(value).and_then(|value| value.map(|value| yaml::toml(&value)).transpose());
     match value {
-        "True" | "TRUE" => "true".to_owned(),
-        "False" | "FALSE" => "false".to_owned(),
-        ".inf" | ".Inf" => "inf".to_owned(),
-        "-.inf" | "-.Inf" => "-inf".to_owned(),
-        ".nan" | ".NaN" => "nan".to_owned(),
-        "true" | "false" => value.to_owned(),
-        _ if is_number || value.starts_with(['[', '"', '\'']) => value.to_owned(),
-        _ => format!("{value:?}"),
+        Ok(value) => Ok(value.unwrap_or_else(|| "\"\"".to_owned())),
+        Err(yaml::Problem { message, .. }) => Err(Error::new(message)),
     }
+}
+
+/// The value of an argument, which follows it.
+fn value_of(flag: &str, rest: &mut impl Iterator<Item = String>) -> Result<String, Error> {
+    rest.next().ok_or_else(|| Error::new(format!("`{flag}` is the last argument: its value is missing")))
 }
 
 /// Both sides of `:=`.
@@ -188,26 +199,15 @@ mod tests {
             ("--ros-args -r", "`-r` is the last argument: its value is missing"),
             ("--ros-args -r scan", "`scan` is not of the form `FROM:=TO`"),
             ("--ros-args -p :=1", "`:=1` is not of the form `NAME:=VALUE`"),
-            ("--ros-args --frob", "`--frob` is not an argument of ROS that is known: `-r`, `-p`, `-e`, `--log-level`"),
+            (
+                "--ros-args --frob",
+                "`--frob` is not an argument of ROS that is known: `-r`, `-p`, `--params-file`, `-e`, `--log-level`",
+            ),
         ] {
             assert_eq!(read(text).map_err(|error| error.to_string()), Err(message.to_owned()));
         }
-        assert!(read("--ros-args --params-file a.yaml").is_err_and(|error| error.to_string().contains("YAML")));
-    }
-
-    #[test]
-    fn values_are_yaml() {
-        for (yaml, as_toml) in [
-            ("0.5", "0.5"),
-            ("-3", "-3"),
-            ("True", "true"),
-            (".inf", "inf"),
-            ("[1, 2]", "[1, 2]"),
-            ("laser", "\"laser\""),
-            ("'a b'", "'a b'"),
-        ] {
-            assert_eq!(toml(yaml), as_toml);
-        }
+        let error = read("--ros-args --params-file /nowhere.yaml").expect_err("no file").to_string();
+        assert!(error.starts_with("cannot read `/nowhere.yaml`"), "{error}");
     }
 
     #[test]

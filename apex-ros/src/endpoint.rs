@@ -6,11 +6,12 @@ use crate::{
     ros::Tell,
     silence::{Ours, Watch},
     time::RosTime,
+    voice::Voice,
 };
 use std::{
     any::Any,
     collections::hash_map::DefaultHasher,
-    hash::{Hash as _, Hasher as _},
+    hash::{BuildHasher as _, Hash as _, Hasher as _, RandomState},
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicU64, Ordering},
@@ -30,6 +31,10 @@ pub struct Endpoints {
     pub time: RosTime,
     pub watch: Arc<Watch>,
     pub tell: Tell,
+    /// Seed of the identifications of goals.
+    pub seed: u64,
+    /// Leave to publish the events of the program.
+    pub voice: Arc<Voice>,
     next: AtomicU64,
     /// Subscribers, servers and tokens, which end when they are dropped.
     kept: Mutex<Vec<Box<dyn Any + Send>>>,
@@ -59,7 +64,10 @@ impl Endpoints {
         tell: Tell,
         is_simulated: bool,
     ) -> Self {
+        let seed = RandomState::new().hash_one(zenoh.zid().to_string());
         Self {
+            seed,
+            voice: Arc::default(),
             zenoh,
             domain,
             scope,
@@ -125,6 +133,11 @@ impl Endpoints {
     pub fn declare(&self, token: &Token) -> Result<LivelinessToken, Error> {
         let what = format!("the token `{token}` cannot be declared");
         self.zenoh.liveliness().declare_token(token.to_string()).wait().map_err(Error::zenoh(&what))
+    }
+
+    /// Returns the number of endpoints so far: the same in each run of a program.
+    pub fn count(&self) -> u64 {
+        self.next.load(Ordering::Relaxed)
     }
 
     /// Keeps something until the node ends.

@@ -1,6 +1,6 @@
 //! Programs that are there, by their liveliness tokens.
 
-use crate::{Kind, Token};
+use crate::{Endpoint, Kind, Token};
 use std::{
     collections::HashMap,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
@@ -35,6 +35,13 @@ impl Graph {
             token.session != session && token.endpoint.as_ref().is_some_and(|endpoint| endpoint.kind == kind)
         };
         self.tokens().values().filter(is_one).cloned().collect()
+    }
+
+    /// Returns `true` if there is an endpoint with this kind, name and type in a domain, in any program.
+    pub fn has(&self, domain: u32, wanted: &Endpoint) -> bool {
+        let is_wanted = |it: &Endpoint| Endpoint { qos: wanted.qos, ..it.clone() } == *wanted;
+        let is_one = |token: &Token| token.domain == domain && token.endpoint.as_ref().is_some_and(is_wanted);
+        self.tokens().values().any(is_one)
     }
 
     fn tokens(&self) -> MutexGuard<'_, HashMap<String, Token>> {

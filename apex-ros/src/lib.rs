@@ -1,14 +1,17 @@
-//! Programs of Apex beside ROS 2, without ROS installed: topics, services and parameters over Zenoh, as `rmw_zenoh`
-//! has them.
+//! Programs of Apex beside ROS 2, without ROS installed: topics, services, actions and parameters over Zenoh, as
+//! `rmw_zenoh` has them.
+mod action;
 mod args;
 mod attachment;
 mod distribution;
 mod endpoint;
 mod error;
 mod graph;
+mod lifecycle;
 mod log;
 mod name;
 mod params;
+mod params_file;
 mod publication;
 mod qos;
 mod ring;
@@ -20,12 +23,17 @@ mod subscription;
 mod tf;
 mod time;
 mod token;
+mod voice;
+mod yaml;
 
+pub use action::{SendingGoals, ServingGoals};
 pub use args::{Args, Remapping};
 pub use attachment::Attachment;
 pub use distribution::{Distribution, NO_HASH};
 pub use error::Error;
+pub use lifecycle::Managing;
 pub use name::{Scope, key, type_of_wire, wire_type};
+pub use params_file::FileParam;
 pub use publication::{Publisher, Publishing, PublishingAs};
 pub use qos::{Durability, Qos, Reliability};
 pub use ros::{Opening, Ros};

@@ -18,7 +18,7 @@ use apex_rt::{
 use std::sync::{Arc, OnceLock};
 
 /// The parameter that every node has. It is fixed when the node starts.
-const SIM_TIME: &str = "use_sim_time";
+pub const SIM_TIME: &str = "use_sim_time";
 
 impl Ros {
     /// Offers the parameters of a program as those of the node: `ros2 param set /rover mission.near 0.5`. Parameters

@@ -1,14 +1,14 @@
 //! Publishers: from the events of a program to topics.
 
 use crate::{Attachment, Error, Kind, Qos, Reliability, Ros, endpoint::Declared, time::RosTime, time::calendar};
-use apex_messages::{
-    Message,
-    cdr::{Outside, Writer},
-};
+use apex_messages::Message;
 use apex_rt::PortReceiver;
 use std::{
     marker::PhantomData,
-    sync::atomic::{AtomicI64, Ordering},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicI64, Ordering},
+    },
     time::Duration,
 };
 use zenoh::{
@@ -132,17 +132,28 @@ impl<'a> Publishing<'a> {
         send: fn(&Publisher<M>, &T) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let ros = self.ros;
-        let (publisher, tell) = (self.open::<M>()?, ros.endpoints.tell.clone());
+        let (publisher, tell) = (Arc::new(self.open::<M>()?), ros.endpoints.tell.clone());
+        let (last, voice) = (Arc::new(Mutex::new(last)), Arc::clone(&ros.endpoints.voice));
+        let say_last = {
+            let (publisher, tell) = (Arc::clone(&publisher), ros.endpoints.tell.clone());
+            move || {
+                let last = last.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some(Err(error)) = last.as_ref().map(|last| send(&publisher, last)) {
+                    tell(&error.to_string());
+                }
+            }
+        };
+        voice.at_silence(say_last.clone());
         ros.endpoints.spawn(&publisher.topic.clone(), move || {
             while let Some(token) = port.receive().as_ref() {
+                let Some(leave) = voice.leave() else { continue };
                 if let Err(error) = send(&publisher, token) {
                     tell(&error.to_string());
                     break;
                 }
+                drop(leave);
             }
-            if let Some(Err(error)) = last.map(|last| send(&publisher, &last)) {
-                tell(&error.to_string());
-            }
+            say_last();
         })
     }
 }
@@ -177,9 +188,7 @@ impl<M: Message> Publisher<M> {
     /// # Errors
     /// The node has ended.
     pub fn send(&self, message: &M) -> Result<(), Error> {
-        let (zero, now) = (self.time.known_zero(), self.time.now());
-        let mut bytes = vec![];
-        message.write(&mut Writer::new(&mut bytes).for_others(Outside { zero, now, frame: self.frame.as_deref() }));
+        let bytes = self.time.write(message, self.frame.as_deref());
         let number = self.number.fetch_add(1, Ordering::Relaxed);
         let attachment = Attachment { number, time: calendar(), sender: self.id }.to_bytes();
         let (payload, attachment) = (ZBytes::from(bytes), ZBytes::from(attachment.to_vec()));

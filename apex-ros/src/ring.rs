@@ -14,6 +14,8 @@ pub struct Ring<T> {
 struct State<T> {
     waiting: VecDeque<T>,
     room: usize,
+    /// `true` while the message that was taken out last is in use.
+    is_busy: bool,
     is_closed: bool,
 }
 
@@ -23,16 +25,21 @@ pub struct Entrance<T>(Arc<Ring<T>>);
 impl<T> Ring<T> {
     /// Returns a ring with room for this number of messages, at least one, and its entrance.
     pub fn new(room: usize) -> (Arc<Self>, Entrance<T>) {
-        let state = State { waiting: VecDeque::new(), room: room.max(1), is_closed: false };
+        let state = State { waiting: VecDeque::new(), room: room.max(1), is_busy: false, is_closed: false };
         let ring = Arc::new(Self { state: Mutex::new(state), changed: Condvar::new() });
         (Arc::clone(&ring), Entrance(ring))
     }
 
-    /// Waits for a message and takes it out. Returns `None` if there will be none.
+    /// Waits for a message and takes it out. Returns `None` if there will be none. The one before is not in use any
+    /// more.
     pub fn take(&self) -> Option<T> {
         let is_empty = |state: &mut State<T>| state.waiting.is_empty() && !state.is_closed;
-        let state = self.changed.wait_while(self.state(), is_empty);
-        state.unwrap_or_else(PoisonError::into_inner).waiting.pop_front()
+        let mut state = self.state();
+        state.is_busy = false;
+        let mut state = self.changed.wait_while(state, is_empty).unwrap_or_else(PoisonError::into_inner);
+        let message = state.waiting.pop_front();
+        state.is_busy = message.is_some();
+        message
     }
 
     fn state(&self) -> MutexGuard<'_, State<T>> {
@@ -41,6 +48,12 @@ impl<T> Ring<T> {
 }
 
 impl<T> Entrance<T> {
+    /// Returns `true` if no message waits or is in use: the next one would be the first.
+    pub fn is_idle(&self) -> bool {
+        let state = self.0.state();
+        state.waiting.is_empty() && !state.is_busy
+    }
+
     /// Puts a message in. Returns `true` if it took the place of another one.
     pub fn put(&self, message: T) -> bool {
         let mut state = self.0.state();
@@ -72,6 +85,24 @@ mod tests {
         let (ring, entrance) = Ring::new(2);
         assert_eq!([1, 2, 3].map(|message| entrance.put(message)), [false, false, true]);
         assert_eq!((ring.take(), ring.take()), (Some(2), Some(3)));
+    }
+
+    #[test]
+    fn it_is_idle_when_the_last_message_was_used() {
+        let (ring, entrance) = Ring::new(2);
+        assert!(entrance.is_idle());
+        entrance.put(1);
+        entrance.put(2);
+        assert!(!entrance.is_idle());
+        ring.take();
+        ring.take();
+        assert!(!entrance.is_idle(), "the second one is in use");
+        let waits = thread::spawn(move || ring.take());
+        while !entrance.is_idle() {
+            thread::yield_now();
+        }
+        drop(entrance);
+        assert_eq!(waits.join().ok(), Some(None));
     }
 
     #[test]

@@ -6,13 +6,18 @@ use crate::{
     graph::Graph,
     log::Log,
     name::Scope,
+    params::SIM_TIME,
+    params_file::FileParam,
     session,
     silence::{Situation, Watch},
     time::{RosClock, RosTime},
     token::{SPACE, Token},
 };
 use apex_messages::rosgraph_msgs;
-use apex_rt::{Ports, Program, UntilStopped, drive_from, params::set_text};
+use apex_rt::{
+    Ports, Program, UntilStopped, drive_from,
+    params::{ParamError, set_text},
+};
 use std::{env, str::FromStr as _, sync::Arc, thread};
 use zenoh::Wait as _;
 
@@ -26,6 +31,7 @@ pub struct Opening {
     domain: Option<u32>,
     router: Option<String>,
     distribution: Option<Distribution>,
+    seed: Option<u64>,
     tell: Tell,
 }
 
@@ -54,6 +60,14 @@ impl Opening {
         Self { distribution: Some(distribution), ..self }
     }
 
+    /// Makes the identifications of the goals that the node sends follow from this number and the names of the node and
+    /// the action, so that a simulated run can be repeated. By default they differ each time, so that servers never
+    /// confuse the goals of two runs.
+    #[must_use]
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed: Some(seed), ..self }
+    }
+
     /// Calls `tell` with what is otherwise written to standard error: reasons for silence, and messages that cannot be
     /// read.
     #[must_use]
@@ -79,8 +93,10 @@ impl Opening {
                 log.add(text);
             })
         };
-        let is_simulated = args.flag("use_sim_time");
-        let endpoints = Arc::new(Endpoints::new(zenoh, domain, scope, args, self.distribution, tell, is_simulated));
+        let is_simulated = args.flag(SIM_TIME);
+        let mut endpoints = Endpoints::new(zenoh, domain, scope, args, self.distribution, tell, is_simulated);
+        endpoints.seed = self.seed.unwrap_or(endpoints.seed);
+        let endpoints = Arc::new(endpoints);
         let node = Token {
             domain,
             session: endpoints.session_id(),
@@ -125,7 +141,7 @@ fn domain() -> Result<u32, Error> {
 pub struct Ros {
     pub(crate) endpoints: Arc<Endpoints>,
     pub(crate) log: Log,
-    graph: Graph,
+    pub(crate) graph: Graph,
     router: String,
 }
 
@@ -139,6 +155,7 @@ impl Ros {
             domain: None,
             router: None,
             distribution: None,
+            seed: None,
             tell: Arc::new(tell),
         }
     }
@@ -178,14 +195,26 @@ impl Ros {
         RosClock(self.endpoints.time.clone())
     }
 
-    /// Sets the parameters of the program that the arguments name: `--ros-args -p mission.near:=0.5`.
+    /// Sets the parameters of the program that the arguments name: those in files, then those of
+    /// `--ros-args -p mission.near:=0.5`. A parameter that a file has for nodes by a pattern, as `/**`, may be missing.
     ///
     /// # Errors
     /// The program has no such parameter, or its value is of another type or out of range.
     pub fn set_params<P: Program>(&self, program: &mut P) -> Result<(), Error> {
-        for (name, value) in self.args().params.iter().filter(|(name, _)| name != "use_sim_time") {
-            set_text(program, name, &crate::args::toml(value))
-                .map_err(|error| Error::new(format!("`-p {name}:={value}`: {error}")))?;
+        for FileParam { name, value, place, is_named } in &self.args().file_params {
+            match set_text(program, name, value) {
+                Err(ParamError::Unknown { .. }) if !is_named || name == SIM_TIME => {}
+                Err(error @ ParamError::Unknown { .. }) => {
+                    return Err(Error::new(format!("{place}: `{name}`: {error}")));
+                }
+                Err(error) => return Err(Error::new(format!("{place}: {error}"))),
+                Ok(()) => {}
+            }
+        }
+        for (name, value) in self.args().params.iter().filter(|(name, _)| name != SIM_TIME) {
+            let wrong = |error: &dyn std::fmt::Display| Error::new(format!("`-p {name}:={value}`: {error}"));
+            let value = crate::args::toml(value).map_err(|error| wrong(&error))?;
+            set_text(program, name, &value).map_err(|error| wrong(&error))?;
         }
         Ok(())
     }

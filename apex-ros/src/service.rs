@@ -1,20 +1,25 @@
 //! Services: requests and responses, as queries of Zenoh and their replies.
 
-use crate::{Attachment, Error, Kind, Qos, Ros, ring::Ring, time::calendar};
-use apex_messages::{Message, Service};
+use crate::{
+    Attachment, Error, Kind, Qos, Ros,
+    ring::Ring,
+    ros::Tell,
+    time::{RosTime, calendar},
+};
+use apex_messages::Service;
 use apex_rt::{PortReceiver, PortSender};
 use std::{
     marker::PhantomData,
     sync::{
-        Arc,
-        atomic::{AtomicI64, Ordering},
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicI64, Ordering},
     },
     time::Duration,
 };
 use zenoh::{
     Wait as _,
     bytes::ZBytes,
-    query::{ConsolidationMode, Querier, Query, QueryTarget},
+    query::{ConsolidationMode, Querier, Query, QueryTarget, Reply},
 };
 
 /// Requests that wait at a server. A client whose request makes room for another one gets no response.
@@ -35,6 +40,7 @@ pub struct Calling<'a, S> {
     ros: &'a Ros,
     name: String,
     timeout: Duration,
+    is_quiet: bool,
     service: PhantomData<fn() -> S>,
 }
 
@@ -45,6 +51,10 @@ pub struct Client<S> {
     number: AtomicI64,
     name: String,
     timeout: Duration,
+    time: RosTime,
+    tell: Tell,
+    /// `true` if it was told that a response cannot be read.
+    told: Arc<AtomicBool>,
     service: PhantomData<fn() -> S>,
 }
 
@@ -59,11 +69,14 @@ impl Ros {
 
     /// Begins a client of a service of another node.
     pub fn call<S: Service>(&self, name: &str) -> Calling<'_, S> {
-        Calling { ros: self, name: name.to_owned(), timeout: TIMEOUT, service: PhantomData }
+        Calling { ros: self, name: name.to_owned(), timeout: TIMEOUT, is_quiet: false, service: PhantomData }
     }
 }
 
-impl<S: Service + 'static> Serving<'_, S> {
+impl<S: Service + 'static> Serving<'_, S>
+where
+    S::Request: Send,
+{
     /// Answers requests by a function, which is called on a thread of its own.
     ///
     /// # Errors
@@ -79,7 +92,6 @@ impl<S: Service + 'static> Serving<'_, S> {
     /// The name is not one of ROS.
     pub fn through(self, slot: PortSender<S::Request>, event: PortReceiver<S::Response>) -> Result<(), Error>
     where
-        S::Request: Send,
         S::Response: Send,
     {
         self.answer(move |request| {
@@ -91,36 +103,65 @@ impl<S: Service + 'static> Serving<'_, S> {
     /// Answers requests until `answer` returns `None`.
     fn answer(self, mut answer: impl FnMut(S::Request) -> Option<S::Response> + Send + 'static) -> Result<(), Error> {
         let endpoints = &self.ros.endpoints;
-        let declared = endpoints.add(Kind::Server, &self.name, (S::NAME, S::HASH), Qos::DEFAULT, self.is_quiet)?;
-        let name = declared.ours.endpoint.name.clone();
         let (ring, entrance) = Ring::new(ROOM);
-        let hear = move |query: Query| {
-            entrance.put(query);
+        let hear = move |request: S::Request, asked: Asked<S>| {
+            entrance.put((request, asked));
         };
-        let queryable = endpoints.zenoh.declare_queryable(declared.key.clone()).complete(true).callback(hear).wait();
-        endpoints.keep(queryable.map_err(Error::zenoh(&format!("`{name}` cannot be served")))?);
-        let (tell, key) = (Arc::clone(&endpoints.tell), declared.key);
-        endpoints.spawn(&name.clone(), move || {
-            while let Some(query) = ring.take() {
-                let request = query.payload().map(ZBytes::to_bytes).unwrap_or_default();
-                match S::Request::from_bytes(&request) {
-                    Ok(request) => match answer(request) {
-                        Some(response) => reply(&query, &key, &response),
-                        None => break,
-                    },
-                    Err(reason) => tell(&format!("`{name}`: a request cannot be read: {reason}")),
+        listen(self.ros, &self.name, self.is_quiet, hear)?;
+        endpoints.spawn(&self.name, move || {
+            while let Some((request, asked)) = ring.take() {
+                match answer(request) {
+                    Some(response) => asked.answer(&response),
+                    None => break,
                 }
             }
         })
     }
 }
 
-/// Replies with the number and the client of the request. A client that has gone does not get it.
-fn reply(query: &Query, key: &str, response: &impl Message) {
-    let asked = query.attachment().and_then(|attachment| Attachment::read(&attachment.to_bytes()));
-    let (number, sender) = asked.map_or((0, [0; 16]), |asked| (asked.number, asked.sender));
-    let attachment = Attachment { number, time: calendar(), sender }.to_bytes();
-    drop(query.reply(key, response.to_bytes()).attachment(attachment.to_vec()).wait());
+/// Offers a service, and passes its requests to `hear` on a thread of Zenoh. Requests that cannot be read are told.
+pub fn listen<S: Service + 'static>(
+    ros: &Ros,
+    name: &str,
+    is_quiet: bool,
+    hear: impl Fn(S::Request, Asked<S>) + Send + Sync + 'static,
+) -> Result<(), Error> {
+    let endpoints = &ros.endpoints;
+    let declared = endpoints.add(Kind::Server, name, (S::NAME, S::HASH), Qos::DEFAULT, is_quiet)?;
+    let name = declared.ours.endpoint.name.clone();
+    let (tell, time) = (Arc::clone(&endpoints.tell), endpoints.time.clone());
+    let (key, what) = (Arc::from(declared.key.as_str()), format!("`{name}` cannot be served"));
+    let hear = move |query: Query| {
+        let request = time.read(&query.payload().map(ZBytes::to_bytes).unwrap_or_default());
+        match request {
+            Ok(request) => {
+                hear(request, Asked { query, key: Arc::clone(&key), time: time.clone(), service: PhantomData });
+            }
+            Err(reason) => tell(&format!("`{name}`: a request cannot be read: {reason}")),
+        }
+    };
+    let queryable = endpoints.zenoh.declare_queryable(declared.key).complete(true).callback(hear).wait();
+    endpoints.keep(queryable.map_err(Error::zenoh(&what))?);
+    Ok(())
+}
+
+/// Request that waits for its response.
+pub struct Asked<S> {
+    query: Query,
+    key: Arc<str>,
+    time: RosTime,
+    service: PhantomData<fn() -> S>,
+}
+
+impl<S: Service> Asked<S> {
+    /// Answers with the number and the client of the request. A client that has gone does not get it.
+    pub fn answer(self, response: &S::Response) {
+        let Self { query, key, time, .. } = self;
+        let asked = query.attachment().and_then(|attachment| Attachment::read(&attachment.to_bytes()));
+        let (number, sender) = asked.map_or((0, [0; 16]), |asked| (asked.number, asked.sender));
+        let attachment = Attachment { number, time: calendar(), sender }.to_bytes();
+        drop(query.reply(&*key, time.write(response, None)).attachment(attachment.to_vec()).wait());
+    }
 }
 
 impl<S: Service + 'static> Calling<'_, S> {
@@ -129,13 +170,18 @@ impl<S: Service + 'static> Calling<'_, S> {
         Self { timeout, ..self }
     }
 
+    /// Says nothing if no node serves it.
+    pub(crate) fn quiet(self) -> Self {
+        Self { is_quiet: true, ..self }
+    }
+
     /// Returns a client for use in Rust.
     ///
     /// # Errors
     /// The name is not one of ROS.
     pub fn open(self) -> Result<Client<S>, Error> {
         let endpoints = &self.ros.endpoints;
-        let declared = endpoints.add(Kind::Client, &self.name, (S::NAME, S::HASH), Qos::DEFAULT, false)?;
+        let declared = endpoints.add(Kind::Client, &self.name, (S::NAME, S::HASH), Qos::DEFAULT, self.is_quiet)?;
         let name = declared.ours.endpoint.name.clone();
         let querier = endpoints
             .zenoh
@@ -145,8 +191,9 @@ impl<S: Service + 'static> Calling<'_, S> {
             .timeout(self.timeout)
             .wait()
             .map_err(Error::zenoh(&format!("`{name}` cannot be called")))?;
-        let (id, number, timeout) = (declared.id, AtomicI64::new(1), self.timeout);
-        Ok(Client { querier, id, number, name, timeout, service: PhantomData })
+        let (id, number, timeout, time) = (declared.id, AtomicI64::new(1), self.timeout, endpoints.time.clone());
+        let tell = Arc::clone(&endpoints.tell);
+        Ok(Client { querier, id, number, name, timeout, time, tell, told: Arc::default(), service: PhantomData })
     }
 
     /// Calls the service with the tokens of an event, one after the other, and puts the responses into a slot. A call
@@ -180,9 +227,8 @@ impl<S: Service> Client<S> {
     /// No node serves it, no response comes in time, or it cannot be read.
     pub fn ask(&self, request: &S::Request) -> Result<S::Response, Error> {
         let (name, seconds) = (&self.name, self.timeout.as_secs_f32());
-        let number = self.number.fetch_add(1, Ordering::Relaxed);
-        let attachment = Attachment { number, time: calendar(), sender: self.id }.to_bytes();
-        let replies = self.querier.get().payload(request.to_bytes()).attachment(attachment.to_vec()).wait();
+        let (payload, attachment) = self.request(request);
+        let replies = self.querier.get().payload(payload).attachment(attachment).wait();
         let replies = replies.map_err(Error::zenoh(&format!("`{name}` cannot be called")))?;
         let reply = match replies.recv_timeout(self.timeout) {
             Ok(Some(reply)) => reply,
@@ -195,7 +241,56 @@ impl<S: Service> Client<S> {
             let why = String::from_utf8_lossy(&error.payload().to_bytes()).into_owned();
             Error::new(format!("`{name}`: no response has come within {seconds} s: {why}"))
         })?;
-        S::Response::from_bytes(&sample.payload().to_bytes())
-            .map_err(|reason| Error::new(format!("`{name}`: the response cannot be read: {reason}")))
+        self.response(&sample.payload().to_bytes())
+    }
+
+    /// Calls the service. `then` gets the first response on a thread of Zenoh, or `None` if there will be none.
+    pub(crate) fn begin(&self, request: &S::Request, then: impl FnOnce(Option<S::Response>) + Send + 'static)
+    where
+        S: 'static,
+    {
+        let (payload, attachment) = self.request(request);
+        let (once, name) = (Once(Mutex::new(Some(then)), PhantomData), self.name.clone());
+        let (time, tell, told) = (self.time.clone(), Arc::clone(&self.tell), Arc::clone(&self.told));
+        let hear = move |reply: Reply| {
+            let Ok(sample) = reply.into_result() else { return };
+            match time.read(&sample.payload().to_bytes()) {
+                Ok(response) => once.call(Some(response)),
+                Err(_) if told.swap(true, Ordering::Relaxed) => {}
+                Err(reason) => tell(&format!("`{name}`: a response cannot be read: {reason}")),
+            }
+        };
+        // A session that is closed drops the function, which calls `then`.
+        drop(self.querier.get().payload(payload).attachment(attachment).callback(hear).wait());
+    }
+
+    /// Payload and attachment of a request.
+    fn request(&self, request: &S::Request) -> (Vec<u8>, Vec<u8>) {
+        let number = self.number.fetch_add(1, Ordering::Relaxed);
+        let attachment = Attachment { number, time: calendar(), sender: self.id }.to_bytes();
+        (self.time.write(request, None), attachment.to_vec())
+    }
+
+    fn response(&self, bytes: &[u8]) -> Result<S::Response, Error> {
+        let name = &self.name;
+        self.time.read(bytes).map_err(|reason| Error::new(format!("`{name}`: the response cannot be read: {reason}")))
+    }
+}
+
+/// Function that is called once: with a response, or without one at the end.
+struct Once<T, F: FnOnce(Option<T>)>(Mutex<Option<F>>, PhantomData<fn(T)>);
+
+impl<T, F: FnOnce(Option<T>)> Once<T, F> {
+    fn call(&self, response: Option<T>) {
+        let then = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(then) = then {
+            then(response);
+        }
+    }
+}
+
+impl<T, F: FnOnce(Option<T>)> Drop for Once<T, F> {
+    fn drop(&mut self) {
+        self.call(None);
     }
 }

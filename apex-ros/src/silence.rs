@@ -1,6 +1,6 @@
 //! Reasons for silence, in words: why nothing comes, and why no node listens.
 
-use crate::{Kind, NO_HASH, Token, graph::Graph, token::Endpoint};
+use crate::{Kind, NO_HASH, Token, action::action_of, graph::Graph, token::Endpoint};
 use std::{
     sync::{
         Arc, Condvar, Mutex, PoisonError,
@@ -49,9 +49,9 @@ const fn other_side(kind: Kind) -> (Kind, &'static str) {
 /// meets one.
 pub fn reason(domain: u32, ours: &Endpoint, others: &[Token]) -> Option<String> {
     let (_, does) = other_side(ours.kind);
-    let name = &ours.name;
+    let name = shown(&ours.name);
     let endpoints = || others.iter().filter_map(|token| Some((token, token.endpoint.as_ref()?)));
-    let here = || endpoints().filter(|(token, it)| token.domain == domain && it.name == *name);
+    let here = || endpoints().filter(|(token, it)| token.domain == domain && it.name == ours.name);
     if here().any(|(_, it)| it.wire_type == ours.wire_type && it.hash == ours.hash) {
         return None;
     }
@@ -78,7 +78,7 @@ pub fn reason(domain: u32, ours: &Endpoint, others: &[Token]) -> Option<String> 
         let (node, theirs, here) = (node(token), it.type_name(), ours.type_name());
         return Some(format!("`{node}` {does} `{name}` as `{theirs}`, and this program has `{here}` there"));
     }
-    if let Some((token, _)) = endpoints().find(|(_, it)| it.name == *name && it.wire_type == ours.wire_type) {
+    if let Some((token, _)) = endpoints().find(|(_, it)| it.name == ours.name && it.wire_type == ours.wire_type) {
         let other = token.domain;
         return Some(format!(
             "no node {does} `{name}` in domain {domain}, but `{}` does in domain {other}: set `ROS_DOMAIN_ID={other}`",
@@ -90,10 +90,15 @@ pub fn reason(domain: u32, ours: &Endpoint, others: &[Token]) -> Option<String> 
         Some((_, it)) => format!(
             "no node {does} `{name}`; `{other}` has its type: if you mean that, start with \
              `--ros-args -r {name}:={other}`",
-            other = it.name
+            other = shown(&it.name)
         ),
         None => format!("no node {does} `{name}`"),
     })
+}
+
+/// Name in messages: an action is known by the service for its goals.
+fn shown(name: &str) -> &str {
+    action_of(name).unwrap_or(name)
 }
 
 /// Full name of the node of a token.
@@ -217,14 +222,14 @@ fn look(ours: &Ours, known: &mut Known, at: &Situation, is_connected: bool, now:
     let is_silent = known.silence(heard, now);
     let others = at.graph.others(kind, &at.session);
     let reason = reason(at.domain, endpoint, &others).or_else(|| {
-        let name = &endpoint.name;
+        let name = shown(&endpoint.name);
         is_silent.then(|| {
             format!("no message of `{name}` has come for {} s, and its publisher is there", SILENT.as_secs_f32())
         })
     });
     // Without a router nothing is known about the others, and that has been said.
     let reason = reason.filter(|_| is_connected || !others.is_empty());
-    known.note(reason, || format!("a node {does} `{}` now", endpoint.name), now)
+    known.note(reason, || format!("a node {does} `{}` now", shown(&endpoint.name)), now)
 }
 
 #[cfg(test)]

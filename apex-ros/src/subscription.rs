@@ -6,11 +6,12 @@ use crate::{
     ring::{Entrance, Ring},
     ros::Tell,
     silence::Ours,
+    time::RosTime,
 };
 use apex_messages::{Foreign, Message, Reason, cdr::Reader};
 use apex_rt::PortSender;
 use std::{
-    sync::{Arc, atomic::Ordering},
+    sync::{Arc, Mutex, PoisonError, atomic::Ordering},
     time::{Duration, Instant},
 };
 use zenoh::{Wait as _, bytes::ZBytes, sample::Sample};
@@ -92,7 +93,9 @@ impl<'a> Subscribing<'a> {
     /// # Errors
     /// The name is not one of ROS, or the type is not read from this message.
     pub fn feed<T: Message + Send + 'static>(self, port: PortSender<T>) -> Result<Subscription, Error> {
-        self.take(move |token| port.send(token).is_ok())
+        let port = Arc::new(port);
+        let at_once = Arc::clone(&port);
+        self.take(move |token| port.send(token).is_ok(), Some(move |token| at_once.put(token).is_ok()))
     }
 
     /// Calls `act` with each message, on a thread of its own.
@@ -100,36 +103,47 @@ impl<'a> Subscribing<'a> {
     /// # Errors
     /// The errors of [`Subscribing::feed`].
     pub fn each<T: Message + 'static>(self, mut act: impl FnMut(T) + Send + 'static) -> Result<Subscription, Error> {
-        self.take(move |token| {
+        let act = move |token| {
             act(token);
             true
-        })
+        };
+        self.take(act, None::<fn(T) -> bool>)
     }
 
-    /// Calls `act` with each token until it returns `false`.
+    /// Calls `act` with each token until it returns `false`. If nothing waits, a small message goes to `at_once` on the
+    /// thread of Zenoh: this saves the way through another thread. A token that it refuses is left to `act`.
     fn take<T: Message + 'static>(
         self,
         mut act: impl FnMut(T) -> bool + Send + 'static,
+        at_once: Option<impl Fn(T) -> bool + Send + Sync + 'static>,
     ) -> Result<Subscription, Error> {
         let form: Foreign<T> = self.form()?;
         let Self { ros, topic, qos, part, is_quiet, .. } = self;
         let endpoints = &ros.endpoints;
         let declared = endpoints.add(Kind::Subscription, &topic, (form.name, form.hash), qos, is_quiet)?;
         let (ring, entrance) = Ring::new(qos.kept());
-        listen(ros, &declared, qos, entrance)?;
-        let (time, mut complaints) = (endpoints.time.clone(), Complaints::new(&declared, Arc::clone(&endpoints.tell)));
         // The time of the simulation does not wait for itself.
         let is_clock = form.name == "rosgraph_msgs/msg/Clock";
+        let complaints = Complaints::new(&declared, Arc::clone(&endpoints.tell));
+        let reading =
+            Reading { form, part, time: endpoints.time.clone(), is_clock, complaints: Mutex::new(complaints) };
+        let reading = Arc::new(reading);
+        let here = Arc::clone(&reading);
+        // Two publishers may come at once, on two threads.
+        let turn = Mutex::new(());
+        let first = move |payload: &ZBytes, entrance: &Entrance<ZBytes>| {
+            let Some(at_once) = at_once.as_ref().filter(|_| payload.len() <= SMALL && here.is_ready()) else {
+                return false;
+            };
+            let Ok(_turn) = turn.try_lock() else { return false };
+            entrance.is_idle() && here.read(payload).is_some_and(|token| token.is_none_or(at_once))
+        };
+        listen(ros, &declared, qos, entrance, first)?;
         endpoints.spawn(&declared.ours.endpoint.name, move || {
             while let Some(payload) = ring.take() {
-                let Some(zero) = (if is_clock { Some(0) } else { time.zero() }) else { break };
-                match read(&form, &payload, zero, &part) {
-                    Ok(token) => {
-                        if !token.is_none_or(&mut act) {
-                            break;
-                        }
-                    }
-                    Err(reason) => complaints.add(&reason),
+                let Some(token) = reading.read(&payload) else { break };
+                if !token.is_none_or(&mut act) {
+                    break;
                 }
             }
         })?;
@@ -154,6 +168,37 @@ impl<'a> Subscribing<'a> {
     }
 }
 
+/// Longest message that is read on the thread of Zenoh, on which those of other topics wait, in bytes.
+const SMALL: usize = 64 * 1024;
+
+/// Reads the tokens of a subscription.
+struct Reading<T> {
+    form: Foreign<T>,
+    part: String,
+    time: RosTime,
+    /// `true` for `/clock`.
+    is_clock: bool,
+    complaints: Mutex<Complaints>,
+}
+
+impl<T> Reading<T> {
+    /// Returns `true` if a token can be read without waiting for a time.
+    fn is_ready(&self) -> bool {
+        self.is_clock || self.time.is_known()
+    }
+
+    /// Reads a token. There is none if the message does not have the part, or cannot be read, which is told. Returns
+    /// `None` if the node ends.
+    fn read(&self, payload: &ZBytes) -> Option<Option<T>> {
+        let zero = if self.is_clock { 0 } else { self.time.zero()? };
+        let token = read(&self.form, payload, zero, &self.part).unwrap_or_else(|reason| {
+            self.complaints.lock().unwrap_or_else(PoisonError::into_inner).add(&reason);
+            None
+        });
+        Some(token)
+    }
+}
+
 /// Reads a token; `None` if the message does not have the part.
 fn read<T>(form: &Foreign<T>, payload: &ZBytes, zero: i64, part: &str) -> Result<Option<T>, Reason> {
     let bytes = payload.to_bytes();
@@ -162,12 +207,18 @@ fn read<T>(form: &Foreign<T>, payload: &ZBytes, zero: i64, part: &str) -> Result
     if token.is_some() && reader.left() > PADDING { Err("bytes are left over".into()) } else { Ok(token) }
 }
 
-/// Lets the messages of a topic into a ring.
-fn listen(ros: &Ros, declared: &Declared, qos: Qos, entrance: Entrance<ZBytes>) -> Result<(), Error> {
+/// Lets the messages of a topic into a ring, but for those that `first` takes.
+fn listen(
+    ros: &Ros,
+    declared: &Declared,
+    qos: Qos,
+    entrance: Entrance<ZBytes>,
+    first: impl Fn(&ZBytes, &Entrance<ZBytes>) -> bool + Send + Sync + 'static,
+) -> Result<(), Error> {
     let ours = Arc::clone(&declared.ours);
     let hear = move |sample: Sample| {
         ours.heard.fetch_add(1, Ordering::Relaxed);
-        if entrance.put(sample.payload().clone()) {
+        if !first(sample.payload(), &entrance) && entrance.put(sample.payload().clone()) {
             ours.dropped.fetch_add(1, Ordering::Relaxed);
         }
     };

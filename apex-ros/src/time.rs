@@ -3,6 +3,10 @@
 //! The times of a program count from its start, those of ROS from 1970, or are those of a simulation (`/clock`). Stamps
 //! are converted on the way.
 
+use apex_messages::{
+    Message, Reason,
+    cdr::{Outside, Reader, Writer},
+};
 use apex_rt::{Clock, Time, WallClock, threads::Pace};
 use std::{
     sync::{
@@ -92,6 +96,20 @@ impl RosTime {
             Self::Wall(wall) => wall.zero().saturating_add(wall.now()),
             Self::Simulated(time) => time.state().now,
         }
+    }
+
+    /// Writes a message for other programs. Times in headers become those of ROS, and a header without one gets the
+    /// present time, and `frame` if there is one.
+    pub fn write(&self, message: &impl Message, frame: Option<&str>) -> Vec<u8> {
+        let mut bytes = vec![];
+        let outside = Outside { zero: self.known_zero(), now: self.now(), frame };
+        message.write(&mut Writer::new(&mut bytes).for_others(outside));
+        bytes
+    }
+
+    /// Reads a message of another program. Times in headers become those of this program.
+    pub fn read<M: Message>(&self, bytes: &[u8]) -> Result<M, Reason> {
+        M::read(&mut Reader::new(bytes)?.since(self.known_zero()))
     }
 
     /// Ends all waits for a time, because no more will come.

@@ -188,6 +188,66 @@ fn parameters_are_those_of_ros() {
 }
 
 #[test]
+fn a_file_has_parameters_by_the_names_of_nodes() {
+    let router = Router::start();
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("robot.yaml");
+    let path = path.to_str().expect("a path");
+    let text = |factor| {
+        format!(
+            "/**:\n  ros__parameters:\n    none: 1\n/robot1/second:\n  ros__parameters:\n    drive: {{factor: {factor}}}\n\
+             robot:\n  ros__parameters:\n    drive.factor: 99\n"
+        )
+    };
+    let args = ["--ros-args", "--params-file", path, "-r", "__node:=second", "-r", "__ns:=/robot1"];
+    let set = |more: &[&str]| {
+        let robot = router.node("robot").args(args.iter().chain(more).copied()).open()?;
+        let mut program = Robot::new();
+        robot.set_params(&mut program)?;
+        Ok::<f32, apex_ros::Error>(program.param("drive.factor").expect("a parameter"))
+    };
+    std::fs::write(path, text("2.5")).expect("a file");
+    assert_eq!((set(&[]), set(&["-p", "drive.factor:=3"])), (Ok(2.5), Ok(3.0)));
+    for (factor, expected) in [
+        ("25", ":6:13: the value of `drive.factor` is out of range: its range is 0..=10 (m)"),
+        ("fast", ":6:13: `drive.factor` (f32) takes a number, not a string"),
+    ] {
+        std::fs::write(path, text(factor)).expect("a file");
+        assert_eq!(set(&[]).map_err(|error| error.to_string()), Err(format!("{path}{expected}")));
+    }
+    std::fs::write(path, "/robot1/second:\n  ros__parameters:\n    drive.factr: 1\n").expect("a file");
+    let error = set(&[]).expect_err("no such parameter").to_string();
+    assert!(error.starts_with(&format!("{path}:3:5: `drive.factr`: ")) && error.contains("drive.factor"), "{error}");
+}
+
+/// Messages that find the program waiting go straight to it, others wait for it: their order stays.
+#[test]
+fn messages_come_in_their_order_however_fast() {
+    let router = Router::start();
+    beside(&router, &["--ros-args", "-p", "drive.factor:=1"], |tools| {
+        let speeds = Collected::<f64>::new();
+        tools.subscribe("speed").depth(10_000).each(speeds.collector()).expect("a topic");
+        let command = tools.publish("command").depth(10_000).open::<f64>().expect("a topic");
+        within(5.0, "a route", || {
+            command.send(&0.0).expect("it is there");
+            thread::sleep(Duration::from_millis(20));
+            !speeds.all().is_empty()
+        });
+        thread::sleep(Duration::from_millis(300));
+        speeds.clear();
+        for number in 1..=3000_u32 {
+            command.send(&number.into()).expect("it is there");
+            // Bursts, and pauses in which the program waits.
+            if number % 100 < 50 {
+                thread::sleep(Duration::from_micros(u64::from(number % 7) * 50));
+            }
+        }
+        within(5.0, "the last one", || speeds.all().last() == Some(&3000.0));
+        let all = speeds.all();
+        assert!(all.len() > 500 && all.is_sorted_by(|a, b| a < b), "{} of 3000", all.len());
+    });
+}
+
+#[test]
 fn problems_are_in_rosout_and_diagnostics() {
     let router = Router::start();
     beside(&router, &[], |tools| {

@@ -16,8 +16,25 @@ fn the_page_shows_the_examples() {
         // Without the comment at the top, which says how to run it.
         text.split_once("\n\n").map(|(_, rest)| rest.to_owned()).unwrap_or_default()
     };
-    assert_eq!(blocks("rust"), [shown("turtlebot.rs")]);
-    assert_eq!(blocks("afg"), [shown("turtlebot.afg")]);
+    assert_eq!(blocks("rust"), [shown("turtlebot.rs"), shown("goals/main.rs")]);
+    assert_eq!(blocks("afg"), [shown("turtlebot.afg"), shown("goals/goals.afg")]);
+    assert_eq!(blocks("yaml"), [example("turtlebot.yaml")]);
+}
+
+mod turtlebot {
+    apex_macros::graph!("../examples/turtlebot.afg");
+
+    /// The parameters on the page are those of the program, and are in range.
+    #[test]
+    fn the_page_has_a_file_of_parameters() {
+        use apex_rt::params::Parameters as _;
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/turtlebot.yaml");
+        let ros = apex_ros::Ros::node("forward").args(["--ros-args", "--params-file", path]).open().expect("a node");
+        let mut program = Forward::new();
+        ros.set_params(&mut program).expect("parameters");
+        let mut value = |name| program.param::<f32>(name).expect("a parameter");
+        assert_eq!((value("drive.distance"), value("field.radius")), (0.5, 0.3));
+    }
 }
 
 #[test]

@@ -17,7 +17,9 @@ QOS = "::,10:,:,:,,"
 
 
 def say(*words):
-    print(*words, flush=True)
+    # Threads of Zenoh speak, too: a line is written as one.
+    sys.stdout.write(" ".join(map(str, words)) + "\n")
+    sys.stdout.flush()
 
 
 def key(name, ty):

@@ -16,81 +16,16 @@ use apex_messages::{
 use apex_nodes::map::{Grid, Occupancy};
 use apex_ros::{Kind, Ros};
 use apex_rt::Time;
-use common::{Collected, free_address, within};
-use std::{
-    env,
-    io::{BufRead as _, BufReader, Write as _},
-    path::{Path, PathBuf},
-    process::{Child, ChildStdin, Command, Stdio},
-    thread,
-    time::Duration,
+use common::{
+    Collected,
+    python::{Peer, python},
+    within,
 };
+use std::{path::Path, process::Command, thread, time::Duration};
 
-/// Python with the packages; `None` if there is none, which is an error in CI.
-fn python() -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let environment = root.join("target/python/bin/python3");
-    let python = [environment, PathBuf::from("python3")].into_iter().find(|python| {
-        let test = Command::new(python).args(["-c", "import rosbags, zenoh, zenoh_ros2_sdk"]).output();
-        test.is_ok_and(|output| output.status.success())
-    });
-    if python.is_none() {
-        assert!(env::var_os("CI").is_none(), "no Python has `rosbags`, `eclipse-zenoh` and `zenoh-ros2-sdk`");
-        println!("skipped: no Python has `rosbags`, `eclipse-zenoh` and `zenoh-ros2-sdk`");
-    }
-    python
-}
-
-/// The peer in Python, and what it says.
-struct Peer {
-    child: Child,
-    input: ChildStdin,
-    lines: Collected<String>,
-    address: String,
-}
-
-impl Peer {
-    fn start(python: &Path) -> Self {
-        let address = free_address();
-        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/peer.py");
-        let set_bool = format!("std_srvs/srv/SetBool={}", <SetBool as apex_messages::Service>::HASH);
-        let mut child = Command::new(python)
-            .args([script.as_os_str(), address.as_ref(), set_bool.as_ref()])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("python runs");
-        let (input, output) = (child.stdin.take().expect("a pipe"), child.stdout.take().expect("a pipe"));
-        let lines = Collected::new();
-        let add = lines.collector();
-        thread::spawn(move || BufReader::new(output).lines().map_while(Result::ok).for_each(add));
-        let peer = Self { child, input, lines, address };
-        within(20.0, "the peer is ready", || peer.says("ready"));
-        peer
-    }
-
-    fn says(&self, start: &str) -> bool {
-        self.lines.all().iter().any(|line| line.starts_with(start))
-    }
-
-    /// Lets the peer do something, and returns what it said.
-    fn does(&mut self, word: &str) -> Vec<String> {
-        self.lines.clear();
-        writeln!(self.input, "{word}").expect("it reads");
-        within(10.0, word, || self.says(&format!("done {word}")));
-        self.lines.all()
-    }
-
-    fn node(&self, name: &str) -> Ros {
-        Ros::node(name).args([""; 0]).domain(0).router(&self.address).open().expect("a node")
-    }
-}
-
-impl Drop for Peer {
-    fn drop(&mut self) {
-        drop(self.child.kill());
-        drop(self.child.wait());
-    }
+/// The peer of this file.
+fn peer(python: &Path) -> Peer {
+    Peer::start(python, "peer.py", &[&format!("std_srvs/srv/SetBool={}", <SetBool as apex_messages::Service>::HASH)])
 }
 
 /// Sends messages, and expects them back, bit by bit.
@@ -153,7 +88,7 @@ fn header() -> Header {
 #[test]
 fn messages_come_back_from_python_bit_by_bit() {
     let Some(python) = python() else { return };
-    let peer = Peer::start(&python);
+    let peer = peer(&python);
     let ros = peer.node("robot");
     let scan = |count| LaserScan { header: header(), ranges: ODD.repeat(count), ..LaserScan::default() };
     echo(&ros, 0, &[scan(0), scan(1), scan(300)]);
@@ -199,7 +134,7 @@ fn messages_come_back_from_python_bit_by_bit() {
 #[test]
 fn services_and_late_maps_go_both_ways() {
     let Some(python) = python() else { return };
-    let mut peer = Peer::start(&python);
+    let mut peer = peer(&python);
     let ros = peer.node("robot");
     let flip = ros.call::<SetBool>("/flip").open().expect("a client");
     within(10.0, "the server", || ros.sees(Kind::Server, "/flip", "std_srvs/srv/SetBool"));
@@ -230,7 +165,7 @@ fn services_and_late_maps_go_both_ways() {
 #[test]
 fn tools_see_the_node_and_its_topics() {
     let Some(python) = python() else { return };
-    let mut peer = Peer::start(&python);
+    let mut peer = peer(&python);
     let ros = peer.node("robot");
     ros.subscribe("scan").best_effort().each(|_: LaserScan| {}).expect("a topic");
     let twist = ros.publish("cmd_vel").open::<Twist>().expect("a topic");

@@ -1,15 +1,16 @@
 //! Node library of Apex, with one module per field.
 //!
-//! `flow`, `math`, `persons`, `scan` and the inference of `learn` need neither the standard library nor a heap. The
-//! feature `std` (on by default) adds `io` (readers, writers and pictures), `map` (grid maps), `cloud` (point clouds of
-//! depth cameras), and path planning and following in `nav`. Further features add `image` (camera images), `learn`
-//! (training, and networks), `optim` (optimization of parameters), `slam` (localization and mapping), `localize`
-//! (localization on a plan) and `dxf` (plans from DXF files).
+//! `action`, `flow`, `lifecycle`, `math`, `persons`, `scan` and the inference of `learn` need neither the standard
+//! library nor a heap. The feature `std` (on by default) adds `io` (readers, writers and pictures), `map` (grid maps),
+//! `cloud` (point clouds of depth cameras), and path planning and following in `nav`. Further features add `image`
+//! (camera images), `learn` (training, and networks), `optim` (optimization of parameters), `slam` (localization and
+//! mapping), `localize` (localization on a plan) and `dxf` (plans from DXF files).
 //!
 //! Units are SI (metres, radians, seconds). Axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
+pub mod action;
 #[cfg(feature = "std")]
 pub mod cloud;
 pub mod flow;
@@ -18,6 +19,7 @@ pub mod image;
 #[cfg(feature = "std")]
 pub mod io;
 pub mod learn;
+pub mod lifecycle;
 #[cfg(feature = "localize")]
 pub mod localize;
 #[cfg(feature = "std")]

@@ -31,6 +31,8 @@ mod safety;
 mod silence;
 mod studio;
 mod texts;
+#[path = "../../apex-ros/examples/goals/tokens.rs"]
+mod tokens;
 mod tour;
 
 /// Page whose source files belong to a package of their own.

@@ -26,6 +26,7 @@ texts! {
     fusion "texts/fusion.afg"
     both "texts/both.afg"
     gate "texts/gate.afg"
+    goals "texts/goals.afg"
     guarded "texts/guarded.afg"
     help "texts/help.afg"
     hours "texts/hours.afg"

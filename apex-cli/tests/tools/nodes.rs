@@ -99,7 +99,7 @@ fn outside_of_a_package_there_is_the_library() {
     let folder = Folder::new("nodes-library");
     let (code, list, errors) = nodes(&folder.0, &[]);
     assert_eq!((code, errors.as_str()), (Some(0), ""));
-    assert!(list.starts_with("apex_nodes::cloud\n") && list.contains("\napex_sim\n"), "{list}");
+    assert!(list.starts_with("apex_nodes::action\n") && list.contains("\napex_sim\n"), "{list}");
 }
 
 const HEAD: &str = "\

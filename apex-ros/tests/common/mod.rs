@@ -1,6 +1,8 @@
 //! A router of Zenoh for tests, and waiting.
 #![allow(dead_code, reason = "each test uses a part of it")]
 
+pub mod python;
+
 use apex_ros::{Opening, Ros};
 use std::{
     net::TcpListener,

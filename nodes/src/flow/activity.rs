@@ -56,7 +56,7 @@ impl<T> Wait<T> {
 
 /// Action that another program, a driver or a person carries out. It is active from `begin` until it is done or has
 /// failed. Only activity counts: an order without activity is ignored, also while another one is under way, and so is a
-/// result that comes when the action is not active, for example after it was cancelled.
+/// result that comes when the action is not active, for example after it was cancelled, or when its order has one.
 ///
 /// An order that is called off (by `cancel` or a `timeout`) may still be answered, when the next order is already under
 /// way. Orders have numbers (`number`, from 1 on): a result with a number, at `succeeded` or `failed_order`, counts
@@ -73,6 +73,8 @@ pub struct Action<T> {
     order: u64,
     begun: Time,
     is_under_way: bool,
+    /// `true` if the last order has its result: another one for it is a repetition.
+    has_ended: bool,
     /// Number of orders that were called off and have no result yet.
     owed: u32,
     /// `true` if a result was dropped since the last order began.
@@ -89,7 +91,7 @@ impl<T: Clone> Action<T> {
             self.order += 1;
             self.begun = ctx.now();
             self.is_under_way = true;
-            self.has_dropped = false;
+            (self.has_ended, self.has_dropped) = (false, false);
             started.emit(goal.clone());
             number.emit(self.order);
         }
@@ -156,13 +158,14 @@ impl<T: Clone> Action<T> {
         self.end(ctx)
     }
 
-    /// Ends the order if the node is active. What is still owed will not come any more.
+    /// Ends the order if the node is active, once. What is still owed will not come any more.
     fn end(&mut self, ctx: &Ctx) -> bool {
-        if ctx.active() {
-            self.is_under_way = false;
+        let ends = ctx.active() && !self.has_ended && self.order > 0;
+        if ends {
+            (self.is_under_way, self.has_ended) = (false, true);
             self.owed = 0;
         }
-        ctx.active()
+        ends
     }
 }
 
@@ -325,6 +328,68 @@ mod tests {
         let (ctx, mut gave_up) = (test.ctx(true), None);
         test.0.failed_order(&4, &ctx, apex_rt::event(&mut gave_up));
         assert!(gave_up.is_some(), "though the third order has no result");
+    }
+
+    /// Any sequence of orders, interruptions and results with numbers, which come late, early, repeated, or with and
+    /// without activity: a result ends its own order only, while that one has the activity, and once.
+    #[test]
+    fn a_numbered_result_ends_its_own_order_once() {
+        let mut random = 5_u64;
+        let mut below = |end: u64| {
+            random ^= random << 13;
+            random ^= random >> 7;
+            random ^= random << 17;
+            random % end
+        };
+        for round in 0..4000 {
+            // The activity may stay at the node when its order has ended: `done ->`.
+            let (mut test, stays) = (Test::new(1.0), round % 2 == 0);
+            let (mut last, mut is_over, mut is_active) = (0, true, false);
+            for _ in 0..30 {
+                test.1 += below(700) as i64;
+                match below(4) {
+                    0 => {
+                        is_active = true;
+                        let begins = test.begin(true);
+                        assert_eq!(begins.is_some(), is_over, "an order begins when none is under way");
+                        last = begins.unwrap_or(last);
+                        is_over = false;
+                    }
+                    1 if is_active => {
+                        test.0.call_off();
+                        (is_active, is_over) = (false, true);
+                    }
+                    _ => {
+                        let (ctx, order, succeeds) = (test.ctx(is_active), below(last + 2), below(2) == 0);
+                        let (mut done, mut gave_up) = (None, None);
+                        match succeeds {
+                            true => test.0.succeeded(&order, &ctx, apex_rt::event(&mut done)),
+                            false => test.0.failed_order(&order, &ctx, apex_rt::event(&mut gave_up)),
+                        }
+                        let ends = done.is_some() || gave_up.is_some();
+                        assert_eq!(ends, is_active && !is_over && order == last, "order {order} of {last}");
+                        is_over |= ends;
+                        if ends && !stays {
+                            test.0.call_off();
+                            is_active = false;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_repeated_result_does_not_end_it_again() {
+        let mut test = Test::new(1.0);
+        test.begin(true);
+        let mut results = || {
+            let (ctx, mut done) = (test.ctx(true), None);
+            test.0.succeed(&ctx, apex_rt::event(&mut done));
+            done.is_some()
+        };
+        // The activity stays: `done ->`.
+        assert_eq!([results(), results()], [true, false]);
     }
 
     #[test]

@@ -1,0 +1,80 @@
+//! Programs in Python that talk as those of ROS 2 do.
+
+use super::{Collected, free_address, within};
+use apex_ros::Ros;
+use std::{
+    env,
+    io::{BufRead as _, BufReader, Write as _},
+    path::{Path, PathBuf},
+    process::{Child, ChildStdin, Command, Stdio},
+    thread,
+};
+
+/// Python with the packages; `None` if there is none, which is an error in CI.
+pub fn python() -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let environment = root.join("target/python/bin/python3");
+    let python = [environment, PathBuf::from("python3")].into_iter().find(|python| {
+        let test = Command::new(python).args(["-c", "import rosbags, zenoh, zenoh_ros2_sdk"]).output();
+        test.is_ok_and(|output| output.status.success())
+    });
+    if python.is_none() {
+        assert!(env::var_os("CI").is_none(), "no Python has `rosbags`, `eclipse-zenoh` and `zenoh-ros2-sdk`");
+        println!("skipped: no Python has `rosbags`, `eclipse-zenoh` and `zenoh-ros2-sdk`");
+    }
+    python
+}
+
+/// The peer in Python, and what it says.
+pub struct Peer {
+    child: Child,
+    input: ChildStdin,
+    pub lines: Collected<String>,
+    pub address: String,
+}
+
+impl Peer {
+    /// Starts a script of this folder, which has the types of services and their hashes as arguments.
+    pub fn start(python: &Path, script: &str, types: &[&str]) -> Self {
+        let address = free_address();
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(script);
+        let mut child = Command::new(python)
+            .arg(script)
+            .arg(&address)
+            .args(types)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("python runs");
+        let (input, output) = (child.stdin.take().expect("a pipe"), child.stdout.take().expect("a pipe"));
+        let lines = Collected::new();
+        let add = lines.collector();
+        thread::spawn(move || BufReader::new(output).lines().map_while(Result::ok).for_each(add));
+        let peer = Self { child, input, lines, address };
+        within(20.0, "the peer is ready", || peer.says("ready"));
+        peer
+    }
+
+    pub fn says(&self, start: &str) -> bool {
+        self.lines.all().iter().any(|line| line.starts_with(start))
+    }
+
+    /// Lets the peer do something, and returns what it said.
+    pub fn does(&mut self, word: &str) -> Vec<String> {
+        self.lines.clear();
+        writeln!(self.input, "{word}").expect("it reads");
+        within(10.0, word, || self.says(&format!("done {word}")));
+        self.lines.all()
+    }
+
+    pub fn node(&self, name: &str) -> Ros {
+        Ros::node(name).args([""; 0]).domain(0).router(&self.address).open().expect("a node")
+    }
+}
+
+impl Drop for Peer {
+    fn drop(&mut self) {
+        drop(self.child.kill());
+        drop(self.child.wait());
+    }
+}

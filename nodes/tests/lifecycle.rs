@@ -1,0 +1,3 @@
+//! `lifecycle.afg`: the tests of the source file.
+
+apex_macros::graph!("lifecycle.afg");
