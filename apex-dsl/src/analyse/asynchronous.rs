@@ -20,8 +20,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// of rustc grows with the square of the size of a function.
 pub const MANY: usize = 32;
 
-/// Largest number of slots that need no queue: each step is followed by all slots that it may reach.
-pub const MOST_UNQUEUED: usize = 128;
+/// Largest number of calls of slots in code without a queue, where each step is followed by all slots that it may reach.
+const MOST_UNQUEUED: usize = 512;
 
 /// The asynchronous part of a graph.
 #[derive(Debug)]
@@ -57,7 +57,8 @@ impl Asynchronous {
         let links = &*links;
         let to_slot = |c: &ConnectionId| live[*c] && graph.flow(&graph.connections[*c]) == Flow::ToSlot;
         let slots: Vec<ConnectionId> = graph.connections.ids().filter(to_slot).collect();
-        let single = slots.len() <= MOST_UNQUEUED && is_single(graph, catalog, links, &slots, &causes, regions);
+        let single =
+            count_calls(&slots, &causes) <= MOST_UNQUEUED && is_single(graph, catalog, links, &slots, &causes, regions);
         let mut may_block = may_block(graph, links, &slots);
         live.iter_enumerated().filter(|(_, live)| !**live).for_each(|(c, _)| may_block[c] = false);
         if single {
@@ -202,6 +203,25 @@ fn may_block(graph: &Graph, links: &Links, slots: &[ConnectionId]) -> IdVec<Conn
         }
     }
     may_block
+}
+
+/// Number of calls of slots, if each token that no slot causes is followed by all slots that it may reach.
+fn count_calls(slots: &[ConnectionId], causes: &IdVec<ConnectionId, Vec<ConnectionId>>) -> usize {
+    let is_slot = |c: &&ConnectionId| slots.binary_search(c).is_ok();
+    let caused: BTreeSet<ConnectionId> = slots.iter().flat_map(|c| &causes[*c]).copied().collect();
+    let mut calls = 0;
+    for first in slots.iter().filter(|c| !caused.contains(c)) {
+        let mut reached = BTreeSet::from([*first]);
+        let mut left = vec![*first];
+        while let Some(slot) = left.pop() {
+            left.extend(causes[slot].iter().filter(is_slot).filter(|c| reached.insert(**c)));
+        }
+        calls += reached.len();
+        if calls > MOST_UNQUEUED {
+            break;
+        }
+    }
+    calls
 }
 
 /// Returns `true` if each step sends at most one token to a slot, and each slot is ready when its token arrives. A step

@@ -7,7 +7,7 @@
 
 use super::{
     Analysis, Asynchronous, Links,
-    asynchronous::{MOST_UNQUEUED, events, moves_activity},
+    asynchronous::{events, moves_activity},
 };
 use crate::graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId};
 use std::collections::{BTreeSet, VecDeque};
@@ -26,13 +26,16 @@ pub enum Delivery {
 /// Largest number of slots that may follow one step. For more, a queue takes less code.
 const MAX_ORDERED: usize = 64;
 
+/// Largest number of slots in a program without a queue, although several tokens may be in flight.
+const MOST_ORDERED: usize = 128;
+
 /// Returns `true` if slot tokens need no queue, although several of them may be in flight.
 pub fn is_ordered(graph: &Graph, analysis: &Analysis) -> bool {
     let asynchronous = &analysis.asynchronous;
     let resets = graph.nodes.ids().any(|node| moves_activity(graph, node));
     let is_ordered = |sends: &Vec<ConnectionId>| ordered(graph, &analysis.links, asynchronous, sends).is_some();
     asynchronous.delivery == Delivery::Queued
-        && asynchronous.slots.len() <= MOST_UNQUEUED
+        && asynchronous.slots.len() <= MOST_ORDERED
         && !asynchronous.endless
         && !resets
         && !asynchronous.slots.iter().any(|c| asynchronous.may_block[*c])
