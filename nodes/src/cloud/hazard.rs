@@ -47,8 +47,8 @@ pub struct Area {
 /// column that are floor is seen too. Where the floor ends in a column before a point far below it, or near the robot
 /// before nothing, in two clouds, m_f holds that floor is missing. Obstacles at points of `scan`, which is in the frame
 /// of the robot, do not count: the scanner sees them itself, and they may be persons, who do not stay. Neither do those
-/// at `persons`. There is floor beneath them, unless it is known to be missing. `pose` is that of the robot in a fixed frame, which is also that of the persons and of `trailer`, the
-/// axis of a trailer: wheel odometry is enough.
+/// at `persons`. There is floor beneath them, unless it is known to be missing. `pose` is that of the robot in a fixed
+/// frame, which is also that of the persons and of `trailer`, the axis of a trailer: wheel odometry is enough.
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
 /// was seen, unknown elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or

@@ -30,18 +30,19 @@ const GRAZE: f32 = 0.01;
 /// Follows a path of [`CurvePlanner`](super::CurvePlanner) forward with a tractor and its trailer.
 ///
 /// The vehicle steers with the curvature of the path, and back to it: its direction is that of the path less
-/// atan(`convergence` · offset). Where it will be on the next `look_ahead` m, with its trailer and its load, is predicted
-/// with the same law. It slows down for the curves on this way, before its end, and before points of the scans that its
-/// outline would come within `margin` of.
+/// atan(`convergence` · offset). Where it will be on the next `look_ahead` m, with its trailer and its load, is
+/// predicted with the same law. It slows down for the curves on this way, before its end, and before points of the
+/// scans that its outline would come within `margin` of.
 ///
 /// `pose` is that of the tractor in the frame of the path, `trailer` the pose of the trailer's axis in the frame of the
 /// tractor; while one of them is missing or older than `max_age`, the vehicle stands still. `ahead` and `behind` are
-/// scans in the frames of the tractor and of the trailer, without the load; before the first ones, no obstacle is known.
-/// That the vehicle stops before obstacles, and without scans, is the task of a [`TrailerField`](super::TrailerField).
-/// A new path replaces the current one. The node sends twists while it has a path, and drops it when the vehicle
+/// scans in the frames of the tractor and of the trailer, without the load; before the first ones, no obstacle is
+/// known. That the vehicle stops before obstacles, and without scans, is the task of a
+/// [`TrailerField`](super::TrailerField). A new path replaces the current one. The node sends twists while it has a
+/// path, and drops it when the vehicle
 /// * has `reached` its end up to `tolerance`, where it stops,
-/// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on its way, or it makes no progress for longer than
-///   `patience`, or the path is not finite,
+/// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on its way, or it makes no progress for longer
+///   than `patience`, or the path is not finite,
 /// * is `off_path`: farther than `max_offset` from the path,
 /// * is deactivated: the node is no longer active.
 ///

@@ -108,8 +108,8 @@ impl Path {
         before.dot(after) < SHARP * before.norm() * after.norm()
     }
 
-    /// Point at a distance along the path after a projection, in m, or before it if that is negative. Beyond its ends the
-    /// path goes on straight.
+    /// Point at a distance along the path after a projection, in m, or before it if that is negative. Beyond its ends
+    /// the path goes on straight.
     pub fn ahead(&self, projection: &Projection, distance: f32) -> Point2 {
         let (before, after) = self.points.split_at(projection.segment + 1);
         let direction = Point2::polar(1.0, projection.tangent);

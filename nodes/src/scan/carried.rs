@@ -25,8 +25,8 @@ const BEYOND: f32 = 0.1;
 ///
 /// `rest` is the scan without the load. What comes so near that it is taken for a castor, or is hidden behind one, is
 /// still there: `near` is that scan with what was seen beside the load before, for `memory` or until a beam passes it.
-/// Its beams are those that end in the load. For that `pose` is the pose of the scanner in a fixed frame such as that of
-/// odometry; without it nothing is remembered.
+/// Its beams are those that end in the load. For that `pose` is the pose of the scanner in a fixed frame such as that
+/// of odometry; without it nothing is remembered.
 #[node]
 #[derive(Debug, Clone)]
 pub struct HideCarried {

@@ -177,8 +177,8 @@ impl CurveSearch {
         .map_err(|_| NoPath::Unreachable)
     }
 
-    /// Place nearest to a goal where the straight vehicle fits: at the goal, or on a line to it; `None` if there is none
-    /// but at the start. What stands at a goal may be gone when the vehicle is near enough to see it.
+    /// Place nearest to a goal where the straight vehicle fits: at the goal, or on a line to it; `None` if there is
+    /// none but at the start. What stands at a goal may be gone when the vehicle is near enough to see it.
     fn place(&self, vehicle: &CurveDrive, start: &Pose2, goal: &Goal) -> Option<Place> {
         let fits = |pose: &Pose2| self.room.is_free(vehicle, &vehicle.axes(pose, pose.theta));
         if fits(&goal.pose) {

@@ -54,7 +54,7 @@ pub struct CurvePlanner {
     /// goal's heading at the end. 0 if the trailer may be bent at the goal.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     straight: f32,
-    /// Distance before a goal up to which a way may end if something stands at the goal: seen from there, it may be gone.
+    /// Distance before a goal up to which a way may end if something stands at it: seen from there, it may be gone.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     short: f32,
     /// Limit of the next way.
@@ -141,8 +141,7 @@ mod tests {
     use crate::scan::Point2;
     use apex_rt::{Construct, event};
 
-    /// Whether there is a way forward, whether there is one backward, and whether there is none, on floor that is
-    /// known or not.
+    /// Returns whether there is a way forward, one backward, and none, on floor that is known or not.
     fn plan(node: &mut CurvePlanner, floor: Occupancy) -> (bool, bool, bool) {
         let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 100, height: 60 };
         let map = Grid::new(raster, Occupancy::Free).expect("small");

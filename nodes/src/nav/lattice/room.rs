@@ -74,8 +74,8 @@ impl Room {
         parts.all(|((part, axis), crowded)| self.crowded_by(&part, axis, vehicle.margin) <= least(crowded))
     }
 
-    /// Returns `true` if nothing is within the margin of the vehicle nor beneath it. On a way, what is beneath it has come
-    /// past its border.
+    /// Returns `true` if nothing is within the margin of the vehicle nor beneath it. On a way, what is beneath it has
+    /// come past its border.
     pub fn is_free(&self, vehicle: &CurveDrive, axes: &Axes) -> bool {
         let distance = |point: Point2| self.distances.at(point).copied().unwrap_or(0.0);
         let is_bare =
