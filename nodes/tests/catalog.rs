@@ -42,6 +42,7 @@ fn value(ty: &Type, unit: &str) -> String {
         _ => match ty.name() {
             "bool" => "true".to_owned(),
             "f32" | "f64" => format!("1{unit}"),
+            "Articulated" => "apex_nodes::nav::Articulated::PATSY".to_owned(),
             _ => "1".to_owned(),
         },
     }

@@ -47,8 +47,8 @@ pub struct Area {
 /// column that are floor is seen too. Where the floor ends in a column before a point far below it, or near the robot
 /// before nothing, in two clouds, m_f holds that floor is missing. Obstacles at points of `scan`, which is in the frame
 /// of the robot, do not count: the scanner sees them itself, and they may be persons, who do not stay. Neither do those
-/// at `persons`. `pose` is that of the robot in a fixed frame, which is also that of the persons and of `trailer`, the
-/// axis of a trailer: wheel odometry is enough.
+/// at `persons`. There is floor beneath them, unless it is known to be missing. `pose` is that of the robot in a fixed
+/// frame, which is also that of the persons and of `trailer`, the axis of a trailer: wheel odometry is enough.
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
 /// was seen, unknown elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or
@@ -276,6 +276,8 @@ impl HazardMap {
             let place = Point2::new(points.x[i], points.y[i]);
             let outer = pose.to_outer(place);
             if label.is_hazard() && passes(place, outer) {
+                // What the scanner sees there, or who, stands on floor.
+                self.mark(outer, outer, Ground::Unknown);
                 continue;
             }
             let Some(index) = self.obstacles.index(outer) else { continue };
@@ -508,7 +510,8 @@ mod tests {
         };
         let person = crate::persons::Person { position: Point2::new(1.0, 0.2), ..Default::default() };
         let [unknown, free] = [Occupancy::Unknown, Occupancy::Free];
-        assert_eq!(at(Some(&core::iter::once(person).collect())), [unknown, free, unknown]);
+        // Who stands there stands on floor.
+        assert_eq!(at(Some(&core::iter::once(person).collect())), [free, free, unknown]);
         assert_eq!(at(None), [Occupancy::Occupied, free, unknown]);
     }
 

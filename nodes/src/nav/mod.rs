@@ -12,6 +12,8 @@ mod careful;
 #[cfg(feature = "std")]
 mod costs;
 #[cfg(feature = "std")]
+mod curve_follow;
+#[cfg(feature = "std")]
 mod follow;
 mod guard;
 #[cfg(feature = "std")]
@@ -50,6 +52,8 @@ mod twist;
 pub use careful::PersonCaution;
 #[cfg(feature = "std")]
 pub use costs::{CostMap, write_costs};
+#[cfg(feature = "std")]
+pub use curve_follow::CurveFollower;
 #[cfg(feature = "std")]
 pub use follow::PathFollower;
 pub use guard::OdometryGuard;

@@ -108,6 +108,18 @@ impl Path {
         before.dot(after) < SHARP * before.norm() * after.norm()
     }
 
+    /// Point at a distance along the path after a projection, in m, or before it if that is negative. Beyond its ends
+    /// the path goes on straight.
+    pub fn ahead(&self, projection: &Projection, distance: f32) -> Point2 {
+        let (before, after) = self.points.split_at(projection.segment + 1);
+        let direction = Point2::polar(1.0, projection.tangent);
+        if distance < 0.0 {
+            along(projection.point, direction.scaled(-1.0), before.iter().rev(), -distance)
+        } else {
+            along(projection.point, direction, after.iter(), distance)
+        }
+    }
+
     /// Total turning of the path within `reach` m after a projection and before its stop, in rad, regardless of the
     /// side.
     pub fn turning(&self, projection: &Projection, reach: f32) -> f32 {
@@ -154,6 +166,29 @@ impl Clone for Path {
         self.points.clone_from(&other.points);
         self.heading = other.heading;
     }
+}
+
+/// Point at a distance from `from` on the way through `points`, which goes on straight beyond the last one: in
+/// `direction` if there is none.
+fn along<'a>(
+    from: Point2,
+    mut direction: Point2,
+    points: impl Iterator<Item = &'a Point2>,
+    mut distance: f32,
+) -> Point2 {
+    let mut at = from;
+    for point in points {
+        let way = *point - at;
+        let length = way.norm();
+        if length >= distance {
+            return at + way.scaled(distance / length.max(f32::MIN_POSITIVE));
+        }
+        if length > 0.0 {
+            direction = way.scaled(1.0 / length);
+        }
+        (at, distance) = (*point, distance - length);
+    }
+    at + direction.scaled(distance)
 }
 
 fn length(points: &[Point2]) -> f32 {

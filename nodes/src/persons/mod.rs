@@ -9,6 +9,7 @@ mod legs;
 mod motion;
 mod shape;
 mod tracker;
+mod walkers;
 mod wheels;
 
 pub use detection::{Detections, MAX_DETECTIONS, MAX_PERSONS, Person, Persons, View};
@@ -17,6 +18,7 @@ pub use legs::{Leg, LegDetector, LegPairs, Legs};
 pub use motion::Motion;
 pub use shape::{LEG_FEATURES, leg_features};
 pub use tracker::{PersonTracker, UntimelyDetections};
+pub use walkers::HideWalkers;
 pub use wheels::DropWheels;
 
 /// Model for [`LegDetector`]. Trained by the example `train_legs` on scans that it simulates.

@@ -3,9 +3,9 @@
 use super::token::Token;
 use apex_nodes::{
     nav::{
-        Articulated, BackFollower, BackUp, HazardStop, MoveRobot, MoveToObstacle, OdometryGuard, PathFollower,
-        PersonCaution, PlannedApproach, PositionToTarget, ReactiveApproach, SafetyField, Steer, SweepStop,
-        TrailerField, Twist,
+        Articulated, BackFollower, BackUp, CurveFollower, HazardStop, MoveRobot, MoveToObstacle, OdometryGuard,
+        PathFollower, PersonCaution, PlannedApproach, PositionToTarget, ReactiveApproach, SafetyField, Steer,
+        SweepStop, TrailerField, Twist,
     },
     scan::FarFromOrigin,
 };
@@ -97,6 +97,23 @@ pub const ROWS: &[Row] = &[
             Box::new(move |ctx, i| {
                 fire(["reached", "blocked", "off_path"], |[a, b, c]| {
                     node.process(ctx, get(i, "pose"), get(i, "path"), get(i, "scan"), a, b, c)
+                })
+            })
+        },
+    },
+    Row {
+        name: "CurveFollower",
+        needs: &["pose", "trailer"],
+        max_age: 0.5,
+        make: || {
+            let mut node = CurveFollower::construct((
+                PATSY, 0.0, 0.0, 0.7, 0.5, 0.05, 0.5, 0.5, 1.5, 3.5, 0.15, 2.5, 0.02, 0.05, 1.0, 2.0, 2.0, 0.5,
+            ));
+            Box::new(move |ctx, i| {
+                let [pose, trailer] = ["pose", "trailer"].map(|name| get(i, name));
+                let [ahead, behind] = ["ahead", "behind"].map(|name| get(i, name));
+                fire(["reached", "blocked", "off_path"], |[a, b, c]| {
+                    node.process(ctx, pose, trailer, get(i, "path"), ahead, behind, a, b, c)
                 })
             })
         },

@@ -40,6 +40,8 @@ pub struct CurveDrive {
     pub backing_gain: f32,
     /// Longest straight line before a goal, in m, on which the trailer comes into line; 0 if it may be bent there.
     pub straight: f32,
+    /// Distance before a goal, in m, up to which a way may end if something stands at the goal.
+    pub short: f32,
 }
 
 impl CurveDrive {

@@ -1,4 +1,4 @@
-use super::{Goal, Open, SIDE};
+use super::{Open, Place, SIDE};
 use crate::{
     map::{Cell, Grid, Raster},
     nav::Terrain,
@@ -27,7 +27,7 @@ impl Estimates {
     }
 
     /// Computes all distances (Dijkstra 1959). A coarse cell is open if a part of it is.
-    pub fn run(&mut self, terrain: &Terrain<'_>, goals: &[Goal]) {
+    pub fn run(&mut self, terrain: &Terrain<'_>, goals: &[Place]) {
         let fine = terrain.map.raster();
         let part = libm::roundf(SIDE / fine.resolution).max(1.0) as usize;
         let raster = Raster {

@@ -45,9 +45,16 @@ const TRIES: usize = 8;
 /// Number of lengths of the straight line at the end that are tried, the longest of them whole.
 const LINES: u8 = 4;
 /// Largest angle between the vehicle and its trailer at a goal with a straight line before it, in rad.
-const IN_LINE: f32 = 0.05;
+const IN_LINE: f32 = 0.03;
 /// Maximum number of expanded states.
 const MOST: usize = 60_000;
+/// Weight of the estimate in a second search, after one that was too long: it finds longer ways, sooner.
+const GREEDY: f32 = 2.0;
+/// Distance between places that are tried before a goal at which something stands, in m, and cost of such a place.
+const SHORT_STEP: f32 = 0.1;
+const SHORT_COST: f32 = 20.0;
+/// Distance from the start from which on such a place is worth a way, in m.
+const NEARER: f32 = 0.5;
 /// Part of the margin that is kept in a fine search.
 const SQUEEZED: f32 = 0.7;
 /// Length of a way to nowhere.
@@ -59,7 +66,8 @@ const NONE: u32 = u32::MAX;
 /// heuristic is the length of the shortest way on the map without regard to the heading. The outline of the vehicle
 /// with its load keeps a margin from obstacles; on the first 0.8 m it may be as near to them as it is at the start. If
 /// a vehicle that backs up does not get away from a narrow place, a second search has shorter steps and smaller states
-/// near the start. Keeps its buffers.
+/// near the start. If the first search is too long, the second one trusts the heuristic more. A way to a goal at which
+/// something stands ends before it. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct CurveSearch {
     estimates: Estimates,
@@ -68,6 +76,8 @@ pub struct CurveSearch {
     open: BinaryHeap<Open>,
     room: Room,
     states: States,
+    /// Weight of the estimates.
+    weight: f32,
 }
 
 /// State on a way.
@@ -92,7 +102,26 @@ struct Node {
 #[derive(Debug, Clone, Copy)]
 struct Ending {
     curve: Curve,
-    goal: Pose2,
+    goal: Place,
+}
+
+/// Place where a way may end.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    pose: Pose2,
+    cost: f32,
+    /// `true` if it is a goal, `false` if it is before one.
+    is_goal: bool,
+}
+
+/// Kind of a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Effort {
+    Normal,
+    /// Short steps and small states near the start.
+    Fine,
+    /// The estimate counts more.
+    Greedy,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,17 +160,34 @@ impl CurveSearch {
     ) -> Result<Way, NoPath> {
         check(&ground.terrain, &start.pose, goals)?;
         self.room.measure(&ground.terrain, vehicle, start);
+        let places = goals.iter().filter_map(|goal| self.place(vehicle, &start.pose, goal)).collect::<Vec<_>>();
+        if places.is_empty() {
+            return Err(NoPath::GoalBlocked);
+        }
         let core = Terrain { map: self.room.core(), ..ground.terrain };
-        self.estimates.run(&core, goals);
-        let way = self.search(ground, vehicle, start, goals, false);
-        match way {
-            Err(expanded) if expanded < MOST && vehicle.backs_up() => {
+        self.estimates.run(&core, &places);
+        match self.search(ground, vehicle, start, &places, Effort::Normal) {
+            Err(expanded) if expanded > MOST => self.search(ground, vehicle, start, &places, Effort::Greedy),
+            Err(_) if vehicle.backs_up() => {
                 let squeezed = CurveDrive { margin: SQUEEZED * vehicle.margin, ..*vehicle };
-                self.search(ground, &squeezed, start, goals, true)
+                self.search(ground, &squeezed, start, &places, Effort::Fine)
             }
             way => way,
         }
         .map_err(|_| NoPath::Unreachable)
+    }
+
+    /// Place nearest to a goal where the straight vehicle fits: at the goal, or on a line to it; `None` if there is
+    /// none but at the start. What stands at a goal may be gone when the vehicle is near enough to see it.
+    fn place(&self, vehicle: &CurveDrive, start: &Pose2, goal: &Goal) -> Option<Place> {
+        let fits = |pose: &Pose2| self.room.is_free(vehicle, &vehicle.axes(pose, pose.theta));
+        if fits(&goal.pose) {
+            return Some(Place { pose: goal.pose, cost: goal.cost, is_goal: true });
+        }
+        let count = (vehicle.short / SHORT_STEP) as u16;
+        let mut before = (1..=count).map(|k| goal.pose.compose(&Pose2::new(-SHORT_STEP * f32::from(k), 0.0, 0.0)));
+        let pose = before.find(fits).filter(|pose| (pose.position() - start.position()).norm() > NEARER)?;
+        Some(Place { pose, cost: goal.cost + SHORT_COST, is_goal: false })
     }
 
     /// Searches for a way. Otherwise, returns the number of expanded states.
@@ -150,10 +196,10 @@ impl CurveSearch {
         ground: &Ground<'_>,
         vehicle: &CurveDrive,
         start: &Start,
-        goals: &[Goal],
-        is_fine: bool,
+        goals: &[Place],
+        effort: Effort,
     ) -> Result<Way, usize> {
-        self.begin(start, is_fine);
+        self.begin(start, effort);
         let mut expanded = 0;
         while let Some(Open { node: at, .. }) = self.open.pop() {
             let node = self.nodes[at as usize];
@@ -183,12 +229,13 @@ impl CurveSearch {
         Err(expanded)
     }
 
-    fn begin(&mut self, start: &Start, is_fine: bool) {
+    fn begin(&mut self, start: &Start, effort: Effort) {
         let Start { pose, trailer, .. } = *start;
+        self.weight = if effort == Effort::Greedy { GREEDY } else { 1.0 };
         self.nodes.clear();
         self.endings.clear();
         self.open.clear();
-        self.states.reset(self.estimates.raster(), is_fine.then_some(pose.position()));
+        self.states.reset(self.estimates.raster(), (effort == Effort::Fine).then_some(pose.position()));
         let first =
             Node { pose, trailer, cost: 0.0, length: 0.0, curvature: 0.0, back: None, before: NONE, ending: None };
         self.nodes.push(first);
@@ -220,14 +267,14 @@ impl CurveSearch {
         let rest = self.estimates.at(node.pose.position());
         let is_best = self.states.best(&node.pose, node.trailer).is_some_and(|best| node.cost < *best);
         if rest.is_finite() && is_best {
-            self.open.push(Open { estimate: node.cost + rest, node: self.nodes.len() as u32 });
+            self.open.push(Open { estimate: node.cost + self.weight * rest, node: self.nodes.len() as u32 });
             self.nodes.push(node);
         }
     }
 
     /// Adds the shortest free Dubins curve from a node to a goal, with a trailer that is in line at its end if the goal
     /// asks for that. Only its length counts: with costs, most ways to a goal would be searched before one is found.
-    fn try_to_end(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, goal: &Goal) {
+    fn try_to_end(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, goal: &Place) {
         let node = self.nodes[before as usize];
         let drive = Drive { ground, vehicle, room: &self.room };
         let mut best: Option<Curve> = None;
@@ -246,7 +293,7 @@ impl CurveSearch {
             let cost = node.cost + curve.length() + node.turn(false) + goal.cost;
             self.open.push(Open { estimate: cost, node: self.nodes.len() as u32 });
             self.nodes.push(Node { cost, before, ending: Some(self.endings.len() as u32), ..node });
-            self.endings.push(Ending { curve, goal: goal.pose });
+            self.endings.push(Ending { curve, goal: *goal });
         }
     }
 
@@ -258,7 +305,7 @@ impl CurveSearch {
             at = self.nodes[at as usize].before;
         }
         nodes.reverse();
-        Way { nodes, end: ending.curve, goal: ending.goal }
+        Way { nodes, end: ending.curve, goal: ending.goal.pose, is_whole: ending.goal.is_goal }
     }
 }
 
@@ -282,11 +329,8 @@ fn check(terrain: &Terrain<'_>, start: &Pose2, goals: &[Goal]) -> Result<(), NoP
     if !(terrain.is_open(from) && start.theta.is_finite()) {
         return Err(NoPath::StartBlocked);
     }
-    let mut inside =
-        goals.iter().filter_map(|Goal { pose, .. }| Some((pose, raster.cell(pose.position())?))).peekable();
-    inside.peek().ok_or(NoPath::GoalOutside)?;
-    let is_open = inside.any(|(pose, cell)| terrain.is_open(cell) && pose.theta.is_finite());
-    if is_open { Ok(()) } else { Err(NoPath::GoalBlocked) }
+    let is_inside = goals.iter().any(|goal| raster.cell(goal.pose.position()).is_some());
+    if is_inside { Ok(()) } else { Err(NoPath::GoalOutside) }
 }
 
 #[cfg(test)]
@@ -306,6 +350,7 @@ mod tests {
         margin: 0.05,
         backing_gain: 0.0,
         straight: 0.0,
+        short: 0.0,
     };
     const LOAD: [f32; 2] = [1.2, 0.7];
 
@@ -509,6 +554,26 @@ mod tests {
         let dear = |cost| plan_at_costs(&map, start, &[Goal { pose: near, cost }, free(far)]).map(|path| path.heading);
         assert_eq!([dear(1.0), dear(9.0)], [Ok(near.theta), Ok(far.theta)]);
         assert_eq!(end(&[blocked]), Err(NoPath::GoalBlocked));
+    }
+
+    #[test]
+    fn a_way_ends_before_what_stands_at_its_goal() {
+        let mut map = room();
+        *map.get_mut(Cell::new(46, 20)).expect("inside") = Occupancy::Occupied;
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let goals = [free(Pose2::new(4.6, 2.05, 0.0))];
+        let from = |start: Pose2, short: f32| {
+            let vehicle = CurveDrive { short, margin: 0.15, ..VEHICLE };
+            search(&terrain, &vehicle, &at(start, start.theta), &goals).map(|(section, path, _)| (section, path.goal()))
+        };
+        let start = Pose2::new(1.0, 2.5, 0.0);
+        assert_eq!(from(start, 0.0), Err(NoPath::GoalBlocked));
+        let (section, end) = from(start, 2.0).expect("a way to a place before it");
+        let end = end.expect("a path");
+        assert_eq!(section, Section::ToTurn);
+        assert!((3.9..4.4).contains(&end.x) && (end.y - 2.05).abs() < 1e-3, "{end:?}");
+        // There it still stands.
+        assert_eq!(from(Pose2::new(end.x, end.y, 0.0), 2.0), Err(NoPath::GoalBlocked));
     }
 
     #[test]

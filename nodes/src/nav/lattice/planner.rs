@@ -21,9 +21,10 @@ use apex_rt::{Event, Out, node};
 /// At the end of such a section the rest of the way has to be planned. The vehicle backs up only over places that are
 /// free on `floor`, such as the map of `HazardMap` in the frame of `odometry`; without it, floor is everywhere.
 ///
-/// After `stay_forward` the next way leads only forward, and after `begin_back` it begins backward, for example because
-/// something that is not on the map holds the vehicle in the other direction. Without a way, the outputs are ⊥ and
-/// `no_path` gives the reason.
+/// After `stay_forward` the next way leads only forward, and after `begin_back` it begins backward, if there is such a
+/// way: for example because something that is not on the map holds the vehicle in the other direction. If something
+/// stands at the goals, `turn` leads to a place up to `short` before one of them, from where it can be seen if it is
+/// still there. Without a way, the outputs are ⊥ and `no_path` gives the reason.
 #[node]
 #[derive(Debug, Clone)]
 pub struct CurvePlanner {
@@ -49,10 +50,13 @@ pub struct CurvePlanner {
     /// Additional cost of `other`.
     #[param(unit = "m", default = 0.0, range = 0.0..=1000.0)]
     other_cost: f32,
-    /// Longest straight line before a goal, on which the trailer comes into line with the vehicle: within 3° of the
+    /// Longest straight line before a goal, on which the trailer comes into line with the vehicle: within 2° of the
     /// goal's heading at the end. 0 if the trailer may be bent at the goal.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     straight: f32,
+    /// Distance before a goal up to which a way may end if something stands at it: seen from there, it may be gone.
+    #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
+    short: f32,
     /// Limit of the next way.
     next: Limit,
     search: CurveSearch,
@@ -87,17 +91,23 @@ impl CurvePlanner {
     ) {
         let terrain = Terrain { map, costs, unknown_is_open: false };
         let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry] });
-        let Self { radius, vehicle: shape, margin, straight, .. } = *self;
+        let Self { radius, vehicle: shape, margin, straight, short, .. } = *self;
         let limit = core::mem::take(&mut self.next);
-        let backing_gain = if limit == Limit::StaysForward { 0.0 } else { self.backing_gain };
         let load = [self.load_length, self.load_width];
-        let vehicle = CurveDrive { radius, shape, load, margin, backing_gain, straight };
+        let vehicle = CurveDrive { radius, shape, load, margin, backing_gain: self.backing_gain, straight, short };
         let trailer = start.theta + trailer.filter(|pose| pose.is_finite()).map_or(0.0, |pose| pose.theta);
-        let start = Start { pose: *start, trailer, is_back: limit == Limit::BeginsBack };
+        let start = Start { pose: *start, trailer, is_back: false };
         let other_goal = Goal { pose: *other.unwrap_or(goal), cost: self.other_cost };
         let both = [Goal { pose: *goal, cost: 0.0 }, other_goal];
         let goals = &both[..1 + usize::from(other.is_some())];
-        match self.search.plan(&Ground { terrain, floor }, &vehicle, &start, goals) {
+        let (ground, search) = (Ground { terrain, floor }, &mut self.search);
+        let limited = match limit {
+            Limit::None => None,
+            Limit::StaysForward => Some((CurveDrive { backing_gain: 0.0, ..vehicle }, start)),
+            Limit::BeginsBack => Some((vehicle, Start { is_back: true, ..start })),
+        };
+        let way = limited.and_then(|(vehicle, start)| search.plan(&ground, &vehicle, &start, goals).ok());
+        match way.map_or_else(|| search.plan(&ground, &vehicle, &start, goals), Ok) {
             Ok(way) => match way.first_section(path.get_mut(), back.get_mut()) {
                 Section::ToGoal => back.clear(),
                 Section::ToTurn => {
@@ -121,5 +131,50 @@ impl CurvePlanner {
     #[slot]
     fn begin_back(&mut self) {
         self.next = Limit::BeginsBack;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::Raster;
+    use crate::scan::Point2;
+    use apex_rt::{Construct, event};
+
+    /// Returns whether there is a way forward, one backward, and none, on floor that is known or not.
+    fn plan(node: &mut CurvePlanner, floor: Occupancy) -> (bool, bool, bool) {
+        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 100, height: 60 };
+        let map = Grid::new(raster, Occupancy::Free).expect("small");
+        let floor = Grid::new(raster, floor).expect("small");
+        let (start, goal) = (Pose2::new(3.0, 3.0, 0.0), Pose2::new(7.0, 3.0, 0.0));
+        let (mut path, mut turn, mut back, mut none) = (Out::new(), Out::new(), Out::new(), None);
+        let (floor, here) = (Some(&floor), Some(&start));
+        node.process(
+            &start,
+            &goal,
+            None,
+            &map,
+            None,
+            None,
+            floor,
+            here,
+            &mut path,
+            &mut turn,
+            &mut back,
+            event(&mut none),
+        );
+        let is_back = back.get().is_some_and(|back| back.length() > 0.0);
+        (path.get().is_some_and(|path| path.points.len() > 9), is_back, none.is_some())
+    }
+
+    #[test]
+    fn a_limit_that_leaves_no_way_is_dropped() {
+        let mut node = CurvePlanner::construct((0.7, Articulated::PATSY, 0.0, 0.0, 0.1, 2.5, 0.0, 0.0, 0.0));
+        assert_eq!(plan(&mut node, Occupancy::Free), (true, false, false));
+        node.begin_back();
+        assert_eq!(plan(&mut node, Occupancy::Free), (false, true, false));
+        // Nothing is known about the floor behind: the way still leads forward.
+        node.begin_back();
+        assert_eq!(plan(&mut node, Occupancy::Unknown), (true, false, false));
     }
 }

@@ -74,6 +74,15 @@ impl Room {
         parts.all(|((part, axis), crowded)| self.crowded_by(&part, axis, vehicle.margin) <= least(crowded))
     }
 
+    /// Returns `true` if nothing is within the margin of the vehicle nor beneath it. On a way, what is beneath it has
+    /// come past its border.
+    pub fn is_free(&self, vehicle: &CurveDrive, axes: &Axes) -> bool {
+        let distance = |point: Point2| self.distances.at(point).copied().unwrap_or(0.0);
+        let is_bare =
+            |(part, axis): (Part, &Pose2)| part.points(STEP).all(|p| distance(axis.to_outer(p)) > 0.75 * STEP);
+        self.fits(vehicle, axes) && vehicle.outline().parts(axes).all(is_bare)
+    }
+
     fn crowding(&self, vehicle: &CurveDrive, axes: &Axes) -> [f32; 3] {
         let mut crowded = [0.0; 3];
         for (sum, (part, axis)) in crowded.iter_mut().zip(vehicle.outline().parts(axes)) {

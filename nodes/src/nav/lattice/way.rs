@@ -32,7 +32,7 @@ pub struct Goal {
 pub enum Section {
     /// The whole way, forward to the goal.
     ToGoal,
-    /// Forward to a place where the vehicle then backs up.
+    /// Forward to a place where the vehicle then backs up, or that is as near to the goal as there is room.
     ToTurn,
     /// Backward.
     Back,
@@ -45,6 +45,8 @@ pub struct Way {
     pub(super) nodes: Vec<Node>,
     pub(super) end: Curve,
     pub(super) goal: Pose2,
+    /// `true` if it leads to the goal, `false` if it ends before it.
+    pub(super) is_whole: bool,
 }
 
 impl Way {
@@ -73,7 +75,7 @@ impl Way {
         }
         path.points.push(end.position());
         path.heading = end.theta;
-        if is_whole { Section::ToGoal } else { Section::ToTurn }
+        if is_whole && self.is_whole { Section::ToGoal } else { Section::ToTurn }
     }
 }
 
