@@ -117,7 +117,11 @@ enum Command {
         check: bool,
     },
     /// Print the Rust code that a source file is compiled to.
+    #[command(after_help = "Example:\n  apex expand robot.afg\n  apex expand --record robot.afg")]
     Expand {
+        /// Print the code for a runtime that can record: with the feature `record` of `apex-rt`.
+        #[arg(long)]
+        record: bool,
         /// Source file, or `-` for standard input.
         file: PathBuf,
     },
@@ -449,7 +453,7 @@ fn obey(command: Command, answer: &mut Answer) -> Result<ExitCode, String> {
         Command::Completions { shell } => completions::run(shell),
         Command::Doc { paths, output } => doc::run(&paths, output.as_deref()),
         Command::Fmt { paths, check } => fmt::run(&paths, check),
-        Command::Expand { file } => expand::run(&file),
+        Command::Expand { record, file } => expand::run(&file, record),
         Command::Explain { what, program, pnml, memory, profile, .. } => {
             let shown = match (pnml, memory, profile) {
                 _ if program => explain::Shown::Program,

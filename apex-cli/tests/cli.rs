@@ -174,8 +174,13 @@ fn nodes_of_the_package() {
         let output = check(&[], &file);
         assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
     }
-    let output = apex().arg("expand").arg(&file).output().unwrap();
-    assert!(String::from_utf8(output.stdout).unwrap().contains("pub struct Robot"));
+    let expanded = |arguments: &[&str]| {
+        let output = apex().arg("expand").args(arguments).arg(&file).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let (plain, recordable) = (expanded(&[]), expanded(&["--record"]));
+    assert!(plain.contains("pub struct Robot") && !plain.contains("Tapped"), "{plain}");
+    assert!(recordable.contains("pub struct Robot") && recordable != plain, "{recordable}");
 }
 
 #[test]

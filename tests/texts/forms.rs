@@ -150,7 +150,7 @@ fn write(token: TokenTree, out: &mut String) {
 }
 
 fn old(name: &str) -> String {
-    name.replace(NEW, "").replace("r#", "").replace(", }", " }")
+    name.replace(NEW, "").replace(&NEW.to_uppercase(), "").replace("r#", "").replace(", }", " }")
 }
 
 /// A text without the lines and columns behind names of files.

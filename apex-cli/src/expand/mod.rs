@@ -6,8 +6,8 @@ use crate::project;
 use apex_dsl::passes;
 use std::{path::Path, process::ExitCode};
 
-/// Prints the generated Rust.
-pub fn run(file: &Path) -> Result<ExitCode, String> {
+/// Prints the generated Rust. `recordable` if the runtime that it calls can record.
+pub fn run(file: &Path, recordable: bool) -> Result<ExitCode, String> {
     let mut checked = project::check_text(file)?;
     let place = |_| proc_macro2::Span::call_site();
     let code = passes::generate(
@@ -16,7 +16,7 @@ pub fn run(file: &Path) -> Result<ExitCode, String> {
         &checked.catalog,
         &checked.sources,
         &place,
-        false,
+        recordable,
         &mut checked.diagnostics,
     );
     checked.print_diagnostics();

@@ -20,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// of rustc grows with the square of the size of a function.
 pub const MANY: usize = 32;
 
-/// Largest number of calls of slots in code without a queue, where each step is followed by all slots that it may reach.
+/// Largest number of calls of slots in code without a queue: each step is followed by all slots that it may reach.
 const MOST_UNQUEUED: usize = 512;
 
 /// The asynchronous part of a graph.

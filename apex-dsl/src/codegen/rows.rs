@@ -213,7 +213,8 @@ fn add_sends<'a>(row: &mut Row, view: ProgramView<'_>, sends: impl Iterator<Item
 /// Name of a constant: `WAITING_SIGNAL` of `waiting.signal`. Its own names are those of the tables.
 pub fn constant_name(name: &str) -> String {
     const OWN: [&str; 9] = ["CLUSTERS", "MISSING", "NEEDS", "ORDER", "FREE", "INFO", "PARAMS", "SLOTS", "SELF"];
-    let mut name: String = name.chars().flat_map(char::to_uppercase).map(valid).collect();
+    let name = name.trim_start_matches("r#").chars().flat_map(char::to_uppercase);
+    let mut name: String = name.map(valid).collect();
     if OWN.contains(&name.as_str()) {
         name.push('_');
     }
