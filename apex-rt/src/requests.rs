@@ -269,7 +269,7 @@ impl ParamVisitor for Server<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::{IntoParam as _, ParamRange, ParamRef, Rejection};
+    use crate::params::{IntoParam as _, ParamRef, Rejection};
 
     const PARAMS: [ParamInfo; 2] = [ParamInfo::new("a.x", "f64"), ParamInfo::new("b.x", "f64")];
 

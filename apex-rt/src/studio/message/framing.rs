@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn a_stream_is_joined_at_the_next_description() {
         use super::super::About;
-        use crate::{Info, PortKind, bytes::ByteStream};
+        use crate::{Info, bytes::ByteStream};
         const INFO: Info = Info {
             name: "Cart",
             docs: "",
