@@ -80,8 +80,8 @@ fn search(graph: &Graph, analysis: &Analysis, is_silent: &dyn Fn(ConnectionId) -
         return Found::Nothing;
     }
     let blockers = blockers(graph, analysis);
-    let blocks = |queue: &[ConnectionId], token: ConnectionId| {
-        blockers[asynchronous.slot(token)].iter().copied().find(|other| queue.contains(other))
+    let blocks = |waiting: &BTreeSet<ConnectionId>, token: ConnectionId| {
+        blockers[asynchronous.slot(token)].iter().copied().find(|other| waiting.contains(other))
     };
     let mut known = BTreeSet::new();
     let mut visited: Vec<Visited> = vec![];
@@ -95,12 +95,13 @@ fn search(graph: &Graph, analysis: &Analysis, is_silent: &dyn Fn(ConnectionId) -
     while at < visited.len() && tokens < MAX_TOKENS {
         let queue = visited[at].queue.clone();
         tokens += queue.len();
-        let Some(place) = (0..queue.len()).find(|place| blocks(&queue, queue[*place]).is_none()) else {
+        let waiting = queue.iter().copied().collect();
+        let Some(place) = (0..queue.len()).find(|place| blocks(&waiting, queue[*place]).is_none()) else {
             if queue.is_empty() {
                 at += 1;
                 continue;
             }
-            let waits = queue.iter().filter_map(|token| Some((*token, blocks(&queue, *token)?))).collect();
+            let waits = queue.iter().filter_map(|token| Some((*token, blocks(&waiting, *token)?))).collect();
             return Found::Stuck(Stuck { run: run(&visited, at), waits });
         };
         let token = queue[place];
