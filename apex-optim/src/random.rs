@@ -48,6 +48,11 @@ impl Random {
         radius * libm::cos(TAU * self.unit())
     }
 
+    /// Random whole number below `end`, which is not 0.
+    pub const fn below(&mut self, end: u64) -> u64 {
+        self.bits() % end
+    }
+
     /// Returns `true` with the given probability.
     pub fn chance(&mut self, probability: f32) -> bool {
         self.unit() < f64::from(probability)
@@ -77,5 +82,6 @@ mod tests {
         let hits = (0..n).filter(|_| random.chance(0.25)).count();
         assert!((hits as f64 / f64::from(n) - 0.25).abs() < 0.01);
         assert!((0..n).all(|_| (-1.0..3.0).contains(&random.uniform(-1.0, 3.0))));
+        assert!((0..n).all(|_| random.below(3) < 3));
     }
 }

@@ -1,60 +1,31 @@
 """The other side of the tests of actions with Python: `/py_fibonacci` as rclpy serves it, and a client of `/fibonacci`.
 
-A router that listens at the address in argv[1]; the further arguments are the hashes of the services. Messages are
-those of rosbags, or written by hand where rosbags has no services. Each line on standard output is one observation.
+Messages of services are written by hand, as rosbags has none. Arguments and output are those of wire.py.
 """
 import struct
 import sys
 import threading
 import time
 
+import numpy
+import wire
 import zenoh
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys import get_types_from_msg
+from wire import HEAD, STORE, attachment, key, say
 
-ADDRESS, SERVICES = sys.argv[1], dict(pair.split("=") for pair in sys.argv[2:])
-STORE = get_typestore(Stores.ROS2_JAZZY)
 ACTION = "example_interfaces/action/Fibonacci"
 STORE.register(get_types_from_msg("int32[] sequence", f"{ACTION}_Feedback"))
 STORE.register(get_types_from_msg(f"unique_identifier_msgs/UUID goal_id\n{ACTION}_Feedback feedback",
                                   f"{ACTION}_FeedbackMessage"))
 STATUS = "action_msgs/msg/GoalStatusArray"
-GID = bytes(range(16))
-HEAD = b"\0\1\0\0"
-
-
-def say(*words):
-    # Threads of Zenoh speak, too: a line is written as one.
-    sys.stdout.write(" ".join(map(str, words)) + "\n")
-    sys.stdout.flush()
-
-
-def key(name, ty):
-    package, kind, short = ty.split("/")
-    hash_ = SERVICES.get(ty) or STORE.hash_rihs01(ty)
-    return f"0/{name}/{package}::{kind}::dds_::{short}_/{hash_}"
-
-
-def attachment(number, gid=GID):
-    return struct.pack("<qqB16s", number, time.time_ns(), 16, gid)
 
 
 def numbers(sequence):
     return struct.pack(f"<I{len(sequence)}i", len(sequence), *sequence)
 
 
-config = zenoh.Config()
-for setting, value in [("mode", '"router"'), ("listen/endpoints", f'["{ADDRESS}"]'), ("scouting/multicast/enabled", "false"),
-                       ("timestamping/enabled", "true")]:
-    config.insert_json5(setting, value)
-session = zenoh.open(config)
-kept = [session.liveliness().declare_token(f"@ros2_lv/0/{session.info.zid()}/0/0/NN/%/%/peer")]
-
-
-def token(number, kind, name, ty, qos="::,10:,:,:,,"):
-    _, wire, hash_ = key(name, ty).rsplit("/", 2)
-    mangled = "%" + name.replace("/", "%")
-    text = f"@ros2_lv/0/{session.info.zid()}/0/{number}/{kind}/%/%/peer/{mangled}/{wire}/{hash_}/{qos}"
-    kept.append(session.liveliness().declare_token(text))
+session = wire.open_router()
+kept = [wire.node_token(session)]
 
 
 # The server. A goal of 66 is refused, one of 99 is counted until it is called off.
@@ -62,7 +33,6 @@ AT = "py_fibonacci/_action/"
 UUID, Info = STORE.types["unique_identifier_msgs/msg/UUID"], STORE.types["action_msgs/msg/GoalInfo"]
 Status, Array = STORE.types["action_msgs/msg/GoalStatus"], STORE.types[STATUS]
 Time = STORE.types["builtin_interfaces/msg/Time"]
-import numpy
 
 feedback = session.declare_publisher(key(AT + "feedback", f"{ACTION}_FeedbackMessage"))
 status = zenoh.ext.declare_advanced_publisher(session, key(AT + "status", STATUS), cache=zenoh.ext.CacheConfig(max_samples=1),
@@ -149,9 +119,9 @@ for number, (part, ty, answer) in enumerate([("send_goal", f"{ACTION}_SendGoal",
                                              ("get_result", f"{ACTION}_GetResult", on_result),
                                              ("cancel_goal", "action_msgs/srv/CancelGoal", on_cancel)]):
     kept.append(session.declare_queryable(key(AT + part, ty), answer, complete=True))
-    token(number + 10, "SS", AT + part, ty)
-token(20, "MP", AT + "feedback", f"{ACTION}_FeedbackMessage")
-token(21, "MP", AT + "status", STATUS, ":1:,1:,:,:,,")
+    kept.append(wire.token(session, number + 10, "SS", AT + part, ty))
+kept.append(wire.token(session, 20, "MP", AT + "feedback", f"{ACTION}_FeedbackMessage"))
+kept.append(wire.token(session, 21, "MP", AT + "status", STATUS, ":1:,1:,:,:,,"))
 
 # The client.
 OF = "fibonacci/_action/"
@@ -168,9 +138,8 @@ kept.append(session.declare_subscriber(
 def ask(part, ty, body, then):
     """Asks without waiting, as clients of ROS do."""
     def run():
-        for answer in session.get(key(OF + part, ty), payload=HEAD + body, attachment=attachment(1), timeout=30.0,
-                                  target=zenoh.QueryTarget.ALL_COMPLETE):
-            then(answer.ok.payload.to_bytes()[4:])
+        for answer in wire.answers(session, OF + part, ty, body, timeout=30.0):
+            then(answer.payload.to_bytes()[4:])
     threading.Thread(target=run, daemon=True).start()
 
 

@@ -1,19 +1,17 @@
 //! Damaged tokens and attachments: nothing panics, and what is read is written in the same way.
 
+use apex_nodes::math;
 use apex_ros::{Attachment, Qos, Token};
 
 /// Damaged texts of each kind.
 const COUNT: usize = 500_000;
 
-/// Pseudo-random numbers (xorshift).
-struct Random(u64);
+/// Pseudo-random damage.
+struct Random(math::Random);
 
 impl Random {
     fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % end as u64) as usize
+        self.0.below(end as u64) as usize
     }
 
     /// Changes, removes, inserts or repeats some bytes.
@@ -41,7 +39,7 @@ fn damaged_tokens_are_tokens_or_refused() {
     let whole =
         b"@ros2_lv/0/999bf91283606d2068c7524e5badfa6c/0/1/MP/%/%robot1/talker/%chatter/std_msgs::msg::dds_::String_/\
                   RIHS01_df66/2:1:,1000:1,5:10,0:3,0,7/x";
-    let (mut random, mut read) = (Random(7), 0);
+    let (mut random, mut read) = (Random(math::Random::new(7)), 0);
     for _ in 0..COUNT {
         let text = String::from_utf8_lossy(&random.damage(whole)).into_owned();
         if let Ok(token) = text.parse::<Token>() {
@@ -67,7 +65,7 @@ fn damaged_attachments_are_attachments_or_refused() {
         plain[16..].to_vec(),
     ]
     .concat();
-    let (mut random, mut read) = (Random(11), 0);
+    let (mut random, mut read) = (Random(math::Random::new(11)), 0);
     for round in 0..COUNT {
         let damaged = random.damage(if round % 2 == 0 { &plain } else { &named });
         if let Some(attachment) = Attachment::read(&damaged) {

@@ -1,5 +1,6 @@
 //! Keys, tokens and quality of service beside those of `hiroz-protocol`, another implementation.
 
+use apex_nodes::math;
 use apex_ros::{Durability, Endpoint, Kind, Qos, Reliability, Token, key};
 use hiroz_protocol::{
     EndpointEntity, EndpointKind, KeyExprFormatter, NodeEntity, RmwZenohFormatter, TypeHash, TypeInfo,
@@ -11,15 +12,12 @@ use std::time::Duration;
 /// Number of compared entities.
 const COUNT: usize = 100_000;
 
-/// Pseudo-random numbers (xorshift).
-struct Random(u64);
+/// Pseudo-random names and numbers.
+struct Random(math::Random);
 
 impl Random {
     fn below(&mut self, end: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0 % end
+        self.0.below(end)
     }
 
     fn one<T: Copy>(&mut self, of: &[T]) -> T {
@@ -74,7 +72,7 @@ impl Random {
 
 #[test]
 fn keys_and_tokens_are_the_same() {
-    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut random = Random(math::Random::new(1));
     for _ in 0..COUNT {
         let kinds = [
             (Kind::Publisher, EndpointKind::Publisher),

@@ -304,6 +304,8 @@ fn a_simulation_has_the_time() {
         clock.send(&rosgraph_msgs::Clock { clock: time }).expect("it is there");
     };
     beside(&router, &["--ros-args", "-p", "use_sim_time:=true"], |_| {
+        // A tick that comes before would be lost.
+        within(5.0, "the ticks", || simulator.sees(apex_ros::Kind::Publisher, "ticks", "std_msgs/msg/UInt64"));
         within(5.0, "the first tick", || {
             at(1_700_000_000);
             thread::sleep(Duration::from_millis(10));

@@ -1,41 +1,15 @@
 """The other side of tests/peers.rs: keys, tokens and attachments as rmw_zenoh documents them, messages by rosbags.
 
-A router that listens at the address in argv[1], and a node `peer` that sends back on /pong_N what comes on /ping_N,
-decoded and encoded again, serves /flip, and calls /robot/shout. Each line on standard output is one observation.
+A node `peer` that sends back on /pong_N what comes on /ping_N, decoded and encoded again, serves /flip, and calls
+/robot/shout. Arguments and output are those of wire.py.
 """
 import struct
 import sys
 import time
 
+import numpy
 import zenoh
-from rosbags.typesys import Stores, get_typestore
-
-ADDRESS, SERVICES = sys.argv[1], dict(pair.split("=") for pair in sys.argv[2:])
-STORE = get_typestore(Stores.ROS2_JAZZY)
-GID = bytes(range(16))
-QOS = "::,10:,:,:,,"
-
-
-def say(*words):
-    # Threads of Zenoh speak, too: a line is written as one.
-    sys.stdout.write(" ".join(map(str, words)) + "\n")
-    sys.stdout.flush()
-
-
-def key(name, ty):
-    package, kind, short = ty.split("/")
-    hash_ = SERVICES[ty] if kind == "srv" else STORE.hash_rihs01(ty)
-    return f"0/{name}/{package}::{kind}::dds_::{short}_/{hash_}"
-
-
-def token(session, number, kind, name, ty):
-    _, wire, hash_ = key(name, ty).rsplit("/", 2)
-    text = f"@ros2_lv/0/{session.info.zid()}/0/{number}/{kind}/%/%/peer/%{name}/{wire}/{hash_}/{QOS}"
-    return session.liveliness().declare_token(text)
-
-
-def attachment(number, gid=GID):
-    return struct.pack("<qqB16s", number, time.time_ns(), 16, gid)
+from wire import GID, HEAD, STORE, answers, attachment, key, node_token, open_router, say, token
 
 
 def read(sample):
@@ -45,12 +19,8 @@ def read(sample):
     return number, gid, right
 
 
-config = zenoh.Config()
-for setting, value in [("mode", '"router"'), ("listen/endpoints", f'["{ADDRESS}"]'), ("scouting/multicast/enabled", "false"),
-                       ("timestamping/enabled", "true")]:
-    config.insert_json5(setting, value)
-session = zenoh.open(config)
-kept = [session.liveliness().declare_token(f"@ros2_lv/0/{session.info.zid()}/0/0/NN/%/%/peer")]
+session = open_router()
+kept = [node_token(session)]
 
 TYPES = ["sensor_msgs/msg/LaserScan", "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry", "nav_msgs/msg/OccupancyGrid",
          "tf2_msgs/msg/TFMessage", "sensor_msgs/msg/Image", "std_msgs/msg/String", "sensor_msgs/msg/PointCloud2",
@@ -85,7 +55,6 @@ late = zenoh.ext.declare_advanced_publisher(session, key("map_of_peer", grid), c
 Grid, Meta = STORE.types[grid], STORE.types["nav_msgs/msg/MapMetaData"]
 Time, Header = STORE.types["builtin_interfaces/msg/Time"], STORE.types["std_msgs/msg/Header"]
 Pose, Point = STORE.types["geometry_msgs/msg/Pose"], STORE.types["geometry_msgs/msg/Point"]
-import numpy
 origin = Pose(Point(0.0, 0.0, 0.0), STORE.types["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0))
 meta = Meta(Time(0, 0), 0.5, 2, 1, origin)
 message = Grid(Header(Time(1, 2), "map"), meta, numpy.array([100, 0], dtype=numpy.int8))
@@ -113,7 +82,7 @@ def on_query(query):
     say("request", data, number)
     text = b"flipped\0"
     body = struct.pack("<B3xI", 1 - data, len(text)) + text
-    query.reply(flip, b"\0\1\0\0" + body, attachment=attachment(number, gid))
+    query.reply(flip, HEAD + body, attachment=attachment(number, gid))
 
 
 kept.extend([session.declare_queryable(flip, on_query, complete=True),
@@ -126,11 +95,9 @@ for line in sys.stdin:
         for reply in session.liveliness().get("@ros2_lv/**"):
             say("token", reply.ok.key_expr)
     elif word == "call":
-        shout = key("robot/shout", "std_srvs/srv/SetBool")
-        for reply in session.get(shout, payload=b"\0\1\0\0\1", attachment=attachment(7), timeout=5.0,
-                                 target=zenoh.QueryTarget.ALL_COMPLETE):
-            number, _, gid = struct.unpack("<qqB16s", reply.ok.attachment.to_bytes())[0], 0, reply.ok.attachment.to_bytes()[17:]
-            raw = reply.ok.payload.to_bytes()
+        for reply in answers(session, "robot/shout", "std_srvs/srv/SetBool", b"\1", number=7):
+            number, _, _, gid = struct.unpack("<qqB16s", reply.attachment.to_bytes())
+            raw = reply.payload.to_bytes()
             length, = struct.unpack_from("<I", raw, 8)
             say("response", raw[4], raw[12:12 + length - 1].decode(), number, "same" if gid == GID else "WRONG")
     elif word == "end":

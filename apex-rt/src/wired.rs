@@ -275,7 +275,7 @@ pub trait Wired {
     fn occupy(&mut self, _bit: usize) {}
 
     /// Takes the token that waits for a slot: its connection is free again, and activity moves as the token says.
-    /// Returns the context of the call, and `true` if the node has become active, or is no longer.
+    /// Returns the context of the call, and `true` if the activity of the node has changed.
     #[inline(always)]
     fn enter<O: Observer>(&mut self, slot: &Slot, ctx: &Ctx, observer: &mut O) -> (Ctx, bool) {
         if let Some(connection) = slot.connection {

@@ -456,13 +456,7 @@ mod tests {
     /// at most once, nothing is reported of a goal that was left, and one that was accepted and left is called off.
     #[test]
     fn whatever_comes_a_goal_ends_once_and_is_not_forgotten() {
-        let mut random = 5_u64;
-        let mut below = |end: u64| {
-            random ^= random << 13;
-            random ^= random >> 7;
-            random ^= random << 17;
-            random % end
-        };
+        let mut random = apex_nodes::math::Random::new(5);
         for _ in 0..5000 {
             let mut test = Test::new();
             let (mut is_left, mut is_over, mut reports, mut accepted, mut cancels) = (false, false, 0, false, 0);
@@ -487,7 +481,7 @@ mod tests {
                         Deed::AskResult(_) | Deed::Tell(_) => {}
                     }
                 }
-                deeds = match below(9) {
+                deeds = match random.below(9) {
                     0 => {
                         is_left |= !is_over;
                         test.cancel()
@@ -498,13 +492,13 @@ mod tests {
                     }
                     2 => test.answer(None),
                     3 => test.answer(Some(false)),
-                    4 => test.result(Some((below(8) as i8, 1))),
+                    4 => test.result(Some((random.below(8) as i8, 1))),
                     5 => test.result(None),
                     6 => test.feedback(),
-                    7 => test.canceled([None, Some(0), Some(2)][below(3) as usize]),
+                    7 => test.canceled([None, Some(0), Some(2)][random.below(3) as usize]),
                     _ => {
-                        let ms = (test.now - test.start).as_millis() as u64 + below(5000);
-                        test.until(ms, below(3) > 0).into_iter().map(|(_, deed)| deed).collect()
+                        let ms = (test.now - test.start).as_millis() as u64 + random.below(5000);
+                        test.until(ms, random.below(3) > 0).into_iter().map(|(_, deed)| deed).collect()
                     }
                 };
                 if is_left && accepted && test.goals.goals.values().any(|goal| goal.stage == Stage::Accepted) {

@@ -38,7 +38,9 @@ impl Peer {
     pub fn start(python: &Path, script: &str, types: &[&str]) -> Self {
         let address = free_address();
         let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(script);
+        // `-B`: what it imports leaves no files beside it.
         let mut child = Command::new(python)
+            .arg("-B")
             .arg(script)
             .arg(&address)
             .args(types)

@@ -133,19 +133,8 @@ impl<G: Clone, F, R> ActionLink<G, F, R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Random;
     use apex_rt::{Construct, Time, event};
-
-    /// Random numbers (xorshift).
-    struct Random(u64);
-
-    impl Random {
-        fn below(&mut self, end: u64) -> u64 {
-            self.0 ^= self.0 << 13;
-            self.0 ^= self.0 >> 7;
-            self.0 ^= self.0 << 17;
-            self.0 % end
-        }
-    }
 
     /// Events of a call of `report`: accepted, feedback, and the end of the goal by its number in the list of events.
     fn report(client: &mut ActionClient<u8, u8, u8>, token: &Report<u8, u8>) -> (bool, Option<u8>, Option<usize>) {
@@ -174,7 +163,7 @@ mod tests {
     /// one end, and a report of another goal than the present one does nothing.
     #[test]
     fn only_reports_of_the_present_goal_count() {
-        let mut random = Random(5);
+        let mut random = Random::new(5);
         for _ in 0..2000 {
             let mut client = ActionClient::<u8, u8, u8>::construct((3,));
             let (mut count, mut present) = (0_u64, None);

@@ -139,20 +139,9 @@ impl<G: Clone, F: Clone, R: Clone + Default> ActionServer<G, F, R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Random;
     use apex_rt::{Construct, Time, event};
     use std::collections::BTreeMap;
-
-    /// Random numbers (xorshift).
-    struct Random(u64);
-
-    impl Random {
-        fn below(&mut self, end: u64) -> u64 {
-            self.0 ^= self.0 << 13;
-            self.0 ^= self.0 >> 7;
-            self.0 ^= self.0 << 17;
-            self.0 % end
-        }
-    }
 
     /// A server, where its activity is, and the state of its goals.
     struct Test {
@@ -210,7 +199,7 @@ mod tests {
     /// accepted one has exactly one end, and the goals never outnumber the activity.
     #[test]
     fn each_goal_that_is_accepted_has_one_end() {
-        let mut random = Random(11);
+        let mut random = Random::new(11);
         for round in 0..2000 {
             let server = ActionServer::construct((round % 2 == 0,));
             let mut test = Test { server, is_here: false, ends: BTreeMap::new() };

@@ -334,20 +334,14 @@ mod tests {
     /// without activity: a result ends its own order only, while that one has the activity, and once.
     #[test]
     fn a_numbered_result_ends_its_own_order_once() {
-        let mut random = 5_u64;
-        let mut below = |end: u64| {
-            random ^= random << 13;
-            random ^= random >> 7;
-            random ^= random << 17;
-            random % end
-        };
+        let mut random = crate::math::Random::new(5);
         for round in 0..4000 {
             // The activity may stay at the node when its order has ended: `done ->`.
             let (mut test, stays) = (Test::new(1.0), round % 2 == 0);
             let (mut last, mut is_over, mut is_active) = (0, true, false);
             for _ in 0..30 {
-                test.1 += below(700) as i64;
-                match below(4) {
+                test.1 += random.below(700) as i64;
+                match random.below(4) {
                     0 => {
                         is_active = true;
                         let begins = test.begin(true);
@@ -360,7 +354,8 @@ mod tests {
                         (is_active, is_over) = (false, true);
                     }
                     _ => {
-                        let (ctx, order, succeeds) = (test.ctx(is_active), below(last + 2), below(2) == 0);
+                        let (ctx, order, succeeds) =
+                            (test.ctx(is_active), random.below(last + 2), random.below(2) == 0);
                         let (mut done, mut gave_up) = (None, None);
                         match succeeds {
                             true => test.0.succeeded(&order, &ctx, apex_rt::event(&mut done)),

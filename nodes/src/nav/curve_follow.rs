@@ -2,6 +2,7 @@ use super::{
     Articulated, Path, Projection, Twist,
     latest::{Latest, any_far, fresh},
     outline::{Axes, Outline},
+    progress::{End, Progress, RESUMES},
     twist::Halt,
 };
 use crate::{
@@ -18,10 +19,6 @@ const STEP: f32 = 0.1;
 const CHORD: f32 = 0.15;
 /// Distance from the end up to which the last points are passed one by one, in m.
 const CORNER: f32 = 0.01;
-/// Minimum progress along the path, in m. A smaller change does not count as progress.
-const PROGRESS: f32 = 0.02;
-/// Longest pause between two paths after which a vehicle still goes on at its speed, in s.
-const RESUMES: f32 = 0.3;
 /// Greatest distance that a corner of the vehicle moves on a metre of the curve, in m.
 const SWING: f32 = 2.0;
 /// Distance by which a point that is within the margin already may come nearer, in m.
@@ -44,7 +41,7 @@ const GRAZE: f32 = 0.01;
 /// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on its way, or it makes no progress for longer
 ///   than `patience`, or the path is not finite,
 /// * is `off_path`: farther than `max_offset` from the path,
-/// * is deactivated: the node is no longer active.
+/// * is deactivated.
 ///
 /// Stops and fails while the pose is more than 100 km from the origin.
 #[node]
@@ -114,23 +111,6 @@ pub struct CurveFollower {
     halt: Halt,
 }
 
-/// Progress of a vehicle on its path.
-#[derive(Debug, Clone, Default)]
-struct Progress {
-    segment: usize,
-    /// Smallest length that was left, in m, and the time when it was reached.
-    least: Option<(f32, Time)>,
-    obstructed_since: Option<Time>,
-}
-
-/// Outcome of a drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum End {
-    Reached,
-    Blocked,
-    OffPath,
-}
-
 /// Prediction of a way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Outlook {
@@ -173,21 +153,16 @@ impl CurveFollower {
         Ok(self.step(ctx, places, [reached, blocked, off_path]))
     }
 
-    fn step(
-        &mut self,
-        ctx: &Ctx,
-        places: Option<(&Pose2, &Pose2)>,
-        [reached, blocked, off_path]: [Event<()>; 3],
-    ) -> Option<Twist> {
+    fn step(&mut self, ctx: &Ctx, places: Option<(&Pose2, &Pose2)>, ends: [Event<()>; 3]) -> Option<Twist> {
         let Some((pose, hitch)) = places else {
-            // The time that this takes does not count as time without progress.
-            (self.last, self.progress.least, self.progress.obstructed_since) = (None, None, None);
+            self.last = None;
+            self.progress.pause();
             return self.halt.drive(Twist::ZERO);
         };
         let axes = [*pose, self.vehicle.trailer(pose, pose.theta + hitch.theta)];
         let Some(projection) = self.path.project(pose.position(), self.progress.segment, CORNER) else {
             // The path is not finite.
-            return self.give_up_with(blocked);
+            return self.give_up_with(End::Blocked, ends);
         };
         self.progress.segment = projection.segment;
         self.find_near(ctx, &axes);
@@ -197,14 +172,12 @@ impl CurveFollower {
                 let twist = self.drive(&outlook, ctx.now());
                 self.halt.drive(twist)
             }
-            Some(End::Reached) => self.give_up_with(reached),
-            Some(End::Blocked) => self.give_up_with(blocked),
-            Some(End::OffPath) => self.give_up_with(off_path),
+            Some(end) => self.give_up_with(end, ends),
         }
     }
 
-    fn give_up_with(&mut self, event: Event<()>) -> Option<Twist> {
-        event.emit(());
+    fn give_up_with(&mut self, end: End, ends: [Event<()>; 3]) -> Option<Twist> {
+        end.tell(ends);
         self.give_up();
         self.halt.drive(Twist::ZERO)
     }
@@ -218,11 +191,7 @@ impl CurveFollower {
     /// Begins a path. A vehicle that was driving just before goes on at its speed.
     fn begin(&mut self, path: &Path, now: Time) {
         self.last = self.last.filter(|(at, _)| now.since(*at).as_secs_f32() <= RESUMES);
-        self.path.clone_from(path);
-        // A path of one point leads straight to it.
-        if let [point] = self.path.points[..] {
-            self.path.points.push(point);
-        }
+        self.path.take(path);
         self.progress = Progress::default();
     }
 
@@ -300,16 +269,9 @@ impl CurveFollower {
         if projection.distance > self.max_offset {
             return Some(End::OffPath);
         }
-        let left = projection.remaining + projection.distance;
-        if self.progress.least.is_none_or(|(least, _)| left < least - PROGRESS) {
-            self.progress.least = Some((left, now));
-        }
-        let obstructed = self.progress.obstructed_since.take().unwrap_or(now);
-        self.progress.obstructed_since = outlook.is_obstructed.then_some(obstructed);
-        let too_long = |since: Option<Time>, most: f32| since.is_some_and(|t| now.since(t).as_secs_f32() > most);
-        let is_blocked = too_long(self.progress.obstructed_since, self.blocked_timeout)
-            || too_long(self.progress.least.map(|(_, since)| since), self.patience);
-        is_blocked.then_some(End::Blocked)
+        self.progress.advance(projection.remaining + projection.distance, now);
+        self.progress.obstruct(outlook.is_obstructed, now);
+        self.progress.is_blocked(self.blocked_timeout, self.patience, now).then_some(End::Blocked)
     }
 
     fn drive(&mut self, outlook: &Outlook, now: Time) -> Twist {

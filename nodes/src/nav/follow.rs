@@ -2,6 +2,7 @@ use super::{
     FollowingLaw, Path, Projection, Twist,
     latest::{any_far, fresh},
     path::nearest_on,
+    progress::{End, Progress, RESUMES},
     twist::Halt,
 };
 use crate::{
@@ -12,10 +13,6 @@ use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::{PI, TAU};
 use libm::remainderf;
 
-/// Minimum progress along the path, in m. A smaller change does not count as progress.
-const PROGRESS: f32 = 0.02;
-/// Longest pause between two paths after which a robot still moves as before, in s.
-const RESUMES: f32 = 0.3;
 /// Weight of a heading error in the distance left to go, in m/rad.
 const TURN: f32 = 0.1;
 
@@ -33,7 +30,7 @@ const TURN: f32 = 0.1;
 /// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path ahead or the robot makes no progress,
 ///   or the path is not finite,
 /// * is `off_path`: farther than `max_offset` from the path,
-/// * is deactivated: the node is no longer active.
+/// * is deactivated.
 ///
 /// Stops and fails while the pose is more than 100 km from the origin. Obstacles around the goal do not count as
 /// standing on the path, as a goal may be close to a wall.
@@ -106,19 +103,10 @@ pub struct PathFollower {
     max_age: f32,
     path: Path,
     progress: Progress,
-    motion: Motion,
-    halt: Halt,
-}
-
-/// Progress of a robot on its path.
-#[derive(Debug, Clone, Default)]
-struct Progress {
-    segment: usize,
-    /// Smallest distance that was left to go, in m, and the time when it was reached.
-    least: Option<(f32, Time)>,
-    obstructed_since: Option<Time>,
     /// Distance to the nearest obstacle, in m.
     obstacle: Option<f32>,
+    motion: Motion,
+    halt: Halt,
 }
 
 /// Present motion of a robot.
@@ -130,14 +118,6 @@ struct Motion {
     /// Angular velocity, in rad/s.
     rotation: f32,
     heading: PidLaw<f32>,
-}
-
-/// Outcome of a drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum End {
-    Reached,
-    Blocked,
-    OffPath,
 }
 
 #[node]
@@ -162,13 +142,7 @@ impl PathFollower {
         Ok(self.step(ctx, pose, scan, [reached, blocked, off_path]))
     }
 
-    fn step(
-        &mut self,
-        ctx: &Ctx,
-        pose: Option<&Pose2>,
-        scan: Option<&Scan>,
-        [reached, blocked, off_path]: [Event<()>; 3],
-    ) -> Option<Twist> {
+    fn step(&mut self, ctx: &Ctx, pose: Option<&Pose2>, scan: Option<&Scan>, ends: [Event<()>; 3]) -> Option<Twist> {
         let Some(goal) = self.path.goal() else { return self.halt.rest() };
         let Some(pose) = fresh(ctx, pose, self.max_age) else {
             self.wait();
@@ -177,9 +151,7 @@ impl PathFollower {
         let projection = self.path.project(pose.position(), self.progress.segment, self.tolerance);
         let Some(projection) = projection else {
             // The path is not finite.
-            blocked.emit(());
-            self.give_up();
-            return self.halt.drive(Twist::ZERO);
+            return self.give_up_with(End::Blocked, ends);
         };
         self.progress.segment = projection.segment;
         if let Some(scan) = fresh(ctx, scan, self.max_age) {
@@ -188,20 +160,22 @@ impl PathFollower {
         match self.end(pose, goal, &projection, ctx.now()) {
             None => {
                 let twist = self.drive(pose, &projection, ctx.now());
-                return self.halt.drive(twist);
+                self.halt.drive(twist)
             }
-            Some(End::Reached) => reached.emit(()),
-            Some(End::Blocked) => blocked.emit(()),
-            Some(End::OffPath) => off_path.emit(()),
+            Some(end) => self.give_up_with(end, ends),
         }
+    }
+
+    fn give_up_with(&mut self, end: End, ends: [Event<()>; 3]) -> Option<Twist> {
+        end.tell(ends);
         self.give_up();
         self.halt.drive(Twist::ZERO)
     }
 
-    /// Stops until there is a better pose. The time that this takes does not count as time without progress.
+    /// Stops until there is a better pose.
     fn wait(&mut self) {
         self.motion = Motion::default();
-        (self.progress.least, self.progress.obstructed_since) = (None, None);
+        self.progress.pause();
     }
 
     /// Drops the path.
@@ -215,12 +189,8 @@ impl PathFollower {
         if self.motion.at.is_none_or(|last| now.since(last).as_secs_f32() > RESUMES) {
             self.motion = Motion::default();
         }
-        self.path.clone_from(path);
-        // A path of one point leads straight to it.
-        if let [point] = self.path.points[..] {
-            self.path.points.push(point);
-        }
-        self.progress = Progress::default();
+        self.path.take(path);
+        (self.progress, self.obstacle) = (Progress::default(), None);
         self.motion.heading.reset();
     }
 
@@ -233,13 +203,10 @@ impl PathFollower {
     fn look(&mut self, scan: &Scan, pose: &Pose2, projection: &Projection, now: Time) {
         let sight = self.look_ahead + self.clearance;
         let points = || scan.points().map(|(_, point)| point);
-        self.progress.obstacle = points().map(Point2::norm).reduce(f32::min);
+        self.obstacle = points().map(Point2::norm).reduce(f32::min);
         let mut near = points().filter(|point| point.norm_squared() <= sight * sight);
-        if near.any(|point| self.stands_on_path(pose.to_outer(point), projection)) {
-            self.progress.obstructed_since.get_or_insert(now);
-        } else {
-            self.progress.obstructed_since = None;
-        }
+        let is_obstructed = near.any(|point| self.stands_on_path(pose.to_outer(point), projection));
+        self.progress.obstruct(is_obstructed, now);
     }
 
     /// Returns `true` if a point is nearer to the path ahead than the clearance, except on the last piece before the
@@ -274,12 +241,9 @@ impl PathFollower {
             return Some(End::OffPath);
         }
         let left = self.left(pose, projection) + TURN * if is_last { turn } else { PI };
-        if self.progress.least.is_none_or(|(least, _)| left < least - PROGRESS) {
-            self.progress.least = Some((left, now));
-        }
-        let stuck_since = self.progress.least.map(|(_, since)| since);
-        let too_long = |since: Option<Time>| since.is_some_and(|t| now.since(t).as_secs_f32() > self.blocked_timeout);
-        (too_long(self.progress.obstructed_since) || too_long(stuck_since)).then_some(End::Blocked)
+        self.progress.advance(left, now);
+        let is_blocked = self.progress.is_blocked(self.blocked_timeout, self.blocked_timeout, now);
+        is_blocked.then_some(End::Blocked)
     }
 
     /// Length of the way to the goal, in m.
@@ -315,7 +279,7 @@ impl PathFollower {
     /// Desired velocity in the frame of the path, in m/s. A sharp corner is approached like the goal.
     fn velocity(&self, pose: &Pose2, projection: &Projection) -> Point2 {
         let turning = self.path.turning(projection, self.look_ahead);
-        let obstacle = self.progress.obstacle.unwrap_or(f32::INFINITY);
+        let obstacle = self.obstacle.unwrap_or(f32::INFINITY);
         let law = self.law();
         if !self.is_arriving(projection) {
             let speed = law.speed(turning, self.motion.rotation, obstacle, projection.to_stop);

@@ -34,6 +34,8 @@ mod payload;
 #[cfg(feature = "std")]
 mod plan;
 mod pose;
+#[cfg(feature = "std")]
+mod progress;
 mod safety;
 #[cfg(feature = "std")]
 mod search;

@@ -42,6 +42,14 @@ impl Path {
         self.points.last().copied()
     }
 
+    /// Takes over another path, to follow it. One of a single point leads straight to it.
+    pub(super) fn take(&mut self, path: &Self) {
+        self.clone_from(path);
+        if let [point] = self.points[..] {
+            self.points.push(point);
+        }
+    }
+
     /// Length of the path from the start to the goal, in m.
     pub fn length(&self) -> f32 {
         length(&self.points)
