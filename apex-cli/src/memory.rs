@@ -7,7 +7,7 @@ use crate::{
     made::{self, Made},
     project, run,
 };
-use apex_dsl::{codegen::Piece, passes, program::Program};
+use apex_dsl::{codegen::Piece, passes, checked::CheckedProgram};
 use apex_host::Workspace;
 use serde_json::{Value, json};
 use std::{
@@ -18,7 +18,7 @@ use std::{
 
 /// A program with the sizes of its parts.
 struct Measured<'a> {
-    program: &'a Program,
+    program: &'a CheckedProgram,
     bytes: usize,
     /// Purpose, owner and size in bytes of each part.
     pieces: Vec<(&'static str, String, usize)>,
@@ -27,7 +27,7 @@ struct Measured<'a> {
 /// Prints the size of each program of a source file, part by part.
 pub fn run(file: &Path, answer: &mut Answer) -> Result<ExitCode, String> {
     let mut checked = project::check(file)?;
-    let programs: Vec<&Program> = checked.programs.iter().filter(|p| p.script.is_none()).collect();
+    let programs: Vec<&CheckedProgram> = checked.programs.iter().filter(|p| p.script.is_none()).collect();
     let of_all = passes::memory(programs.iter().copied(), &checked.catalog, &checked.sources, &mut checked.diagnostics);
     answer.messages(&checked.diagnostics, &checked.sources);
     if checked.diagnostics.has_errors() {
@@ -46,7 +46,7 @@ pub fn run(file: &Path, answer: &mut Answer) -> Result<ExitCode, String> {
 }
 
 /// Builds and runs a program that prints one size per line: for each graph its own size, then those of its parts.
-fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -> Result<Vec<Measured<'a>>, String> {
+fn measure<'a>(file: &Path, programs: &[&'a CheckedProgram], of_all: Vec<Vec<Piece>>) -> Result<Vec<Measured<'a>>, String> {
     let workspace = Workspace::load(&run::package(file)?)?;
     let text = run::absolute(file)?;
     let made = Made {
@@ -78,7 +78,7 @@ fn measure<'a>(file: &Path, programs: &[&'a Program], of_all: Vec<Vec<Piece>>) -
 }
 
 /// Code of the program. It contains the graphs, so that it can access their private parts.
-fn main_file(file: &str, programs: &[&Program], of_all: &[Vec<Piece>]) -> String {
+fn main_file(file: &str, programs: &[&CheckedProgram], of_all: &[Vec<Piece>]) -> String {
     let mut lines = String::new();
     for (program, pieces) in programs.iter().zip(of_all) {
         let name = &program.graph.name;

@@ -6,7 +6,7 @@ use apex_dsl::{
     graph::Graph,
     machine::Machine,
     passes,
-    program::Program,
+    checked::CheckedProgram,
     report::{Diagnostics, Severity, render},
     resolve::{Link, SourceSet},
     source::{Sources, World as _},
@@ -27,7 +27,7 @@ pub struct Checked {
     /// Errors and warnings.
     pub diagnostics: Diagnostics,
     /// Programs in the source file.
-    pub programs: Vec<Program>,
+    pub programs: Vec<CheckedProgram>,
     /// Graphs in the source file that are not programs.
     pub parts: Vec<Graph>,
     /// Connections of the source file, as written.

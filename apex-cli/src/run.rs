@@ -9,7 +9,7 @@ use crate::{
 };
 use apex_dsl::{
     graph::{Graph, NodeKind},
-    program::Program,
+    checked::CheckedProgram,
     report::nearest,
     syntax::MAX_BYTES,
     units,
@@ -292,14 +292,14 @@ impl Wanted<'_> {
     }
 
     /// Checks the source file. Returns `None` if it has errors, which are printed.
-    pub fn check(&self, answer: &mut Answer) -> Result<Option<Vec<Program>>, String> {
+    pub fn check(&self, answer: &mut Answer) -> Result<Option<Vec<CheckedProgram>>, String> {
         let checked = project::check(self.file)?;
         answer.messages(&checked.diagnostics, &checked.sources);
         Ok((!checked.diagnostics.has_errors()).then_some(checked.programs))
     }
 
     /// Builds the program of a checked source file. Returns `None` after compile errors, which cargo has printed.
-    pub fn build(&self, programs: &[Program]) -> Result<Option<Found>, String> {
+    pub fn build(&self, programs: &[CheckedProgram]) -> Result<Option<Found>, String> {
         self.params.look(self.file)?;
         self.recording.look()?;
         if self.profile.is_some() && !self.how.release && !self.how.quiet {
@@ -350,7 +350,7 @@ impl Wanted<'_> {
     }
 
     /// Makes and builds a package that only drives the program.
-    fn make(&self, program: &Program, workspace: &Workspace) -> Result<Option<Found>, String> {
+    fn make(&self, program: &CheckedProgram, workspace: &Workspace) -> Result<Option<Found>, String> {
         let graph = &program.graph;
         if let Some(node) = graph.nodes.iter().find(|n| matches!(&n.kind, NodeKind::Library(l) if l.handed_in)) {
             return Err(format!(
@@ -455,8 +455,8 @@ pub fn package(file: &Path) -> Result<PathBuf, String> {
 }
 
 /// The named program, or else the only robot, or else the only graph.
-fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program, String> {
-    let programs: Vec<&Program> = programs.iter().filter(|p| p.script.is_none()).collect();
+fn choose<'a>(programs: &'a [CheckedProgram], name: Option<&str>) -> Result<&'a CheckedProgram, String> {
+    let programs: Vec<&CheckedProgram> = programs.iter().filter(|p| p.script.is_none()).collect();
     let names = || programs.iter().map(|p| format!("`{}`", p.graph.name)).collect::<Vec<_>>().join(", ");
     if let Some(name) = name {
         return programs.iter().copied().find(|p| p.graph.name == name).ok_or_else(|| {
@@ -466,7 +466,7 @@ fn choose<'a>(programs: &'a [Program], name: Option<&str>) -> Result<&'a Program
             }
         });
     }
-    let robots: Vec<&Program> = programs.iter().copied().filter(|p| p.graph.robot).collect();
+    let robots: Vec<&CheckedProgram> = programs.iter().copied().filter(|p| p.graph.robot).collect();
     match (robots.as_slice(), programs.as_slice()) {
         ([only], _) => Ok(*only),
         ([], [only]) => Ok(*only),

@@ -4,7 +4,7 @@ use crate::{answer::Answer, project};
 use apex_dsl::{
     analyse::Analysis,
     graph::{Graph, MAIN_GROUP, NodeId},
-    program::Program,
+    checked::CheckedProgram,
 };
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path, process::ExitCode};
@@ -79,7 +79,7 @@ struct Thread<'a> {
     slots: Vec<(String, f64)>,
 }
 
-fn threads<'a>(program: &'a Program, profile: &Profile) -> Vec<Thread<'a>> {
+fn threads<'a>(program: &'a CheckedProgram, profile: &Profile) -> Vec<Thread<'a>> {
     let of = |name, graph, analysis| thread(name, graph, analysis, profile);
     match &program.split {
         None => vec![of(MAIN_GROUP, &program.graph, &program.analysis)],
@@ -102,7 +102,7 @@ fn thread<'a>(name: &'a str, graph: &Graph, analysis: &Analysis, profile: &Profi
     Thread { name, busy: 100.0 * all / profile.span.max(f64::MIN_POSITIVE), clusters, slots }
 }
 
-fn text(program: &Program, profile: &Profile) -> String {
+fn text(program: &CheckedProgram, profile: &Profile) -> String {
     let mut text = format!("{}: {:.1} ms measured\n", profile.program, profile.span / 1e3);
     for thread in threads(program, profile) {
         let _ = writeln!(text, "  thread {}: {:.1} % of the time at work", thread.name, thread.busy);
@@ -117,7 +117,7 @@ fn text(program: &Program, profile: &Profile) -> String {
     text
 }
 
-fn json_of(program: &Program, profile: &Profile) -> Value {
+fn json_of(program: &CheckedProgram, profile: &Profile) -> Value {
     let threads = threads(program, profile).into_iter().map(|thread| {
         let clusters: Vec<Value> = thread
             .clusters

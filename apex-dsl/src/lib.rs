@@ -9,6 +9,7 @@ extern crate alloc;
 pub mod analyse;
 pub mod catalog;
 pub mod check;
+pub mod checked;
 pub mod claims;
 pub mod codegen;
 pub mod fraction;

@@ -8,7 +8,7 @@ use crate::{
     codegen,
     graph::Graph,
     machine::Machines,
-    program::Program,
+    checked::CheckedProgram,
     report::{Diagnostics, Severity},
     resolve::{self, Link, SourceSet},
     source::{FileId, Sources, Span, World},
@@ -23,7 +23,7 @@ pub struct Checked {
     /// The connections in it, as written.
     pub links: Vec<Link>,
     /// The programs in it that could be built and analysed.
-    pub programs: Vec<Program>,
+    pub programs: Vec<CheckedProgram>,
     /// The graphs in it that are not programs: graphs used in other ones, and graphs with parameters without a value.
     pub parts: Vec<Graph>,
 }
@@ -62,7 +62,7 @@ pub fn check_all(
             if graph.is_open {
                 parts.push(graph);
             } else {
-                programs.push(Program { graph, analysis, claims: Decided::default(), split: None, script });
+                programs.push(CheckedProgram { graph, analysis, claims: Decided::default(), split: None, script });
             }
         }
     }
@@ -93,14 +93,14 @@ pub fn check_all(
 }
 
 /// The program between analysis and Rust, as text, for each of `programs` that is not a test.
-pub fn listings(programs: &[Program], catalog: &Catalog, sources: &Sources) -> Vec<String> {
+pub fn listings(programs: &[CheckedProgram], catalog: &Catalog, sources: &Sources) -> Vec<String> {
     let graphs = programs.iter().filter(|program| program.script.is_none());
     graphs.map(|program| codegen::listing(program, catalog, sources)).collect()
 }
 
 /// Memory that each of `programs` uses, in pieces; empty if `diagnostics` has errors.
 pub fn memory<'a>(
-    programs: impl Iterator<Item = &'a Program>,
+    programs: impl Iterator<Item = &'a CheckedProgram>,
     catalog: &Catalog,
     sources: &Sources,
     diagnostics: &mut Diagnostics,
@@ -111,7 +111,7 @@ pub fn memory<'a>(
 /// Rust code of `programs` and `machines`; empty if `diagnostics` has errors. `place` maps a span of the source to the
 /// code that called `graph!`. `recordable` is `true` if the runtime that the code will call can record.
 pub fn generate(
-    programs: &[Program],
+    programs: &[CheckedProgram],
     machines: &Machines,
     catalog: &Catalog,
     sources: &Sources,

@@ -4,10 +4,10 @@ use apex_dsl::{
     analyse::{Analysis, Block, ClusterId, Run, Step},
     catalog::{Catalog, SignatureId},
     claims::Decided,
-    codegen::{Storage, storage},
+    program::{Storage, storage},
     graph::{Flow, Graph, Node, NodeId, NodeKind, PortId},
     machine::{self, Machines},
-    program::Program,
+    checked::CheckedProgram,
     resolve::Link,
     source::{Sources, Span},
     syntax::tree::PortKind,
@@ -20,7 +20,7 @@ use std::{
 };
 
 /// Regions, guards, clusters, schedule, rates, pruning and memory of a program, as text.
-pub fn explain(program: &Program, machines: &Machines, catalog: &Catalog) -> String {
+pub fn explain(program: &CheckedProgram, machines: &Machines, catalog: &Catalog) -> String {
     let mut text = String::new();
     let kind = if program.graph.robot { "robot" } else { "graph" };
     let _ = writeln!(text, "{kind} {}", program.graph.name);
@@ -51,7 +51,7 @@ pub fn by_name(links: &[Link], sources: &Sources) -> String {
 }
 
 /// Writes the contents of each thread group, and the cells between them.
-fn threads(text: &mut String, program: &Program, split: &Split, catalog: &Catalog) {
+fn threads(text: &mut String, program: &CheckedProgram, split: &Split, catalog: &Catalog) {
     for part in &split.parts {
         let _ = writeln!(text, "  thread {}", part.group);
         section(text, &part.graph, &part.analysis, &Decided::default(), catalog, 1);
@@ -255,7 +255,7 @@ fn kept(graph: &Graph, analysis: &Analysis, catalog: &Catalog) -> Vec<(PortId, S
 }
 
 /// The report of [`explain`] as JSON, without the state machines.
-pub fn explain_json(program: &Program, catalog: &Catalog) -> Value {
+pub fn explain_json(program: &CheckedProgram, catalog: &Catalog) -> Value {
     let mut whole = object(&program.graph, &program.analysis, &program.claims, catalog);
     if let Some(split) = &program.split {
         let threads = split

@@ -4,7 +4,7 @@ use apex_dsl::{
     catalog::Catalog,
     machine::Machines,
     passes,
-    program::Program,
+    checked::CheckedProgram,
     report::{Diagnostics, render},
     source::Sources,
 };
@@ -99,7 +99,7 @@ struct Package {
 /// Result of the compiler for a source file.
 struct Checked {
     messages: Vec<String>,
-    programs: Vec<Program>,
+    programs: Vec<CheckedProgram>,
     machines: Machines,
     sources: Sources,
 }

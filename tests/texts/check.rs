@@ -9,7 +9,7 @@ use apex_dsl::{
     catalog::{Catalog, Crates},
     graph::{Graph, NodeKind},
     passes,
-    program::Program,
+    checked::CheckedProgram,
     report::{Diagnostic, Diagnostics, Severity, json, render},
     source::{Sources, World},
 };
@@ -202,7 +202,7 @@ fn refused(error: &Diagnostic, sources: &Sources) -> Checked {
 }
 
 /// Fails for a node without a path, which would be missing in the program.
-fn unspelled(program: &Program, catalog: &Catalog) -> Option<Checked> {
+fn unspelled(program: &CheckedProgram, catalog: &Catalog) -> Option<Checked> {
     let lost = program.graph.nodes.iter().find(|node| match &node.kind {
         NodeKind::Library(library) => catalog.signatures[library.signature].path.is_empty(),
         _ => false,

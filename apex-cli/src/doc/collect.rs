@@ -6,7 +6,7 @@ use apex_dsl::{
     catalog::SignatureId,
     claims::Verdict,
     graph::Graph,
-    program::Program,
+    checked::CheckedProgram,
     resolve::GraphId,
     source::Span,
     syntax::tree::{Arg, Endpoint, GraphItem, Instance, Modifier, NodeBody, PathExpr, StateItem, TypeKind},
@@ -22,7 +22,7 @@ pub struct Checked<'a> {
     /// The source file, which is the first, and all that it imports.
     pub view: View<'a>,
     /// Its programs.
-    pub programs: &'a [Program],
+    pub programs: &'a [CheckedProgram],
     /// Its other graphs.
     pub parts: &'a [Graph],
     /// Locations of all files.
@@ -206,7 +206,7 @@ impl Checked<'_> {
     }
 
     fn claim(&self, span: Span) -> Claim {
-        let of_program = |program: &Program| {
+        let of_program = |program: &CheckedProgram| {
             let claims = program.graph.claims.iter().zip(&program.claims.verdicts);
             claims.filter(|(claim, _)| claim.span == span).map(|(_, verdict)| *verdict).collect::<Vec<_>>()
         };

@@ -10,7 +10,7 @@ use crate::{
         program::{Running, forget},
     },
 };
-use apex_dsl::program::Program;
+use apex_dsl::checked::CheckedProgram;
 use apex_studio::{Recorded, Robot};
 use std::{
     env, fs,
@@ -96,7 +96,7 @@ impl Launched {
         Ok(self.built.is_some())
     }
 
-    fn check(&self, wanted: &Wanted<'_>) -> Result<Option<Vec<Program>>, String> {
+    fn check(&self, wanted: &Wanted<'_>) -> Result<Option<Vec<CheckedProgram>>, String> {
         let checked = project::check(wanted.file)?;
         checked.print_diagnostics();
         if checked.diagnostics.has_errors() {

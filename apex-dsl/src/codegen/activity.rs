@@ -5,11 +5,12 @@ use super::{
     Generator,
     state::{Kind, StateField},
     types::ident,
-    wiring::{Flag, Wiring},
+    labels::Labels,
 };
 use crate::{
-    analyse::{Analysis, Links, takes_activity},
-    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId, Standard},
+    analyse::{Analysis, Links},
+    graph::{Graph, NodeId, NodeKind, PortId, Standard},
+    program::{Carries, Flag, Lower, Wiring},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -23,51 +24,36 @@ pub struct ProgramView<'a> {
     pub links: &'a Links,
     /// The asynchronous half; empty in the body of an `each`.
     pub wiring: &'a Wiring,
+    /// Names of what it consists of.
+    pub labels: &'a Labels,
+}
+
+/// A program as it was lowered, with the names in its code.
+pub struct Lowered {
+    wiring: Wiring,
+    labels: Labels,
+}
+
+impl Lowered {
+    /// The program of a graph.
+    pub fn new(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis) -> Self {
+        let wiring = Wiring::new(Lower::new(graph, analysis, generator.catalog, generator.claims));
+        let labels = Labels::new(generator, graph, analysis, &wiring);
+        Self { wiring, labels }
+    }
 }
 
 impl<'a> ProgramView<'a> {
-    /// The view of a graph, its analysis and its wiring.
-    pub fn new(graph: &'a Graph, analysis: &'a Analysis, wiring: &'a Wiring) -> Self {
-        Self { graph, analysis, links: &analysis.links, wiring }
+    /// The view of a graph, its analysis, and its program.
+    pub fn new(graph: &'a Graph, analysis: &'a Analysis, lowered: &'a Lowered) -> Self {
+        Self { graph, analysis, links: &analysis.links, wiring: &lowered.wiring, labels: &lowered.labels }
     }
-}
-
-/// Effect of a token on the activity of the node that takes it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Carries {
-    /// Not at all.
-    Nothing,
-    /// It activates: it is from `start`.
-    Always,
-    /// It activates if its sender was active: there is a flag for it.
-    Sometimes,
-    /// It takes activity away.
-    Away,
 }
 
 impl Generator<'_> {
-    /// Activity that the tokens on `connection` may carry.
-    pub fn carries(&self, graph: &Graph, analysis: &Analysis, connection: ConnectionId) -> Carries {
-        let c = &graph.connections[connection];
-        let checked = self.checks_claims();
-        // Claims have to know of activity on its way to the end of the program.
-        let ends = checked && matches!(graph.nodes[c.to.node].kind, NodeKind::Exit(_));
-        if !c.active || !(ends || analysis.active.contains(&c.to.node)) {
-            return Carries::Nothing;
-        }
-        match &graph.nodes[c.from.node].kind {
-            // The activity of a token that waits can be cancelled.
-            NodeKind::Start if checked || analysis.cancelled.contains(&c.to.node) => Carries::Sometimes,
-            NodeKind::Start => Carries::Always,
-            _ if takes_activity(graph, self.catalog, c.from.node) => Carries::Away,
-            _ if analysis.active.contains(&c.from.node) => Carries::Sometimes,
-            _ => Carries::Nothing,
-        }
-    }
-
-    /// The connections into the inputs of a node whose tokens may carry one of `what`.
-    pub fn inputs_carry(&self, view: ProgramView<'_>, node: NodeId, what: &[Carries]) -> bool {
-        view.links.inputs[node].iter().any(|c| what.contains(&self.carries(view.graph, view.analysis, *c)))
+    /// Input of the lowering of a program.
+    pub fn lower<'a>(&'a self, view: ProgramView<'a>) -> Lower<'a> {
+        Lower::new(view.graph, view.analysis, self.catalog, self.claims)
     }
 
     /// Activity in the state of a program: sets of flags, and what delays keep.
@@ -89,8 +75,8 @@ impl Generator<'_> {
             nodes.filter(|node| meant(*node)).map(|node| self.index(node)).collect()
         };
         let is_plain = |node: NodeId| !graph.nodes[node].is_delay();
-        let gains = |node: NodeId| self.inputs_carry(view, node, &[Carries::Always, Carries::Sometimes]);
-        let loses = |node: NodeId| self.inputs_carry(view, node, &[Carries::Away]);
+        let gains = |node: NodeId| self.lower(view).inputs_carry(node, &[Carries::Always, Carries::Sometimes]);
+        let loses = |node: NodeId| self.lower(view).inputs_carry(node, &[Carries::Away]);
         let can_be_disabled = |node: NodeId| graph.nodes[node].can_be_disabled();
         set("active", "active nodes", count, numbers(&is_plain, &mut active()), false);
         set("gains", "nodes that become active", count, numbers(&gains, &mut active()), false);
@@ -220,10 +206,10 @@ impl Generator<'_> {
         if !view.analysis.active.contains(&node) || view.graph.nodes[node].is_delay() {
             return quote!();
         }
-        let gains = self.inputs_carry(view, node, &[Carries::Always, Carries::Sometimes]);
-        let loses = self.inputs_carry(view, node, &[Carries::Away]);
+        let gains = self.lower(view).inputs_carry(node, &[Carries::Always, Carries::Sometimes]);
+        let loses = self.lower(view).inputs_carry(node, &[Carries::Away]);
         let (take_gains, take_loses) = (self.take(Flag::Gains(node)), self.take(Flag::Loses(node)));
-        let check = self.check_claims();
+        let check = self.check_claims(view);
         let (activate, deactivate) = (self.activate(view, node), self.deactivate(view, node));
         let (activate, deactivate) = (quote!(#activate #check), quote!(#deactivate #check));
         match (gains, loses) {
@@ -251,7 +237,7 @@ impl Generator<'_> {
         let mut code = quote!();
         for port in view.wiring.of(node).iter().filter(|port| port.is_active) {
             let Some(present) = present(port.end) else { continue };
-            let name = ident(&port.name);
+            let name = ident(&view.labels.ports[&port.end]);
             let pass = quote!(core.pass(&Self::#name, #present, observer));
             code.extend(match port.passes {
                 None if port.takes_away.is_empty() => quote!(),
@@ -262,7 +248,7 @@ impl Generator<'_> {
                     quote! { #pass if state.#held.take().is_some() { core.carry(&Self::#name); } }
                 }
                 Some(_) => {
-                    let (effects, check) = (self.turn_effects(view, node, false), self.check_claims());
+                    let (effects, check) = (self.turn_effects(view, node, false), self.check_claims(view));
                     followed(&pass, &quote!(#effects #check))
                 }
             });

@@ -4,12 +4,11 @@ use super::{
     Generator,
     activity::ProgramView,
     dispatch::free_to_send,
-    plan::is_buffer,
-    wiring::{Entry, Flag},
 };
 use crate::{
     graph::{CellEnd, ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
+    program::{is_buffer, Entry, Flag},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -21,16 +20,6 @@ pub fn receivers(graph: &Graph) -> impl Iterator<Item = (usize, NodeId)> + '_ {
         NodeKind::Receiver(far) => Some((far.cell, id)),
         _ => None,
     })
-}
-
-/// Returns `true` if an asynchronous connection of a part carries ⊥, because it stands for synchronous data flow.
-pub fn carries_missing(graph: &Graph, connection: ConnectionId) -> bool {
-    let c = &graph.connections[connection];
-    match (&graph.nodes[c.from.node].kind, &graph.nodes[c.to.node].kind) {
-        (_, NodeKind::Sender(_)) => graph.port(c.to).optional,
-        (NodeKind::Receiver(_), _) => graph.port(c.from).optional && graph.flow(c) == Flow::ToInput && !c.relayed,
-        _ => false,
-    }
 }
 
 /// The field of a cell.
@@ -46,7 +35,7 @@ impl Generator<'_> {
 
     /// A token goes into its cell, or the other side is done with it.
     pub fn send_far(&self, view: ProgramView<'_>, node: NodeId, far: CellEnd) -> TokenStream {
-        let ProgramView { graph, analysis, links, wiring } = view;
+        let ProgramView { graph, analysis, links, wiring, .. } = view;
         let bits = &wiring.bits;
         let Some((index, c)) = links.inputs[node].first().map(|c| (*c, &graph.connections[*c])) else {
             return quote!();
@@ -96,7 +85,7 @@ impl Generator<'_> {
 
     /// A token comes out of its cell, or all that it caused has finished.
     pub fn receive_far(&self, view: ProgramView<'_>, node: NodeId, far: CellEnd) -> TokenStream {
-        let ProgramView { graph, analysis, links, wiring } = view;
+        let ProgramView { graph, analysis, links, wiring, .. } = view;
         let end = PortId { node, port: 0 };
         let (cell, holding, name, sender) =
             (cell_name(far.cell), Self::holding(far.cell), self.name(end), self.cell(far).0);

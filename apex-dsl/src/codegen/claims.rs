@@ -3,13 +3,13 @@
 
 use super::{
     Generator,
-    activity::{Carries, ProgramView},
+    activity::ProgramView,
     state::{Kind, StateField},
-    wiring::Flag,
 };
 use crate::{
     claims::{Checks, Decided, FROM, Model, NEARER, Place, PlaceId, scopes_of},
     graph::{ClaimKind, Flow},
+    program::{Carries, Flag},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -23,24 +23,14 @@ struct Flagged {
 }
 
 impl Generator<'_> {
-    /// The claims about activity that the program looks at.
-    fn undecided(&self) -> Vec<usize> {
-        self.claims.map(Decided::undecided).unwrap_or_default()
-    }
-
     /// The claim `live`, if the program looks at it.
     pub fn undecided_live(&self) -> Option<usize> {
         self.claims.and_then(Decided::undecided_live)
     }
 
-    /// Returns `true` if the program checks claims about activity.
-    pub fn checks_claims(&self) -> bool {
-        !self.undecided().is_empty()
-    }
-
     /// Activity has moved: the claims are looked at, if there are any.
-    pub fn check_claims(&self) -> TokenStream {
-        if self.checks_claims() {
+    pub fn check_claims(&self, view: ProgramView<'_>) -> TokenStream {
+        if self.lower(view).checks_claims() {
             quote! { Self::check_claims(state, core, observer); }
         } else {
             quote!()
@@ -49,7 +39,7 @@ impl Generator<'_> {
 
     /// For each claim that the program looks at, whether it is broken now.
     pub fn claim_state(&self, view: ProgramView<'_>) -> Vec<StateField> {
-        let undecided = self.undecided().into_iter();
+        let undecided = self.lower(view).undecided().into_iter();
         let text = |claim: usize| view.graph.claim_text(&view.graph.claims[claim]);
         undecided
             .map(|claim| StateField::new(Kind::Claim, text(claim), broken(claim), quote!(bool), quote!(false)))
@@ -58,13 +48,13 @@ impl Generator<'_> {
 
     /// The function that looks at them.
     pub fn claim_function(&self, view: ProgramView<'_>) -> TokenStream {
-        if !self.checks_claims() {
+        if !self.lower(view).checks_claims() {
             return quote!();
         }
         let model = Model::new(view.graph, self.catalog);
         let checks = Checks::new(view.graph, &model);
         let flags = self.place_flags(view, &model);
-        let looks = self.undecided().into_iter().map(|claim| {
+        let looks = self.lower(view).undecided().into_iter().map(|claim| {
             let names = |group| any(&flags, &checks.places(claim, group));
             let is_broken = match view.graph.claims[claim].kind {
                 ClaimKind::Exclusive => {
@@ -128,7 +118,7 @@ impl Generator<'_> {
                 Place::Remembered(..) => continue,
                 // Nothing is kept for connections that never carry a token.
                 Place::Connection(c) if !view.analysis.asynchronous.live[c] => continue,
-                Place::Connection(c) if self.carries(view.graph, view.analysis, c) != Carries::Sometimes => continue,
+                Place::Connection(c) if self.lower(view).carries(c) != Carries::Sometimes => continue,
                 Place::Connection(c) => {
                     let connection = &view.graph.connections[c];
                     let flag = match view.graph.flow(connection) {

@@ -33,7 +33,7 @@ pub fn fire(view: ProgramView<'_>, cluster: ClusterId) -> TokenStream {
             quote! { self.#name(#cluster, ctx, observer); }
         }
         false => {
-            let name = ident(&view.wiring.clusters[cluster]);
+            let name = ident(&view.labels.clusters[cluster]);
             quote! { self.#name(ctx, observer); }
         }
     }
@@ -58,7 +58,7 @@ impl Generator<'_> {
             return firing.chunk_by(|a, b| chunk(*a) == chunk(*b)).map(|chunk| self.chunk(view, chunk)).collect();
         }
         let functions = firing.into_iter().map(|cluster| {
-            let (name, code) = (ident(&view.wiring.clusters[cluster]), self.cluster(view, cluster));
+            let (name, code) = (ident(&view.labels.clusters[cluster]), self.cluster(view, cluster));
             let docs = docs(view, cluster);
             quote! {
                 #[doc = #docs]

@@ -1,6 +1,11 @@
 //! Delivery of slot tokens: from a queue, or in an order that is known at compile time.
 
-use super::{Generator, activity::ProgramView, types::ident};
+use super::{
+    Generator,
+    activity::ProgramView,
+    sets::{set, set_type},
+    types::ident,
+};
 use crate::{
     analyse::{Delivery, ordered},
     graph::{ConnectionId, NodeKind},
@@ -21,8 +26,8 @@ impl Generator<'_> {
             true => quote!(|slot| self.core.dispatcher.holds(&Self::NEEDS[slot as usize])),
         };
         let needs_table = has_needs.then(|| {
-            let ty = wiring.bits.set_type();
-            let needs = needs.iter().map(|needs| wiring.bits.set(needs));
+            let ty = set_type(&wiring.bits);
+            let needs = needs.iter().map(|needs| set(&wiring.bits, needs));
             quote! { const NEEDS: &'static [#ty; #count] = &[#(#needs),*]; }
         });
         let (budget, step) = match analysis.asynchronous.endless {
@@ -74,7 +79,7 @@ impl Generator<'_> {
         let asynchronous = &view.analysis.asynchronous;
         let slot = asynchronous.slot(connection);
         let waits = self.waits(view.graph, view.graph.connections[connection].from);
-        let name = ident(&view.wiring.slots[slot].name);
+        let name = ident(&view.labels.slots[slot]);
         let step = asynchronous.endless.then(|| quote! { self.state.steps.take(#slot); });
         let budget = step.is_some().then(|| quote!(&&!self.state.steps.is_used_up()));
         quote! { if self.#waits #budget #test { #step self.#name(ctx, observer); } }

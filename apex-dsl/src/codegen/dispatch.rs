@@ -5,6 +5,7 @@ use super::{
     activity::ProgramView,
     cells::receivers,
     clusters::{Firing, fire, table},
+    sets::{cluster_rows, set, set_type},
     state::{Kind, StateField},
     types::ident,
 };
@@ -72,15 +73,15 @@ impl Generator<'_> {
 
     fn has_start(&self, view: ProgramView<'_>) -> bool {
         let started = |n: &crate::graph::Node| n.starts_active || matches!(n.kind, NodeKind::Start);
-        let watches = |node: NodeId| self.watches_silence(view.graph, view.analysis, node).is_some();
+        let watches = |node: NodeId| self.lower(view).watches_silence(node).is_some();
         view.graph.nodes.iter().any(started) || view.graph.nodes.ids().any(watches)
     }
 
     /// The tables of the dispatcher, and the functions that serve slots.
     pub fn dispatcher(&self, view: ProgramView<'_>) -> TokenStream {
-        let ProgramView { graph, analysis, links, wiring } = view;
+        let ProgramView { graph, analysis, wiring, .. } = view;
         let bits = &wiring.bits;
-        let (set, rows) = (bits.set_type(), bits.rows(graph, analysis, links));
+        let (set, rows) = (set_type(bits), cluster_rows(view));
         let mut code = quote!();
         if bits.words() > 0 {
             let count = rows.len();
@@ -88,7 +89,7 @@ impl Generator<'_> {
                 const CLUSTERS: &'static [::apex_rt::Cluster<#set>; #count] = { use ::apex_rt::Cluster; &[#(#rows),*] };
             });
         }
-        let missing = bits.missing(analysis, &|c| self.connection(c));
+        let missing = self.missing_rows(view);
         if !missing.is_empty() {
             let count = missing.len();
             code.extend(quote! { const MISSING: &'static [::apex_rt::Missing<#set>; #count] = &[#(#missing),*]; });
@@ -338,8 +339,7 @@ impl Generator<'_> {
 
     /// Function that reports the tokens that clusters wait for, to explain a deadlock.
     pub fn waiting(&self, view: ProgramView<'_>) -> TokenStream {
-        let bits = &view.wiring.bits;
-        if bits.missing(view.analysis, &|c| self.connection(c)).is_empty() {
+        if self.missing_rows(view).is_empty() {
             return quote!();
         }
         quote! {
@@ -448,7 +448,7 @@ impl Generator<'_> {
     pub fn allows(&self, view: ProgramView<'_>, free: &[usize]) -> TokenStream {
         const MOST_STRAIGHT: usize = 4;
         let free = if free.len() > MOST_STRAIGHT {
-            let (ty, free) = (view.wiring.bits.set_type(), view.wiring.bits.set(free));
+            let (ty, free) = (set_type(&view.wiring.bits), set(&view.wiring.bits, free));
             quote!(&& { const FREE: #ty = #free; self.core.dispatcher.holds(&FREE) })
         } else {
             quote!(#(&& self.core.dispatcher.has(#free))*)

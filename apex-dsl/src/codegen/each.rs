@@ -1,14 +1,13 @@
 //! `each`: the body as a closure over the elements of a list.
 
 use super::{
-    activity::ProgramView,
+    activity::{Lowered, ProgramView},
     fire::Emitter,
     parallel::Local,
-    plan::{BlockId, Storage},
-    wiring::Wiring,
 };
 use crate::{
     graph::{Each, Graph, NodeId, NodeKind, PortId},
+    program::{BlockId, Storage},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -21,11 +20,11 @@ impl Emitter<'_> {
         let generator = self.generator.inside(self.graph, node);
         let body = &*each.body;
         let Some(analysis) = self.analysis.bodies.get(&node) else { return quote!() };
-        let wiring = Wiring::new(&generator, body, analysis);
+        let lowered = Lowered::new(&generator, body, analysis);
         let clusters: Vec<Emitter<'_>> = analysis
             .clusters
             .ids()
-            .map(|cluster| Emitter::new(&generator, ProgramView::new(body, analysis, &wiring), cluster))
+            .map(|cluster| Emitter::new(&generator, ProgramView::new(body, analysis, &lowered), cluster))
             .collect();
         let code: TokenStream = clusters.iter().map(Emitter::cluster).collect();
         let (mut item, mut bindings) = (format_ident!("_item"), quote!());

@@ -3,15 +3,14 @@
 use super::{
     Generator,
     activity::ProgramView,
-    plan::{BlockId, Plan, Storage},
     types::{ident, path},
-    wiring::Flag,
 };
 use crate::{
     analyse::{Analysis, Block, ClusterId, Links, Step, handles_absence},
     catalog::{ArgSig, Signature},
     graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
+    program::{BlockId, Plan, Storage, Flag},
 };
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};

@@ -2,13 +2,13 @@
 
 use super::{
     Generator,
-    activity::{Carries, ProgramView},
+    activity::ProgramView,
     types::ident,
-    wiring::Flag,
 };
 use crate::{
     graph::{ConnectionId, Interrupt, NodeId, NodeKind, PortId, Standard},
     machine::Move,
+    program::{Carries, Flag},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -76,7 +76,7 @@ impl Generator<'_> {
         let keep = remembered.as_ref().map(|kept| quote! { if taken { state.#kept = remembered; } });
         let takes = nodes.iter().map(|&node| {
             let mut found = vec![];
-            if self.inputs_carry(view, node, &[Carries::Always, Carries::Sometimes]) {
+            if self.lower(view).inputs_carry(node, &[Carries::Always, Carries::Sometimes]) {
                 found.push(self.take(Flag::Gains(node)));
             }
             let slots = view.wiring.slots.iter().enumerate();
@@ -99,7 +99,7 @@ impl Generator<'_> {
             let activity = (passes && is_reached).then(|| self.set(Flag::Active(interrupt), true));
             quote! { if taken { state.#name = Some(()); #activity } }
         });
-        let check = self.check_claims();
+        let check = self.check_claims(view);
         quote! {
             #[allow(unused_mut)]
             let mut taken = false;
@@ -145,7 +145,7 @@ impl Generator<'_> {
                 (self.clear_told(view, node), self.activate(view, node), self.tell(view, node));
             quote! { if state.#remembered.take(#bit) { #clear #activate #tell } }
         });
-        let check = self.check_claims();
+        let check = self.check_claims(view);
         quote! { #brought #(#gives)* #check }
     }
 }

@@ -3,17 +3,17 @@
 
 use super::{
     Generator,
-    activity::{Carries, ProgramView},
+    activity::ProgramView,
     each_part,
-    wiring::{Flag, Port, Silence, Slot, Timeout},
 };
 use crate::{
     analyse::{Block, Run, Step},
     catalog::Catalog,
     graph::NodeId,
-    program::Program,
+    checked::CheckedProgram,
     source::Sources,
     syntax::tree::PortKind,
+    program::{Carries, Flag, Port, Silence, Slot, Timeout},
 };
 use std::fmt::Write as _;
 
@@ -28,7 +28,7 @@ impl Lines {
 }
 
 /// The program that Rust is written from, as text.
-pub fn listing(program: &Program, catalog: &Catalog, sources: &Sources) -> String {
+pub fn listing(program: &CheckedProgram, catalog: &Catalog, sources: &Sources) -> String {
     let mut lines = Lines::default();
     lines.add(0, &format!("program {}", program.graph.name));
     each_part(program, catalog, sources, &mut |generator, view, part| {
@@ -60,7 +60,7 @@ impl Generator<'_> {
             lines.add(2, &format!("{place}: {kind} {of}"));
         }
         let guard = |guard: usize| view.analysis.guards[guard].text(view.graph);
-        let conditions = view.wiring.bits.texts(view.graph, &view.wiring.clusters, &guard);
+        let conditions = view.wiring.bits.texts(view.graph, &view.labels.clusters, &guard);
         if !conditions.is_empty() {
             lines.add(1, "conditions");
         }
@@ -73,7 +73,7 @@ impl Generator<'_> {
         for (index, cluster) in view.analysis.clusters.iter_enumerated().filter(|(_, c)| c.fires) {
             let guards = cluster.own_guards.iter().map(|guard| view.analysis.guards[*guard].text(view.graph));
             let when: Vec<String> = guards.chain((!cluster.upstream.is_empty()).then(|| "tokens".to_owned())).collect();
-            lines.add(1, &format!("cluster {}: {}", view.wiring.clusters[index], when.join(", ")));
+            lines.add(1, &format!("cluster {}: {}", view.labels.clusters[index], when.join(", ")));
             self.list_block(lines, view, &cluster.block, 2);
         }
     }
@@ -118,7 +118,7 @@ impl Generator<'_> {
 
     fn list_slots(&self, lines: &mut Lines, view: ProgramView<'_>) {
         for (number, slot) in view.wiring.slots.iter().enumerate() {
-            let Slot { name, connection, node, frees, carries, settles, needs } = slot;
+            let (Slot { connection, node, frees, carries, settles, needs }, name) = (slot, &view.labels.slots[number]);
             lines.add(1, &format!("slot {number} {name}: {}", view.graph.connection_text(*connection)));
             if !needs.is_empty() {
                 lines.add(2, &format!("needs {}", numbers(needs.iter().copied())));

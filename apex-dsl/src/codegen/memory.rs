@@ -10,7 +10,7 @@ use super::{
     threads::part_name,
     types::ident,
 };
-use crate::{catalog::Catalog, program::Program, source::Sources, syntax::tree::PortKind};
+use crate::{catalog::Catalog, checked::CheckedProgram, source::Sources, syntax::tree::PortKind};
 use std::collections::BTreeMap;
 
 /// A piece of the memory of a program.
@@ -25,7 +25,7 @@ pub struct Piece {
 }
 
 /// Pieces of `program`, which must not be a test, ordered by kind. Together they are the whole program without padding.
-pub fn memory(program: &Program, catalog: &Catalog, sources: &Sources) -> Vec<Piece> {
+pub fn memory(program: &CheckedProgram, catalog: &Catalog, sources: &Sources) -> Vec<Piece> {
     let graph = &program.graph;
     let mut pieces = vec![];
     each_part(program, catalog, sources, &mut |generator, view, part| {

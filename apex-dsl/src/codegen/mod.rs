@@ -1,7 +1,6 @@
 //! Graph + analysis → Rust. The text that comes out is meant to be read (`apex expand`).
 
 mod activity;
-mod bits;
 mod bugs;
 mod cells;
 mod claims;
@@ -14,6 +13,7 @@ mod each;
 mod fire;
 mod info;
 mod interrupt;
+mod labels;
 mod listing;
 mod machine;
 mod memory;
@@ -21,12 +21,12 @@ mod names;
 mod numbered;
 mod parallel;
 mod params;
-mod plan;
 mod program;
 mod rates;
 mod record;
 mod results;
 mod rows;
+mod sets;
 mod slots;
 mod stamps;
 mod state;
@@ -37,30 +37,27 @@ mod threads;
 mod timers;
 mod told_states;
 mod types;
-mod wiring;
 mod witness;
 
 pub use listing::listing;
 pub use memory::{Piece, memory};
-pub use plan::{Storage, storage};
 pub use text::{module_name, text};
 
 use crate::{
     catalog::Catalog,
     claims::Decided,
     graph::{ConnectionId, Graph, NodeId},
-    program::Program,
+    checked::CheckedProgram,
     report::Diagnostics,
     source::{Sources, Span},
     threads::{Cell, Part},
 };
-use activity::ProgramView;
+use activity::{Lowered, ProgramView};
 use bugs::Bugs;
 use names::Names;
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::collections::BTreeSet;
-use wiring::Wiring;
 
 /// Generates programs.
 #[derive(Clone, Copy)]
@@ -89,7 +86,7 @@ pub struct Generator<'a> {
 /// The program of a graph, with the test that it is made for, if there is one; `recordable` if a run of it can be
 /// recorded.
 fn program(
-    program: &Program,
+    program: &CheckedProgram,
     catalog: &Catalog,
     sources: &Sources,
     place: &dyn Fn(Span) -> proc_macro2::Span,
@@ -135,7 +132,7 @@ fn program(
 
 /// Calls `visit` for the program, or for each of its thread groups.
 fn each_part(
-    program: &Program,
+    program: &CheckedProgram,
     catalog: &Catalog,
     sources: &Sources,
     visit: &mut dyn FnMut(&Generator<'_>, ProgramView<'_>, Option<&Part>),
@@ -159,14 +156,14 @@ fn each_part(
         channels: None,
     };
     let Some(split) = &program.split else {
-        let wiring = Wiring::new(&generator, graph, &program.analysis);
-        return visit(&generator, ProgramView::new(graph, &program.analysis, &wiring), None);
+        let lowered = Lowered::new(&generator, graph, &program.analysis);
+        return visit(&generator, ProgramView::new(graph, &program.analysis, &lowered), None);
     };
     for (part, number) in split.parts.iter().zip(names.beyond..) {
         let names = names.of_part(part, number, &mut used);
         let generator = Generator { names: &names, part: Some((graph, part)), cells: &split.cells, ..generator };
-        let wiring = Wiring::new(&generator, &part.graph, &part.analysis);
-        visit(&generator, ProgramView::new(&part.graph, &part.analysis, &wiring), Some(part));
+        let lowered = Lowered::new(&generator, &part.graph, &part.analysis);
+        visit(&generator, ProgramView::new(&part.graph, &part.analysis, &lowered), Some(part));
     }
 }
 

@@ -1,6 +1,12 @@
 //! The struct of a program: nodes, state, `new`, `react`, and the table that describes it.
 
-use super::{Generator, activity::ProgramView, names::unused, threads::group_info, types::ident, wiring::Wiring};
+use super::{
+    Generator,
+    activity::{Lowered, ProgramView},
+    names::unused,
+    threads::group_info,
+    types::ident,
+};
 use crate::{
     analyse::{Analysis, Cluster},
     graph::{Graph, Library, NodeId, NodeKind, PortId, camel},
@@ -69,8 +75,8 @@ impl Generator<'_> {
     /// All items of a program on one thread.
     pub fn program(&self, graph: &Graph, analysis: &Analysis) -> TokenStream {
         let name = self.program_name(graph);
-        let wiring = Wiring::new(self, graph, analysis);
-        let view = ProgramView::new(graph, analysis, &wiring);
+        let lowered = Lowered::new(self, graph, analysis);
+        let view = ProgramView::new(graph, analysis, &lowered);
         let items = self.items(view);
         let (own_react, react) = self.around(graph, self.react(view), &quote!(self));
         let recording = self.recording(graph);

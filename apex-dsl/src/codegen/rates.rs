@@ -3,12 +3,12 @@
 
 use super::{
     fire::Emitter,
-    plan::{BlockId, Storage, is_buffer},
 };
 use crate::{
     analyse::{Block, Run, Step, handles_absence, is_mandatory},
     graph::{NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
+    program::{BlockId, Storage, is_buffer},
 };
 use proc_macro2::TokenStream;
 use quote::quote;

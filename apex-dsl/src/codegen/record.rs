@@ -5,7 +5,6 @@ use super::{
     Generator,
     distinct::Distinct,
     fire::Emitter,
-    plan::{BlockId, Storage, is_buffer},
     program::boundaries,
     types::ident,
 };
@@ -15,6 +14,7 @@ use crate::{
     graph::{Graph, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
     threads::Part,
+    program::{BlockId, Storage, is_buffer},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};

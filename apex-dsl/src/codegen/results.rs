@@ -2,13 +2,13 @@
 
 use super::{
     fire::Emitter,
-    plan::{BlockId, Storage, is_buffer},
     types::{ident, to_rust},
 };
 use crate::{
     catalog::{ArgSig, Signature},
     graph::{Library, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
+    program::{BlockId, Storage, is_buffer},
 };
 use proc_macro2::TokenStream;
 use quote::quote;

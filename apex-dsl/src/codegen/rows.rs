@@ -3,12 +3,13 @@
 
 use super::{
     Generator,
-    activity::{Carries, ProgramView, is_observed},
+    activity::{ProgramView, is_observed},
     stamps,
     types::{ident, nanos},
-    wiring::{Flag, Port, Send, Slot},
 };
-use crate::{analyse::Delivery, graph::NodeId};
+use crate::{analyse::Delivery, graph::NodeId,
+    program::{Carries, Flag, Port, Send, Slot},
+};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Ident;
@@ -40,18 +41,18 @@ impl Row {
 impl Generator<'_> {
     /// Constants for the nodes that can be active and for the ports whose tokens have effects.
     pub fn row_constants(&self, view: ProgramView<'_>) -> TokenStream {
-        let nodes = view.wiring.nodes.iter().map(|(node, name)| {
+        let nodes = view.labels.nodes.iter().map(|(node, name)| {
             let (name, row) = (ident(name), self.node_row(view, *node));
             quote! { const #name: ::apex_rt::rows::Node = #row; }
         });
         let ports = view.wiring.ports().map(|port| {
-            let (name, row) = (ident(&port.name), self.port_row(view, port));
+            let (name, row) = (ident(&view.labels.ports[&port.end]), self.port_row(view, port));
             quote! { const #name: ::apex_rt::rows::Port = #row; }
         });
         let anyway = view.wiring.ports().filter(|port| port.sends.iter().any(|send| send.absent)).map(|port| {
             let mut row = Row(quote!(::apex_rt::rows::Port::NEW));
             add_sends(&mut row, view, port.sends.iter().filter(|send| send.absent));
-            let (name, row) = (anyway(port), row.0);
+            let (name, row) = (anyway(view, port), row.0);
             quote! { const #name: ::apex_rt::rows::Port = #row; }
         });
         let slots = self.slot_table(view);
@@ -79,7 +80,7 @@ impl Generator<'_> {
         };
         if let Some(along) = &port.passes {
             // A delay keeps what its tokens carry, and has no activity of its own.
-            if let Some(name) = view.wiring.nodes.get(&port.end.node) {
+            if let Some(name) = view.labels.nodes.get(&port.end.node) {
                 let name = ident(name);
                 row.add("passes", &quote!(Self::#name));
             }
@@ -126,7 +127,7 @@ impl Generator<'_> {
 
     /// The row of a node that can be active.
     pub fn node_constant(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        match view.wiring.nodes.get(&node) {
+        match view.labels.nodes.get(&node) {
             Some(name) => {
                 let name = ident(name);
                 quote!(Self::#name)
@@ -175,10 +176,10 @@ impl Generator<'_> {
     pub fn send(&self, view: ProgramView<'_>, port: &Port) -> TokenStream {
         let goes = |absent: bool| port.sends.iter().any(|send| send.absent == absent && has_effect(view, send));
         let anyway = goes(true).then(|| {
-            let name = anyway(port);
+            let name = anyway(view, port);
             quote! { core.send(&Self::#name, &true, ctx); }
         });
-        let (name, present) = (ident(&port.name), self.waits(view.graph, port.end));
+        let (name, present) = (ident(&view.labels.ports[&port.end]), self.waits(view.graph, port.end));
         let sent = match (goes(false), self.observed_event(view.graph, port.end)) {
             (false, None) => quote!(),
             (true, None) => {
@@ -193,8 +194,8 @@ impl Generator<'_> {
 }
 
 /// Name of the row of the connections on which a port sends ⊥, too.
-fn anyway(port: &Port) -> Ident {
-    format_ident!("{}_ANYWAY", port.name)
+fn anyway(view: ProgramView<'_>, port: &Port) -> Ident {
+    format_ident!("{}_ANYWAY", view.labels.ports[&port.end])
 }
 
 /// Returns `true` if a token that goes off on a connection changes the state.

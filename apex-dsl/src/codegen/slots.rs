@@ -2,13 +2,11 @@
 
 use super::{
     Generator,
-    activity::{Carries, ProgramView},
+    activity::ProgramView,
     clusters::inlined,
     dispatch::free_to_send,
     numbered::{Arm, Numbered},
-    plan::is_buffer,
     types::ident,
-    wiring::{Flag, Slot},
 };
 use crate::{
     analyse::Delivery,
@@ -16,6 +14,7 @@ use crate::{
     graph::{ConnectionId, Flow, Graph, Library, NodeId, NodeKind, PortId, Standard},
     machine::Move,
     syntax::tree::PortKind,
+    program::{Carries, is_buffer, Flag, Slot},
 };
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
@@ -54,12 +53,12 @@ impl Generator<'_> {
         let send = self.emit_from(view, node, events);
         let mut rows = view.wiring.of(node).iter().filter(|port| events(port.end));
         let (Some(port), None) = (rows.next(), rows.next()) else { return quote!(#pass #send) };
-        let follows = !self.turn_effects(view, node, false).is_empty() || self.checks_claims();
+        let follows = !self.turn_effects(view, node, false).is_empty() || self.lower(view).checks_claims();
         let is_observed = self.observed_event(view.graph, port.end).is_some();
         if pass.is_empty() || send.is_empty() || follows || is_observed || view.graph.nodes[node].is_delay() {
             return quote!(#pass #send);
         }
-        let (name, token) = (ident(&port.name), self.kept(port.end));
+        let (name, token) = (ident(&view.labels.ports[&port.end]), self.kept(port.end));
         quote! { core.leave(&Self::#name, #token, ctx, observer); }
     }
 
@@ -124,7 +123,7 @@ impl Generator<'_> {
         let slots = &view.wiring.slots;
         let inline = inlined(slots.len());
         let functions = slots.iter().enumerate().map(|(number, slot)| {
-            let (name, docs) = (ident(&slot.name), self.docs_of_connection(view.graph, slot.connection));
+            let (name, docs) = (ident(&view.labels.slots[number]), self.docs_of_connection(view.graph, slot.connection));
             let code = self.slot(view, number, slot);
             let code = match code.is_empty() {
                 true => quote! { core.only_enter(&Self::SLOTS[#number], ctx, observer); },
@@ -167,7 +166,7 @@ impl Generator<'_> {
         let effects = if turns { self.turn_effects(view, node, brings != Carries::Away) } else { quote!() };
         let turned = if effects.is_empty() { quote!(_) } else { quote!(turned) };
         let effects = (!effects.is_empty()).then(|| quote! { if *turned { #effects } });
-        let check = turns.then(|| self.check_claims());
+        let check = turns.then(|| self.check_claims(view));
         let settle = slot.settles.map(|row| quote! { core.dispatcher.settle(Self::CLUSTERS, #row); });
         let call = self.call_slot(view, connection);
         let from = view.graph.connections[connection].from;
@@ -428,7 +427,7 @@ impl Generator<'_> {
                 let (name, emit) = (self.name(end), self.emit(view, node, false));
                 let sent = graph.connections.iter_enumerated().filter(|(_, c)| c.from == end);
                 let gains = sent.filter_map(|(i, c)| {
-                    match (graph.flow(c) == Flow::ToSlot, self.carries(graph, view.analysis, i)) {
+                    match (graph.flow(c) == Flow::ToSlot, self.lower(view).carries(i)) {
                         (true, Carries::Sometimes) => {
                             Some(self.set(Flag::Carries(view.analysis.asynchronous.slot(i)), true))
                         }
@@ -439,7 +438,7 @@ impl Generator<'_> {
                 code.extend(quote! { state.#name = Some(()); #(#gains)* #emit });
             }
         }
-        code.extend(self.check_claims());
+        code.extend(self.check_claims(view));
         code
     }
 

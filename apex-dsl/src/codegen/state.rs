@@ -3,7 +3,6 @@
 use super::{
     Generator,
     activity::ProgramView,
-    plan::{Storage, is_buffer, storage},
     program::{Struct, around_text},
     types::constant,
 };
@@ -11,6 +10,7 @@ use crate::{
     analyse::Analysis,
     graph::{Connection, Graph, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
+    program::{Storage, is_buffer, storage},
 };
 use proc_macro2::TokenStream;
 use quote::quote;

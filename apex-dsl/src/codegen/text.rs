@@ -6,7 +6,7 @@ use crate::{
     catalog::Catalog,
     graph::{Graph, Library, NodeKind},
     machine::{Machine, Machines},
-    program::Program,
+    checked::CheckedProgram,
     report::Diagnostics,
     source::{FileId, Sources, Span},
 };
@@ -27,7 +27,7 @@ struct Export {
 
 /// Rust for the text that was read first: its machines, programs and tests, and their names.
 pub fn text(
-    programs: &[Program],
+    programs: &[CheckedProgram],
     machines: &Machines,
     catalog: &Catalog,
     sources: &Sources,

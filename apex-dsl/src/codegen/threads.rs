@@ -3,12 +3,11 @@
 
 use super::{
     Generator, Names,
-    activity::ProgramView,
+    activity::{Lowered, ProgramView},
     cells::cell_name,
     params::ParamRows,
     program::{Field, around_text, node_structs, port_accessors},
     types::{duration, ident, option},
-    wiring::Wiring,
 };
 use crate::{
     analyse::Analysis,
@@ -47,8 +46,8 @@ impl Generator<'_> {
         let mut all_items = vec![];
         for (number, part) in split.parts.iter().enumerate() {
             let generator = of_part(number);
-            let wiring = Wiring::new(&generator, &part.graph, &part.analysis);
-            let view = ProgramView::new(&part.graph, &part.analysis, &wiring);
+            let lowered = Lowered::new(&generator, &part.graph, &part.analysis);
+            let view = ProgramView::new(&part.graph, &part.analysis, &lowered);
             let (items, react) = (generator.items(view), generator.react(view));
             let part_items = PartItems {
                 is_active: generator.is_active(view),

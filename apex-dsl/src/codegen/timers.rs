@@ -5,16 +5,15 @@ use super::{
     activity::ProgramView,
     dispatch::free_to_send,
     numbered::{Arm, Numbered},
-    plan::is_buffer,
     stamps,
     state::{Kind, StateField},
     types::nanos,
-    wiring::{Entry, Flag, Silence, Timeout},
 };
 use crate::{
     analyse::{Analysis, ClusterId, is_source, silence_parameter},
     catalog::ArgSig,
     graph::{ConnectionId, Graph, Node, NodeId, NodeKind, PortId, Standard},
+    program::{is_buffer, Entry, Flag, Silence, Timeout},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -30,22 +29,9 @@ enum Timed {
 }
 
 impl Generator<'_> {
-    /// The `timeout` of a node, if it can come.
-    pub fn timeout(&self, graph: &Graph, analysis: &Analysis, node: NodeId) -> Option<Duration> {
-        let timeout = graph.nodes[node].modifiers.timeout?;
-        let comes = analysis.active.contains(&node) || self.watches_silence(graph, analysis, node).is_some();
-        comes.then_some(timeout)
-    }
-
-    /// The `timeout` of a source that activity never comes to: so long it may send nothing.
-    pub fn watches_silence(&self, graph: &Graph, analysis: &Analysis, node: NodeId) -> Option<Duration> {
-        let watches = is_source(graph, self.catalog, &analysis.links, node) && !analysis.active.contains(&node);
-        graph.nodes[node].modifiers.timeout.filter(|_| watches)
-    }
-
     /// The time of a source's silence begins.
     pub fn watch_silence(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        match self.watches_silence(view.graph, view.analysis, node) {
+        match self.lower(view).watches_silence(node) {
             Some(_) => self.start_timeout(view, node),
             None => quote!(),
         }

@@ -18,7 +18,7 @@ use apex_dsl::{
     claims::Verdict,
     graph::{ClaimKind, Graph},
     passes,
-    program::Program,
+    checked::CheckedProgram,
     report::{Diagnostic, Diagnostics, Severity},
     source::Sources,
 };
@@ -108,7 +108,7 @@ impl Comparison {
         checked.programs.iter().flat_map(|program| self.program(program)).collect()
     }
 
-    fn program(&mut self, program: &Program) -> Vec<(&'static str, Verdict, String)> {
+    fn program(&mut self, program: &CheckedProgram) -> Vec<(&'static str, Verdict, String)> {
         let net = Net::new(&program.graph, &self.catalog);
         let Some((net, explored)) = net.and_then(|net| Explored::new(&net).map(|explored| (net, explored))) else {
             self.counts.too_large += 1;

@@ -6,8 +6,6 @@ use crate::{
     index::IdVec,
     syntax::tree::PortKind,
 };
-use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The conditions of the dispatcher, by number: for each dispatched cluster its guards, "enabled", and for each
@@ -23,6 +21,26 @@ pub struct Bits {
     tokens: BTreeMap<ConnectionId, usize>,
     room: BTreeMap<NodeId, usize>,
     count: usize,
+}
+
+/// A cluster that the dispatcher looks at.
+#[derive(Debug)]
+pub struct ClusterRow {
+    /// The condition that it is enabled.
+    pub enabled: usize,
+    /// The conditions that it waits for; that it takes; that its tokens are there; that its connections are free;
+    /// those by which it is notified that they are, and those by which it notifies others.
+    pub sets: [Vec<usize>; 6],
+    /// The rows of the clusters above it.
+    pub above: Vec<usize>,
+}
+
+/// A token from an event that a cluster needs, with the conditions that the other tokens are there that it needs.
+#[derive(Debug)]
+pub struct MissingRow {
+    pub others: Vec<usize>,
+    pub token: usize,
+    pub connection: ConnectionId,
 }
 
 impl Bits {
@@ -149,7 +167,7 @@ impl Bits {
     }
 
     /// The table of clusters.
-    pub fn rows(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<TokenStream> {
+    pub fn rows(&self, graph: &Graph, analysis: &Analysis, links: &Links) -> Vec<ClusterRow> {
         let rows = self.dispatched.iter().map(|&index| {
             let c = &analysis.clusters[index];
             let mut takes: Vec<usize> = c.own_guards.iter().filter_map(|g| self.guards.get(g).copied()).collect();
@@ -184,36 +202,18 @@ impl Bits {
                 let pipelined = graph.nodes[from.node].modifiers.pipelined;
                 if pipelined { &mut waits_for } else { &mut notified_by }.extend(self.free(connection));
             }
-            let above = above(graph, analysis, index).into_iter().filter_map(|c| self.row(c));
-            let above = above.map(Literal::usize_unsuffixed);
-            let sets = [waits_for, takes, sends, occupies, notified_by, notifies];
-            let (sets, enabled) = (sets.iter().map(|bits| list(bits)), Literal::usize_unsuffixed(self.enabled[&index]));
-            let new = format_ident!("{}", if self.is_sparse() { "sparse" } else { "dense" });
-            quote!(Cluster::#new(#enabled, [#(#sets),*], &[#(#above),*]))
+            let above = above(graph, analysis, index).into_iter().filter_map(|c| self.row(c)).collect();
+            ClusterRow {
+                enabled: self.enabled[&index],
+                sets: [waits_for, takes, sends, occupies, notified_by, notifies],
+                above,
+            }
         });
         rows.collect()
     }
 
-    /// The type of a constant set of conditions.
-    pub fn set_type(&self) -> TokenStream {
-        let words = self.words();
-        if self.is_sparse() { quote!(&[u32]) } else { quote!(::apex_rt::Bits<#words>) }
-    }
-
-    /// A constant set of conditions.
-    pub fn set(&self, bits: &[usize]) -> TokenStream {
-        let bits = list(bits);
-        if self.is_sparse() { bits } else { quote!(::apex_rt::Bits::of(#bits)) }
-    }
-
-    /// Returns `true` if constant sets are lists of numbers, which are smaller than sets of many conditions.
-    fn is_sparse(&self) -> bool {
-        const MOST_DENSE: usize = 4;
-        self.words() > MOST_DENSE
-    }
-
     /// For each token from an event that a cluster needs: the other tokens that it needs.
-    pub fn missing(&self, analysis: &Analysis, number: &dyn Fn(ConnectionId) -> Option<usize>) -> Vec<TokenStream> {
+    pub fn missing(&self, analysis: &Analysis) -> Vec<MissingRow> {
         let mut missing = vec![];
         for &index in &self.dispatched {
             let c = &analysis.clusters[index];
@@ -226,16 +226,8 @@ impl Bits {
             for &connection in &events {
                 let others = events.iter().filter(|c| **c != connection).map(|c| self.tokens[c]);
                 let others: Vec<usize> = others.chain(edges.iter().copied()).collect();
-                let token = self.tokens[&connection];
-                if let (false, Some(connection)) = (others.is_empty(), number(connection)) {
-                    let others = self.set(&others);
-                    missing.push(quote! {
-                        ::apex_rt::Missing {
-                            others: #others,
-                            token: #token,
-                            connection: #connection,
-                        }
-                    });
+                if !others.is_empty() {
+                    missing.push(MissingRow { others, token: self.tokens[&connection], connection });
                 }
             }
         }
@@ -251,12 +243,6 @@ impl Bits {
         };
         analysis.asynchronous.slots.iter().map(needs).collect()
     }
-}
-
-/// Numbers of conditions in a constant.
-fn list(bits: &[usize]) -> TokenStream {
-    let bits = bits.iter().copied().map(Literal::usize_unsuffixed);
-    quote!(&[#(#bits),*])
 }
 
 /// Returns `true` if all tokens from a cluster to another come from nodes that are free again as soon as they have

@@ -3,18 +3,10 @@
 //!
 //! It is made once from graph and analysis.
 
-use super::{
-    Generator,
-    activity::Carries,
-    bits::Bits,
-    cells::carries_missing,
-    names::unused,
-    rows::{constant_name, valid},
-};
+use super::{Bits, Carries, Lower};
 use crate::{
-    analyse::{Analysis, ClusterId, Delivery, Guard, may_get_stuck, takes_activity},
+    analyse::{Analysis, Delivery, Guard, may_get_stuck, takes_activity},
     graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
-    index::IdVec,
     syntax::tree::PortKind,
 };
 use std::{
@@ -40,8 +32,6 @@ pub enum Flag {
 /// Effects of a token at a port outside its region. A port may have several of these rows.
 #[derive(Debug)]
 pub struct Port {
-    /// Name of its row: `WAITING_SIGNAL`.
-    pub name: String,
     pub end: PortId,
     /// An active connection leads on from it, and this row says what that does.
     pub is_active: bool,
@@ -70,8 +60,6 @@ pub struct Send {
 /// The call of a slot because of the token on a connection.
 #[derive(Debug)]
 pub struct Slot {
-    /// Name of its function: `stopped_to_waiting_enable`.
-    pub name: String,
     pub connection: ConnectionId,
     pub node: NodeId,
     /// The condition that the connection is free again.
@@ -127,8 +115,8 @@ pub enum Entry {
 pub struct Wiring {
     /// The numbers of the conditions.
     pub bits: Bits,
-    /// Names of the rows of the nodes that can be active: `WAITING`.
-    pub nodes: BTreeMap<NodeId, String>,
+    /// The nodes that can be active.
+    pub nodes: BTreeSet<NodeId>,
     /// The rows of each node: activity goes with the first token in the order of the ports (A5), tokens are sent in
     /// the order of the text (R7).
     ports: BTreeMap<NodeId, Vec<Port>>,
@@ -136,8 +124,6 @@ pub struct Wiring {
     pub slots: Vec<Slot>,
     /// The sources with timers, and the conditions that these are due.
     pub timers: Vec<(NodeId, usize)>,
-    /// Names of the functions of clusters: `fire_camera`, by the first node of its schedule.
-    pub clusters: IdVec<ClusterId, String>,
     /// The timeouts, in the order of the nodes.
     pub timeouts: Vec<Timeout>,
     /// The silences, in the order of their guards.
@@ -148,11 +134,8 @@ pub struct Wiring {
 
 impl Wiring {
     /// The wiring of a program or of a part of one.
-    pub fn new(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis) -> Self {
-        let links = &analysis.links;
-        let mut used = BTreeSet::new();
-        let mut named = |name: String| unused(name.chars().map(valid).collect(), &mut used);
-        let path = |node: NodeId| graph.path(node).replace('.', "_");
+    pub fn new(lower: Lower<'_>) -> Self {
+        let Lower { graph, analysis, links, .. } = lower;
         let bits = Bits::new(graph, analysis);
         let needs = bits.needs(graph, analysis, links);
         let slots = analysis.asynchronous.slots.iter().zip(needs).map(|(&connection, needs)| {
@@ -160,29 +143,20 @@ impl Wiring {
             let frees = bits.free(connection);
             // What an output sent on is notified as soon as the slot took it.
             let settles = graph.port(c.from).kind == PortKind::Output && frees.is_some();
-            let (from, to) = (generator.name(c.from), path(c.to.node));
-            let subject = graph.nodes[c.to.node].interrupts().and_then(|_| to.strip_suffix("_cancel"));
-            let to = subject.unwrap_or(&to);
             Slot {
-                name: named(format!("{from}_to_{to}_{}", graph.port(c.to).name)),
                 connection,
                 node: c.to.node,
                 frees,
-                carries: generator.carries(graph, analysis, connection),
+                carries: lower.carries(connection),
                 settles: settles.then(|| bits.row(analysis.cluster_of[c.from.node])).flatten(),
                 needs,
             }
         });
-        let slots: Vec<Slot> = slots.collect();
-        let rows = graph.nodes.ids().map(|node| (node, rows(generator, graph, analysis, &bits, node)));
-        let mut ports: BTreeMap<NodeId, Vec<Port>> = rows.filter(|(_, rows)| !rows.is_empty()).collect();
-        let mut used = BTreeSet::new();
-        let mut constant = |name: &str| unused(constant_name(name), &mut used);
-        let is_plain = |node: &&NodeId| !graph.nodes[**node].is_delay();
-        let nodes = analysis.active.iter().filter(is_plain).map(|node| (*node, constant(&path(*node)))).collect();
-        for port in ports.values_mut().flatten() {
-            port.name = constant(&generator.name(port.end).to_string());
-        }
+        let slots = slots.collect();
+        let rows = graph.nodes.ids().map(|node| (node, rows(lower, &bits, node)));
+        let ports = rows.filter(|(_, rows)| !rows.is_empty()).collect();
+        let is_plain = |node: &NodeId| !graph.nodes[*node].is_delay();
+        let nodes = analysis.active.iter().copied().filter(is_plain).collect();
         let timers = analysis.guards.iter().enumerate().filter_map(|(guard, what)| match what {
             Guard::Timer(node) => Some((*node, bits.guard(guard)?)),
             _ => None,
@@ -192,21 +166,16 @@ impl Wiring {
         let timeouts = graph.nodes.ids().filter_map(|node| {
             let holding = analysis.asynchronous.holding_back(graph, links, node);
             let needs = holding.filter_map(|connection| bits.free(connection)).collect();
-            Some(Timeout { node, after: generator.timeout(graph, analysis, node)?, needs })
+            Some(Timeout { node, after: lower.timeout(node)?, needs })
         });
         let timeouts = timeouts.collect();
-        let clusters = analysis.clusters.iter().map(|cluster| {
-            let first = cluster.schedule().first().map(|node| path(*node)).unwrap_or_default();
-            named(format!("fire_{first}"))
-        });
-        let clusters = clusters.collect();
         let silences = analysis.silences.iter().filter_map(|silence| {
             let (guard, nodes) = (silence.guard, silence.nodes.clone());
             Some(Silence { guard, entry: entry(graph, analysis, &bits, guard)?, nodes })
         });
         let silences = silences.collect();
         let may_get_stuck = may_get_stuck(graph, analysis);
-        Self { bits, nodes, ports, slots, timers, clusters, timeouts, silences, may_get_stuck }
+        Self { bits, nodes, ports, slots, timers, timeouts, silences, may_get_stuck }
     }
 
     /// The number of the silence of a guard.
@@ -262,28 +231,27 @@ fn entry(graph: &Graph, analysis: &Analysis, bits: &Bits, guard: usize) -> Optio
 }
 
 /// The rows of a node. Both orders are kept: a row says what its port does with activity unless an earlier one did.
-fn rows(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, bits: &Bits, node: NodeId) -> Vec<Port> {
+fn rows(lower: Lower<'_>, bits: &Bits, node: NodeId) -> Vec<Port> {
+    let Lower { graph, analysis, links, .. } = lower;
     let from = |c: &ConnectionId| graph.connections[*c].from;
-    let sends = analysis.links.sends[node].chunk_by(|a, b| from(a) == from(b));
+    let sends = links.sends[node].chunk_by(|a, b| from(a) == from(b));
     let active: BTreeSet<PortId> =
-        analysis.links.from(node).filter(|c| graph.connections[*c].active).map(|c| from(&c)).collect();
+        links.from(node).filter(|c| graph.connections[*c].active).map(|c| from(&c)).collect();
     let mut active = active.into_iter().peekable();
     let mut rows = vec![];
     for connections in sends {
         let end = from(&connections[0]);
         while let Some(before) = active.next_if(|before| *before < end) {
-            rows.push(passing(generator, graph, analysis, before));
+            rows.push(passing(lower, before));
         }
         let mut row = match active.next_if(|next| *next == end) {
-            Some(end) => passing(generator, graph, analysis, end),
-            None => {
-                Port { name: String::new(), end, is_active: false, takes_away: vec![], passes: None, sends: vec![] }
-            }
+            Some(end) => passing(lower, end),
+            None => Port { end, is_active: false, takes_away: vec![], passes: None, sends: vec![] },
         };
         row.sends.extend(connections.iter().map(|connection| send(graph, analysis, bits, *connection)));
         rows.push(row);
     }
-    rows.extend(active.map(|end| passing(generator, graph, analysis, end)));
+    rows.extend(active.map(|end| passing(lower, end)));
     rows
 }
 
@@ -300,24 +268,34 @@ fn send(graph: &Graph, analysis: &Analysis, bits: &Bits, connection: ConnectionI
 }
 
 /// Effect of a token at `end` on activity.
-fn passing(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis, end: PortId) -> Port {
-    let connections = analysis.links.from(end.node);
-    let mut connections: Vec<ConnectionId> =
-        connections.filter(|c| graph.connections[*c].active && graph.connections[*c].from == end).collect();
+fn passing(lower: Lower<'_>, end: PortId) -> Port {
+    let Lower { graph, analysis, links, .. } = lower;
+    let is_meant = |c: &ConnectionId| graph.connections[*c].active && graph.connections[*c].from == end;
+    let mut connections: Vec<ConnectionId> = links.from(end.node).filter(is_meant).collect();
     connections.sort_unstable();
     let (mut along, mut takes_away) = (vec![], vec![]);
     for connection in connections {
         let c = &graph.connections[connection];
         let to_slot = graph.flow(c) == Flow::ToSlot;
-        match generator.carries(graph, analysis, connection) {
+        match lower.carries(connection) {
             Carries::Sometimes if to_slot => along.push(Flag::Carries(analysis.asynchronous.slot(connection))),
             Carries::Sometimes => along.push(Flag::Gains(c.to.node)),
             Carries::Away if !to_slot => takes_away.push(Flag::Loses(c.to.node)),
             _ => {}
         }
     }
-    let leaves = analysis.active.contains(&end.node) && !takes_activity(graph, generator.catalog, end.node);
+    let leaves = lower.is_active(end.node) && !takes_activity(graph, lower.catalog, end.node);
     // A delay keeps what its tokens carry, not what it is.
     let leaves = leaves || graph.nodes[end.node].is_delay();
-    Port { name: String::new(), end, is_active: true, takes_away, passes: leaves.then_some(along), sends: vec![] }
+    Port { end, is_active: true, takes_away, passes: leaves.then_some(along), sends: vec![] }
+}
+
+/// Returns `true` if an asynchronous connection of a part carries ⊥, because it stands for synchronous data flow.
+fn carries_missing(graph: &Graph, connection: ConnectionId) -> bool {
+    let c = &graph.connections[connection];
+    match (&graph.nodes[c.from.node].kind, &graph.nodes[c.to.node].kind) {
+        (_, NodeKind::Sender(_)) => graph.port(c.to).optional,
+        (NodeKind::Receiver(_), _) => graph.port(c.from).optional && graph.flow(c) == Flow::ToInput && !c.relayed,
+        _ => false,
+    }
 }

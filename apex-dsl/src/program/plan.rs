@@ -40,6 +40,7 @@ impl BlockId {
 }
 
 /// The plan of one cluster.
+#[derive(Debug)]
 pub struct Plan {
     parents: IdVec<BlockId, BlockId>,
     /// The block in which a token comes into being.

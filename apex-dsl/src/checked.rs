@@ -3,7 +3,7 @@
 use crate::{analyse::Analysis, claims::Decided, graph::Graph, script::Script, threads::Split};
 
 /// A graph that has passed all checks, with the results of its analysis.
-pub struct Program {
+pub struct CheckedProgram {
     /// The graph.
     pub graph: Graph,
     /// Results of the analysis before it runs.

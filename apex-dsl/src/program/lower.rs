@@ -1,0 +1,63 @@
+//! Input of the lowering.
+
+use crate::{
+    analyse::{Analysis, Links, is_source},
+    catalog::{Catalog, Signature},
+    claims::Decided,
+    graph::{Graph, NodeId, NodeKind},
+};
+use std::time::Duration;
+
+/// What a program, the part of a thread group, or the body of an `each` is lowered from.
+#[derive(Clone, Copy)]
+pub struct Lower<'a> {
+    pub graph: &'a Graph,
+    pub analysis: &'a Analysis,
+    pub links: &'a Links,
+    pub catalog: &'a Catalog,
+    /// Verdicts on its claims; none in a part of a program and in the body of an `each`.
+    pub claims: Option<&'a Decided>,
+}
+
+impl<'a> Lower<'a> {
+    /// The input of a graph with its analysis.
+    pub fn new(graph: &'a Graph, analysis: &'a Analysis, catalog: &'a Catalog, claims: Option<&'a Decided>) -> Self {
+        Self { graph, analysis, links: &analysis.links, catalog, claims }
+    }
+
+    /// Returns `true` if activity can reach a node.
+    pub fn is_active(self, node: NodeId) -> bool {
+        self.analysis.active.contains(&node)
+    }
+
+    /// Signature of a node of the catalog.
+    pub fn signature(self, node: NodeId) -> Option<&'a Signature> {
+        match &self.graph.nodes[node].kind {
+            NodeKind::Library(library) => Some(&self.catalog.signatures[library.signature]),
+            _ => None,
+        }
+    }
+
+    /// The claims about activity that the program looks at while it runs.
+    pub fn undecided(self) -> Vec<usize> {
+        self.claims.map(Decided::undecided).unwrap_or_default()
+    }
+
+    /// Returns `true` if the program checks claims about activity.
+    pub fn checks_claims(self) -> bool {
+        !self.undecided().is_empty()
+    }
+
+    /// The `timeout` of a node, if it can come.
+    pub fn timeout(self, node: NodeId) -> Option<Duration> {
+        let timeout = self.graph.nodes[node].modifiers.timeout?;
+        let comes = self.is_active(node) || self.watches_silence(node).is_some();
+        comes.then_some(timeout)
+    }
+
+    /// The `timeout` of a source that activity never comes to: so long it may send nothing.
+    pub fn watches_silence(self, node: NodeId) -> Option<Duration> {
+        let watches = is_source(self.graph, self.catalog, self.links, node) && !self.is_active(node);
+        self.graph.nodes[node].modifiers.timeout.filter(|_| watches)
+    }
+}
