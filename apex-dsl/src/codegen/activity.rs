@@ -3,14 +3,14 @@
 
 use super::{
     Generator,
+    labels::Labels,
     state::{Kind, StateField},
     types::ident,
-    labels::Labels,
 };
 use crate::{
     analyse::{Analysis, Links},
-    graph::{Graph, NodeId, NodeKind, PortId, Standard},
-    program::{Carries, Flag, Lower, Wiring},
+    graph::{Graph, NodeId, NodeKind},
+    program::{Carries, Flag, Lower, Program, Wiring},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -24,38 +24,36 @@ pub struct ProgramView<'a> {
     pub links: &'a Links,
     /// The asynchronous half; empty in the body of an `each`.
     pub wiring: &'a Wiring,
+    /// The program.
+    pub program: &'a Program<'a>,
     /// Names of what it consists of.
     pub labels: &'a Labels,
 }
 
 /// A program as it was lowered, with the names in its code.
-pub struct Lowered {
-    wiring: Wiring,
+pub struct Lowered<'a> {
+    program: Program<'a>,
     labels: Labels,
 }
 
-impl Lowered {
+impl<'a> Lowered<'a> {
     /// The program of a graph.
-    pub fn new(generator: &Generator<'_>, graph: &Graph, analysis: &Analysis) -> Self {
-        let wiring = Wiring::new(Lower::new(graph, analysis, generator.catalog, generator.claims));
-        let labels = Labels::new(generator, graph, analysis, &wiring);
-        Self { wiring, labels }
+    pub fn new(generator: &Generator<'a>, graph: &'a Graph, analysis: &'a Analysis) -> Self {
+        let program = Program::new(Lower::new(graph, analysis, generator.catalog, generator.claims));
+        let labels = Labels::new(generator, graph, analysis, &program.wiring);
+        Self { program, labels }
     }
 }
 
 impl<'a> ProgramView<'a> {
     /// The view of a graph, its analysis, and its program.
-    pub fn new(graph: &'a Graph, analysis: &'a Analysis, lowered: &'a Lowered) -> Self {
-        Self { graph, analysis, links: &analysis.links, wiring: &lowered.wiring, labels: &lowered.labels }
+    pub fn new(graph: &'a Graph, analysis: &'a Analysis, lowered: &'a Lowered<'a>) -> Self {
+        let Lowered { program, labels } = lowered;
+        Self { graph, analysis, links: &analysis.links, wiring: &program.wiring, program, labels }
     }
 }
 
 impl Generator<'_> {
-    /// Input of the lowering of a program.
-    pub fn lower<'a>(&'a self, view: ProgramView<'a>) -> Lower<'a> {
-        Lower::new(view.graph, view.analysis, self.catalog, self.claims)
-    }
-
     /// Activity in the state of a program: sets of flags, and what delays keep.
     pub fn activity_state(&self, view: ProgramView<'_>) -> Vec<StateField> {
         let ProgramView { graph, analysis, .. } = view;
@@ -75,8 +73,8 @@ impl Generator<'_> {
             nodes.filter(|node| meant(*node)).map(|node| self.index(node)).collect()
         };
         let is_plain = |node: NodeId| !graph.nodes[node].is_delay();
-        let gains = |node: NodeId| self.lower(view).inputs_carry(node, &[Carries::Always, Carries::Sometimes]);
-        let loses = |node: NodeId| self.lower(view).inputs_carry(node, &[Carries::Away]);
+        let gains = |node: NodeId| view.program.lower.inputs_carry(node, &[Carries::Always, Carries::Sometimes]);
+        let loses = |node: NodeId| view.program.lower.inputs_carry(node, &[Carries::Away]);
         let can_be_disabled = |node: NodeId| graph.nodes[node].can_be_disabled();
         set("active", "active nodes", count, numbers(&is_plain, &mut active()), false);
         set("gains", "nodes that become active", count, numbers(&gains, &mut active()), false);
@@ -85,7 +83,7 @@ impl Generator<'_> {
         let slots = &view.wiring.slots;
         let carry = (0..slots.len()).filter(|slot| slots[*slot].carries == Carries::Sometimes).collect();
         set("carries", "slot tokens with activity", slots.len(), carry, false);
-        for interrupt in active().filter(|node| self.remembers(view, *node)) {
+        for interrupt in active().filter(|node| view.program.lower.remembers(*node)) {
             let (name, words) = (self.held(interrupt), count.div_ceil(64));
             let (ty, make) = (quote!(::apex_rt::Bits<#words>), quote!(::apex_rt::Bits::NONE));
             kept.push(StateField::new(Kind::Activity, graph.path(interrupt), name, ty, make));
@@ -142,118 +140,13 @@ impl Generator<'_> {
         }
     }
 
-    /// Moves the activity of a token into a delay, and out of it with the token.
-    pub fn hold_activity(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        if !view.analysis.active.contains(&node) {
-            return quote!();
-        }
-        let (held, gains) = (self.held_activity(node), self.take(Flag::Gains(node)));
-        quote! { state.#held.put(#gains.then_some(())); }
-    }
-
-    /// A node becomes active, unless it is already.
-    pub fn activate(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let (row, effects) = (self.node_constant(view, node), self.turn_effects(view, node, true));
-        followed(&quote!(core.activate(&#row, ctx, observer)), &effects)
-    }
-
-    /// A node is no longer active.
-    pub fn deactivate(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let (row, effects) = (self.node_constant(view, node), self.turn_effects(view, node, false));
-        followed(&quote!(core.deactivate(&#row, observer)), &effects)
-    }
-
-    /// The event and the hook of a node that became active, or is no longer.
-    pub fn turn_effects(&self, view: ProgramView<'_>, node: NodeId, active: bool) -> TokenStream {
-        let graph = view.graph;
-        let (event, hook) = match active {
-            true => (Standard::Activated, self.hook(graph, node, |s| s.on_activate.as_deref())),
-            false => (Standard::Deactivated, self.hook(graph, node, |s| s.on_deactivate.as_deref())),
-        };
-        let event = self.trigger(graph, node, event);
-        quote! { #event #hook }
-    }
-
-    /// Triggers an event that every node has, if it is connected.
-    pub fn trigger(&self, graph: &Graph, node: NodeId, standard: Standard) -> TokenStream {
-        match graph.nodes[node].standard(standard) {
-            Some(port) => {
-                let name = self.name(PortId { node, port });
-                quote! { state.#name = Some(()); }
-            }
-            None => quote!(),
-        }
-    }
-
-    fn hook(
-        &self,
-        graph: &Graph,
-        node: NodeId,
-        method: impl Fn(&crate::catalog::Signature) -> Option<&str>,
-    ) -> TokenStream {
+    /// The method of a node that is called when it becomes active, or inactive.
+    pub fn hook(&self, graph: &Graph, node: NodeId, active: bool) -> TokenStream {
         let NodeKind::Library(library) = &graph.nodes[node].kind else { return quote!() };
-        match method(&self.catalog.signatures[library.signature]) {
-            Some(method) => {
-                let (place, method) = (self.node_place(graph, node), ident(method));
-                quote! { #place.#method(); }
-            }
-            None => quote!(),
-        }
-    }
-
-    /// A1 for the inputs of a node: what its tokens carried counts now.
-    pub fn take_activity(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        if !view.analysis.active.contains(&node) || view.graph.nodes[node].is_delay() {
-            return quote!();
-        }
-        let gains = self.lower(view).inputs_carry(node, &[Carries::Always, Carries::Sometimes]);
-        let loses = self.lower(view).inputs_carry(node, &[Carries::Away]);
-        let (take_gains, take_loses) = (self.take(Flag::Gains(node)), self.take(Flag::Loses(node)));
-        let check = self.check_claims(view);
-        let (activate, deactivate) = (self.activate(view, node), self.deactivate(view, node));
-        let (activate, deactivate) = (quote!(#activate #check), quote!(#deactivate #check));
-        match (gains, loses) {
-            (false, false) => quote!(),
-            (true, false) => quote! { if #take_gains { #activate } },
-            (false, true) => quote! { if #take_loses { #deactivate } },
-            (true, true) => quote! {
-                match (#take_gains, #take_loses) {
-                    (true, _) => { #activate }
-                    (false, true) => { #deactivate }
-                    _ => {}
-                }
-            },
-        }
-    }
-
-    /// A2 and A5 for the ports of a node that `present` knows: its activity goes with the first token over an
-    /// active connection.
-    pub fn pass_activity(
-        &self,
-        view: ProgramView<'_>,
-        node: NodeId,
-        present: &dyn Fn(PortId) -> Option<TokenStream>,
-    ) -> TokenStream {
-        let mut code = quote!();
-        for port in view.wiring.of(node).iter().filter(|port| port.is_active) {
-            let Some(present) = present(port.end) else { continue };
-            let name = ident(&view.labels.ports[&port.end]);
-            let pass = quote!(core.pass(&Self::#name, #present, observer));
-            code.extend(match port.passes {
-                None if port.takes_away.is_empty() => quote!(),
-                None => quote! { #pass; },
-                Some(_) if view.graph.nodes[node].is_delay() => {
-                    let held = self.held_activity(node);
-                    let pass = (!port.takes_away.is_empty()).then(|| quote! { #pass; });
-                    quote! { #pass if state.#held.take().is_some() { core.carry(&Self::#name); } }
-                }
-                Some(_) => {
-                    let (effects, check) = (self.turn_effects(view, node, false), self.check_claims(view));
-                    followed(&pass, &quote!(#effects #check))
-                }
-            });
-        }
-        code
+        let signature = &self.catalog.signatures[library.signature];
+        let method = if active { &signature.on_activate } else { &signature.on_deactivate };
+        let (place, method) = (self.node_place(graph, node), ident(method.as_deref().unwrap_or_default()));
+        quote! { #place.#method(); }
     }
 }
 

@@ -1,14 +1,10 @@
 //! Cells between thread groups: what a part does at its ends of them.
 
-use super::{
-    Generator,
-    activity::ProgramView,
-    dispatch::free_to_send,
-};
+use super::{Generator, activity::ProgramView, dispatch::free_to_send};
 use crate::{
-    graph::{CellEnd, ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
+    graph::{CellEnd, Graph, NodeId, NodeKind, PortId},
+    program::{Entry, Flag, is_buffer},
     syntax::tree::PortKind,
-    program::{is_buffer, Entry, Flag},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -104,8 +100,8 @@ impl Generator<'_> {
         });
         let stamped = links.sends[node].iter().any(|c| analysis.stamps.connections.contains(c));
         let since = stamped.then(|| quote! { let ctx = &ctx.since(stamp.min(ctx.now())); });
-        let pass = self.pass_activity(view, node, &|end| Some(self.kept(end)));
-        let emit = self.emit(view, node, false);
+        let pass = self.ops(view, &view.program.pass_activity(node, &|_| true));
+        let emit = self.emitted(view, node);
         let serve = self.deliver(view, &links.sends[node]);
         let is_full = self.look(quote!(ends.#cell.is_full()));
         quote! {

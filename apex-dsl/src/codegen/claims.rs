@@ -28,18 +28,9 @@ impl Generator<'_> {
         self.claims.and_then(Decided::undecided_live)
     }
 
-    /// Activity has moved: the claims are looked at, if there are any.
-    pub fn check_claims(&self, view: ProgramView<'_>) -> TokenStream {
-        if self.lower(view).checks_claims() {
-            quote! { Self::check_claims(state, core, observer); }
-        } else {
-            quote!()
-        }
-    }
-
     /// For each claim that the program looks at, whether it is broken now.
     pub fn claim_state(&self, view: ProgramView<'_>) -> Vec<StateField> {
-        let undecided = self.lower(view).undecided().into_iter();
+        let undecided = view.program.lower.undecided().into_iter();
         let text = |claim: usize| view.graph.claim_text(&view.graph.claims[claim]);
         undecided
             .map(|claim| StateField::new(Kind::Claim, text(claim), broken(claim), quote!(bool), quote!(false)))
@@ -48,13 +39,13 @@ impl Generator<'_> {
 
     /// The function that looks at them.
     pub fn claim_function(&self, view: ProgramView<'_>) -> TokenStream {
-        if !self.lower(view).checks_claims() {
+        if !view.program.lower.checks_claims() {
             return quote!();
         }
         let model = Model::new(view.graph, self.catalog);
         let checks = Checks::new(view.graph, &model);
         let flags = self.place_flags(view, &model);
-        let looks = self.lower(view).undecided().into_iter().map(|claim| {
+        let looks = view.program.lower.undecided().into_iter().map(|claim| {
             let names = |group| any(&flags, &checks.places(claim, group));
             let is_broken = match view.graph.claims[claim].kind {
                 ClaimKind::Exclusive => {
@@ -118,7 +109,7 @@ impl Generator<'_> {
                 Place::Remembered(..) => continue,
                 // Nothing is kept for connections that never carry a token.
                 Place::Connection(c) if !view.analysis.asynchronous.live[c] => continue,
-                Place::Connection(c) if self.lower(view).carries(c) != Carries::Sometimes => continue,
+                Place::Connection(c) if view.program.lower.carries(c) != Carries::Sometimes => continue,
                 Place::Connection(c) => {
                     let connection = &view.graph.connections[c];
                     let flag = match view.graph.flow(connection) {

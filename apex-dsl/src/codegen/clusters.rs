@@ -1,7 +1,7 @@
 //! Clusters: what one does as a function, and how a reaction fires them. Many of them are called by number.
 
 use super::{Generator, activity::ProgramView, fire::Emitter, types::ident};
-use crate::analyse::{ClusterId, Guard, MANY};
+use crate::analyse::{ClusterId, MANY};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -88,21 +88,9 @@ impl Generator<'_> {
         }
     }
 
-    /// Code of a cluster. The timers of its sources advance with it, and the silences of its inputs begin again.
     fn cluster(&self, view: ProgramView<'_>, cluster: ClusterId) -> TokenStream {
-        let guards = view.analysis.clusters[cluster].own_guards.iter();
-        let timers = guards.filter_map(|guard| match view.analysis.guards[*guard] {
-            Guard::Timer(node) => view.wiring.timer(node),
-            _ => None,
-        });
-        let advances = timers.map(|timer| match view.wiring.has_agenda() {
-            true => quote! { core.agenda.advance(&mut core.timers[#timer]); },
-            false => quote! { core.timers[#timer].advance(); },
-        });
-        let advances: TokenStream = advances.collect();
-        let hear = self.hear(view, cluster);
-        let code = Emitter::new(self, view, cluster).program_cluster();
-        quote! { #advances #hear #code }
+        let emitter = Emitter::new(self, view, cluster);
+        emitter.ops(&view.program.cluster(cluster, &emitter.plan))
     }
 }
 

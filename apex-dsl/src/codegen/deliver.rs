@@ -6,10 +6,7 @@ use super::{
     sets::{set, set_type},
     types::ident,
 };
-use crate::{
-    analyse::{Delivery, ordered},
-    graph::{ConnectionId, NodeKind},
-};
+use crate::graph::ConnectionId;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -58,48 +55,30 @@ impl Generator<'_> {
 
     /// Serves the slots that tokens on `sends` can come to, one after the other, where that needs no queue.
     pub fn deliver(&self, view: ProgramView<'_>, sends: &[ConnectionId]) -> TokenStream {
-        let asynchronous = &view.analysis.asynchronous;
-        match asynchronous.delivery {
-            Delivery::Queued => quote!(),
-            Delivery::Single => self.deliver_single(view, sends),
-            Delivery::Ordered => {
-                let connections = ordered(view.graph, view.links, asynchronous, sends).unwrap_or_default();
-                let ends = |c: &ConnectionId| {
-                    matches!(view.graph.nodes[view.graph.connections[*c].to.node].kind, NodeKind::Exit(_))
-                };
-                let last = connections.iter().position(ends).unwrap_or(connections.len());
-                let goes_on = |at: usize| (at > last).then(|| quote!(&&self.state.exit.is_none()));
-                connections.iter().enumerate().map(|(at, c)| self.serve_one(view, *c, goes_on(at))).collect()
-            }
-        }
+        self.ops(view, &view.program.deliver(sends))
     }
 
-    /// Serves the slot at the end of a connection, if a token waits there and `test` allows it.
-    fn serve_one(&self, view: ProgramView<'_>, connection: ConnectionId, test: Option<TokenStream>) -> TokenStream {
-        let asynchronous = &view.analysis.asynchronous;
-        let slot = asynchronous.slot(connection);
-        let waits = self.waits(view.graph, view.graph.connections[connection].from);
+    /// Serves a slot if a token waits there, unless the program ends if `unless_exit`.
+    pub fn serve_one(&self, view: ProgramView<'_>, slot: usize, unless_exit: bool) -> TokenStream {
+        let waits = self.waits(view.graph, view.graph.connections[view.wiring.slots[slot].connection].from);
         let name = ident(&view.labels.slots[slot]);
-        let step = asynchronous.endless.then(|| quote! { self.state.steps.take(#slot); });
+        let step = view.analysis.asynchronous.endless.then(|| quote! { self.state.steps.take(#slot); });
         let budget = step.is_some().then(|| quote!(&&!self.state.steps.is_used_up()));
+        let test = unless_exit.then(|| quote!(&&self.state.exit.is_none()));
         quote! { if self.#waits #budget #test { #step self.#name(ctx, observer); } }
     }
 
-    /// Delivery where at most one token is in flight. The token may follow a cycle.
-    fn deliver_single(&self, view: ProgramView<'_>, sends: &[ConnectionId]) -> TokenStream {
-        let (connections, circle) = view.analysis.asynchronous.following(sends);
-        let serves: TokenStream = connections.iter().map(|c| self.serve_one(view, *c, None)).collect();
-        if !circle {
-            return serves;
-        }
-        let waits = connections.iter().map(|c| {
-            let waits = self.waits(view.graph, view.graph.connections[*c].from);
+    /// Serves slots for as long as a token waits for one of them: it may follow a circle.
+    pub fn serve_circle(&self, view: ProgramView<'_>, slots: &[usize]) -> TokenStream {
+        let serves = slots.iter().map(|slot| self.serve_one(view, *slot, false));
+        let waits = slots.iter().map(|slot| {
+            let waits = self.waits(view.graph, view.graph.connections[view.wiring.slots[*slot].connection].from);
             quote!(self.#waits)
         });
         let exit = self.has_exit(view.graph).then(|| quote!(|| self.state.exit.is_some()));
         quote! {
             while (#(#waits)||*) {
-                #serves
+                #(#serves)*
                 if self.state.steps.is_used_up() #exit { break; }
             }
         }

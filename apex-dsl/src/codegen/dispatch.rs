@@ -73,7 +73,7 @@ impl Generator<'_> {
 
     fn has_start(&self, view: ProgramView<'_>) -> bool {
         let started = |n: &crate::graph::Node| n.starts_active || matches!(n.kind, NodeKind::Start);
-        let watches = |node: NodeId| self.lower(view).watches_silence(node).is_some();
+        let watches = |node: NodeId| view.program.lower.watches_silence(node).is_some();
         view.graph.nodes.iter().any(started) || view.graph.nodes.ids().any(watches)
     }
 
@@ -103,7 +103,7 @@ impl Generator<'_> {
         code.extend(self.row_constants(view));
         code.extend(self.expire_functions(view));
         if self.has_start(view) {
-            let begin = self.first(view);
+            let begin = self.ops(view, &view.program.first());
             code.extend(quote! {
                 fn begin<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     let Self { nodes, state, core, .. } = self;
@@ -112,7 +112,7 @@ impl Generator<'_> {
             });
         }
         if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
-            let reset = self.reset(view);
+            let reset = self.ops(view, &view.program.reset());
             let (nodes, [state, core]) = (self.nodes_type(view), self.state_types(view));
             code.extend(quote! {
                 fn reset<O: ::apex_rt::Observer>(nodes: &mut #nodes, state: &mut #state, core: &mut #core, ctx: &::apex_rt::Ctx, observer: &mut O) {

@@ -3,14 +3,15 @@
 use super::{
     Generator,
     activity::ProgramView,
+    ops::Writer,
     types::{ident, path},
 };
 use crate::{
-    analyse::{Analysis, Block, ClusterId, Links, Step, handles_absence},
+    analyse::{Analysis, ClusterId, Links, handles_absence},
     catalog::{ArgSig, Signature},
-    graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Standard},
+    graph::{Graph, Library, NodeId, NodeKind, PortId, Standard},
+    program::{BlockId, Flag, Op, Plan, Storage},
     syntax::tree::PortKind,
-    program::{BlockId, Plan, Storage, Flag},
 };
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
@@ -35,104 +36,97 @@ impl<'a> Emitter<'a> {
         Self { generator, view, graph, analysis, links, plan, cluster }
     }
 
-    /// The cluster of a program: around what it does, events are emptied before and emitted when all is done.
-    pub fn program_cluster(&self) -> TokenStream {
-        let cluster = &self.analysis.clusters[self.cluster];
-        let clear = cluster.nodes.iter().map(|node| self.generator.clear_events(self.view, *node));
-        let code = self.cluster();
-        let order = cluster.schedule();
-        // A node that was skipped because of ⊥ took its tokens all the same (A1).
-        let take = order.iter().map(|node| self.generator.take_activity(self.view, *node));
-        let emit = order.iter().map(|node| self.generator.emit(self.view, *node, true));
-        let stamp = self.generator.stamp_of_firing(self.view, self.cluster);
-        quote! { #stamp #(#clear)* #code #(#take)* #(#emit)* }
+    /// All operations of the cluster.
+    pub fn ops(&self, ops: &[Op]) -> TokenStream {
+        self.ops_in(ops, BlockId::OUTERMOST)
     }
 
-    /// Everything that the cluster does.
-    pub fn cluster(&self) -> TokenStream {
-        let cluster = &self.analysis.clusters[self.cluster];
-        let read = cluster.nodes.iter().map(|node| self.read_first(*node));
-        let block = self.block(&cluster.block, &mut 0);
-        let left = cluster.nodes.iter().map(|node| self.leave(*node));
-        quote! { #(#read)* #block #(#left)* }
+    /// Operations in a block.
+    fn ops_in(&self, ops: &[Op], block: BlockId) -> TokenStream {
+        Writer { generator: self.generator, view: self.view, inside: Some((self, block)) }.ops(ops)
     }
 
-    /// Tokens that wait in the program are taken when the cluster starts.
-    fn read_first(&self, node: NodeId) -> TokenStream {
-        let sends = self.graph.nodes[node].ports.iter().position(|p| p.kind == PortKind::Output);
-        let Some(end) = sends.map(|port| PortId { node, port }).filter(|_| !self.plan.is_multirate) else {
-            return quote!();
-        };
-        let name = self.generator.name(end);
+    /// Everything that the cluster does in the body of an `each`.
+    pub fn body(&self) -> TokenStream {
+        self.ops(&self.view.program.inside(self.cluster, &self.plan))
+    }
+
+    /// An operation that belongs to a cluster.
+    pub fn op(&self, op: &Op, block: BlockId) -> TokenStream {
+        match op {
+            Op::Take(node) => self.take(*node),
+            Op::TakeDelayed(node) => self.take_delayed(*node),
+            Op::Declare(end) => self.declare(*end),
+            Op::Block { block, body } => {
+                let (test, body) = (self.test(*block), self.ops_in(body, *block));
+                quote! { if let #test { #body } }
+            }
+            Op::Iteration { runs, firings } => {
+                let firings = firings.iter().map(|(node, ops)| (*node, self.ops_in(ops, block))).collect();
+                self.iteration(runs, &firings)
+            }
+            Op::IfArrived { inputs, body } => {
+                let names = inputs.iter().map(|to| self.tested(*to));
+                let (tokens, body) = (inputs.iter().map(|to| self.arriving(*to, block)), self.ops_in(body, block));
+                quote! { if let (#(Some(#names),)*) = (#(#tokens,)*) { #body } }
+            }
+            Op::Fire(node) => self.fire(*node, block),
+            Op::IfSent { tokens, then } => {
+                let sent = tokens.iter().map(|end| match self.graph.port(*end).kind {
+                    PortKind::Output => {
+                        let token = self.option(*end, block);
+                        quote!(#token.is_some())
+                    }
+                    _ => self.generator.waits(self.graph, *end),
+                });
+                let then = self.ops_in(then, block);
+                quote! { if false #(|| #sent)* { #then } }
+            }
+            Op::Observe(end) => self.observed(*end, block),
+            Op::Store(end) => self.store(*end),
+            Op::HoldIteration(node) => self.hold_iteration(*node),
+            _ => self.generator.bug(self.graph.span, "an operation has no code"),
+        }
+    }
+
+    /// Takes the token that waits in a delay or at an input of the program.
+    fn take(&self, node: NodeId) -> TokenStream {
+        let sends = self.graph.nodes[node].ports.iter().position(|p| p.kind == PortKind::Output).unwrap_or(0);
+        let name = self.generator.name(PortId { node, port: sends });
         match self.graph.nodes[node].kind {
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
-                let pass = self.view.analysis.active.contains(&node).then(|| self.pass(node, BlockId::OUTERMOST));
-                quote! { let #name = state.#held.take(); #pass }
+                quote! { let #name = state.#held.take(); }
             }
-            NodeKind::Boundary(_) if !self.graph.is_body => {
+            _ => {
                 let port = ident(&self.graph.nodes[node].name);
-                quote! { let #name = inputs.#port.take(); }
-            }
-            _ => quote!(),
-        }
-    }
-
-    /// Tokens for other clusters are left in the program when the cluster ends.
-    fn leave(&self, node: NodeId) -> TokenStream {
-        let to_others = self.links.out_of[node]
-            .iter()
-            .map(|c| &self.graph.connections[*c])
-            .filter(|c| self.analysis.cluster_of[c.to.node] != self.cluster)
-            .map(|c| c.from);
-        let asynchronous = self.links.sends[node].iter().map(|c| self.graph.connections[*c].from);
-        let outputs = asynchronous.filter(|end| self.graph.port(*end).kind == PortKind::Output);
-        let mut ends: Vec<PortId> = to_others.chain(outputs).collect();
-        ends.sort_unstable();
-        ends.dedup();
-        let stores = ends.into_iter().filter(|end| self.plan.storage(*end) != Storage::Buffer).map(|end| {
-            let name = self.generator.name(end);
-            let token = match self.plan.storage(end) {
-                // The only one of an iteration.
-                Storage::Array => quote!(#name[0].as_ref()),
-                _ => self.option(end, BlockId::OUTERMOST),
-            };
-            self.generator.store(self.graph, end, &quote!(state.#name), &token)
-        });
-        let hold = self.hold_iteration(node);
-        quote! { #(#stores)* #hold }
-    }
-
-    fn block(&self, block: &Block, next: &mut usize) -> TokenStream {
-        let id = BlockId::from(*next);
-        *next += 1;
-        let hoisted = self.plan.hoisted_to(id).into_iter().map(|end| {
-            let name = self.generator.name(end);
-            match self.plan.storage(end) {
-                Storage::Buffer => quote! { state.#name.clear(); },
-                Storage::Array => self.array(end),
-                _ => quote! { let mut #name = None; },
-            }
-        });
-        let hoisted: TokenStream = hoisted.collect();
-        if self.plan.is_multirate {
-            let iteration = self.iteration(block);
-            return quote! { #hoisted #iteration };
-        }
-        let steps: TokenStream = block
-            .steps
-            .iter()
-            .map(|step| match step {
-                Step::Fire(node) => self.step(*node, id),
-                Step::Block(inner) => {
-                    let test = self.test(BlockId::from(*next));
-                    let body = self.block(inner, next);
-                    quote! { if let #test { #body } }
+                match self.plan.is_multirate {
+                    true => quote! { #name[i] = inputs.#port.take(); },
+                    false => quote! { let #name = inputs.#port.take(); },
                 }
-                Step::Repeat(_) => quote!(),
-            })
-            .collect();
-        quote! { #hoisted #steps }
+            }
+        }
+    }
+
+    /// Declares a token before the blocks that use it.
+    fn declare(&self, end: PortId) -> TokenStream {
+        let name = self.generator.name(end);
+        match self.plan.storage(end) {
+            Storage::Buffer => quote! { state.#name.clear(); },
+            Storage::Array => self.array(end),
+            _ => quote! { let mut #name = None; },
+        }
+    }
+
+    /// Leaves a token in the program for other clusters.
+    fn store(&self, end: PortId) -> TokenStream {
+        let name = self.generator.name(end);
+        let token = match self.plan.storage(end) {
+            // The only one of an iteration.
+            Storage::Array => quote!(#name[0].as_ref()),
+            _ => self.option(end, BlockId::OUTERMOST),
+        };
+        self.generator.store(self.graph, end, &quote!(state.#name), &token)
     }
 
     /// `Some(a) = &a`, or the same of several tokens.
@@ -226,56 +220,18 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A node fires: its tokens' activity counts before, and its own goes with what it sends.
-    pub fn step(&self, node: NodeId, block: BlockId) -> TokenStream {
-        let (take, fire) = (self.generator.take_activity(self.view, node), self.fire(node, block));
-        // A delay has sent its token before it takes one.
-        let pass = (!self.graph.nodes[node].is_delay()).then(|| self.pass(node, block));
-        let (heard, observed) = (self.heard(node, block), self.observed_outputs(node, block));
-        quote! { #take #fire #heard #observed #pass }
-    }
-
-    /// A source whose silence is watched has sent something.
-    fn heard(&self, node: NodeId, block: BlockId) -> TokenStream {
-        let watch = self.generator.watch_silence(self.view, node);
-        if watch.is_empty() {
-            return watch;
-        }
-        let ports = (0..self.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
-        let sent = ports.filter_map(|end| match self.graph.port(end).kind {
-            PortKind::Output if self.plan.is_used(end) => {
-                let token = self.option(end, block);
-                Some(quote!(#token.is_some()))
-            }
-            PortKind::Event if self.graph.port(end).standard.is_none() => self.generator.sent_event(self.view, end),
-            _ => None,
-        });
-        quote! { if false #(|| #sent)* { #watch } }
-    }
-
-    fn pass(&self, node: NodeId, block: BlockId) -> TokenStream {
-        self.generator.pass_activity(self.view, node, &|end| match self.graph.port(end).kind {
-            PortKind::Output => {
-                let token = self.option(end, block);
-                Some(quote!(&#token.is_some()))
-            }
-            _ => self.generator.is_sent_event(self.view, end).then(|| self.generator.kept(end)),
-        })
-    }
-
     fn fire(&self, node: NodeId, block: BlockId) -> TokenStream {
         match &self.graph.nodes[node].kind {
             NodeKind::Library(library) => self.fire_library(node, library, block),
             NodeKind::Each(each) => {
-                let (fire, late) = (self.fire_each(node, each, block), self.generator.check_late(self.graph, node));
+                let (fire, late) = (self.fire_each(node, each, block), self.generator.check_late(self.view, node));
                 let copies = self.copies(node);
                 quote! { #fire #copies #late }
             }
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
                 let token = self.copied(PortId { node, port: 0 }, block).unwrap_or_else(|| quote!(None));
-                let activity = self.generator.hold_activity(self.view, node);
-                quote! { state.#held.put(#token); #activity }
+                quote! { state.#held.put(#token); }
             }
             NodeKind::Boundary(PortKind::Output) if !self.graph.is_body => {
                 let port = ident(&self.graph.nodes[node].name);
@@ -304,11 +260,7 @@ impl<'a> Emitter<'a> {
 
     /// Origin of the tokens of an input.
     pub fn incoming(&self, to: PortId) -> Option<PortId> {
-        self.connection(to).map(|c| self.graph.connections[c].from)
-    }
-
-    fn connection(&self, to: PortId) -> Option<ConnectionId> {
-        self.links.inputs[to.node].iter().copied().find(|c| self.graph.connections[*c].to == to)
+        self.view.program.lower.incoming(to)
     }
 
     fn fire_library(&self, node: NodeId, library: &Library, block: BlockId) -> TokenStream {
@@ -327,7 +279,7 @@ impl<'a> Emitter<'a> {
             let place = self.generator.node_place(self.graph, node);
             quote!(#place.process(#(#args),*))
         };
-        let processed = self.generator.trigger(self.graph, node, Standard::Processed);
+        let processed = self.generator.trigger(self.view, node, Standard::Processed);
         let call = if processed.is_empty() { call } else { quote!({ #processed #call }) };
         let call = self.with_checked_params(node, library, signature, call, block);
         let call = if told { self.told(node, signature, call, block) } else { call };
@@ -335,7 +287,7 @@ impl<'a> Emitter<'a> {
         let copies = self.copies(node);
         let results = self.recorded(node, block, quote! { #results #copies }, processed);
         let outputs = self.param_outputs(node, library, signature, block);
-        let late = self.generator.check_late(self.graph, node);
+        let late = self.generator.check_late(self.view, node);
         let code = quote! { observer.fired(#index); #params #results #outputs #late observer.finished(#index); };
         if self.graph.nodes[node].can_be_disabled() {
             let is_enabled = self.generator.is_set(Flag::Enabled(node));
@@ -401,7 +353,7 @@ impl<'a> Emitter<'a> {
 
     /// Lets rustc judge a connection whose types the scan could not compare.
     fn judged(&self, to: PortId, token: TokenStream, optional: bool) -> TokenStream {
-        let Some(connection) = self.connection(to) else { return token };
+        let Some(connection) = self.view.program.lower.connection(to) else { return token };
         let Some(link) = self.generator.link(self.graph, connection) else { return token };
         let NodeKind::Library(library) = &self.graph.nodes[to.node].kind else { return token };
         let node = self.generator.node_type(self.graph, library);

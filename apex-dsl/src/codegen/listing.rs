@@ -1,19 +1,15 @@
 //! The program between analysis and Rust as text: state, conditions, clusters, slots, timers, and what follows from
 //! tokens.
 
-use super::{
-    Generator,
-    activity::ProgramView,
-    each_part,
-};
+use super::{Generator, activity::ProgramView, each_part};
 use crate::{
     analyse::{Block, Run, Step},
     catalog::Catalog,
-    graph::NodeId,
     checked::CheckedProgram,
+    graph::NodeId,
+    program::{Carries, Flag, Port, Silence, Slot, Timeout},
     source::Sources,
     syntax::tree::PortKind,
-    program::{Carries, Flag, Port, Silence, Slot, Timeout},
 };
 use std::fmt::Write as _;
 

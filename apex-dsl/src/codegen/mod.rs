@@ -19,6 +19,7 @@ mod machine;
 mod memory;
 mod names;
 mod numbered;
+mod ops;
 mod parallel;
 mod params;
 mod program;
@@ -45,9 +46,9 @@ pub use text::{module_name, text};
 
 use crate::{
     catalog::Catalog,
+    checked::CheckedProgram,
     claims::Decided,
     graph::{ConnectionId, Graph, NodeId},
-    checked::CheckedProgram,
     report::Diagnostics,
     source::{Sources, Span},
     threads::{Cell, Part},

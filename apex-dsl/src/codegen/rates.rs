@@ -1,19 +1,16 @@
 //! Clusters of regions with several rates: in one iteration every node fires as often as the balance equations say. The
 //! tokens of an iteration are in arrays, and the code of a node runs in a loop over its firings, by number `i`.
 
-use super::{
-    fire::Emitter,
-};
+use super::fire::Emitter;
 use crate::{
-    analyse::{Block, Run, Step, handles_absence, is_mandatory},
+    analyse::Run,
     graph::{NodeId, NodeKind, PortId},
-    syntax::tree::PortKind,
     program::{BlockId, Storage, is_buffer},
+    syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::collections::BTreeMap;
-use syn::Ident;
 
 impl Emitter<'_> {
     /// Declares the array of an output.
@@ -85,20 +82,15 @@ impl Emitter<'_> {
     }
 
     /// All firings of an iteration. If nodes take turns, these are rows of a table.
-    pub fn iteration(&self, block: &Block) -> TokenStream {
-        let runs = block.steps.iter().filter_map(|step| match step {
-            Step::Repeat(run) => Some(*run),
-            Step::Fire(_) | Step::Block(_) => None,
-        });
-        let runs: Vec<Run> = runs.collect();
+    pub fn iteration(&self, runs: &[Run], firings: &BTreeMap<NodeId, TokenStream>) -> TokenStream {
         let mut arms: BTreeMap<NodeId, usize> = BTreeMap::new();
-        for run in &runs {
+        for run in runs {
             let count = arms.len();
             arms.entry(run.node).or_insert(count);
         }
         if arms.len() == runs.len() {
             let loops = runs.iter().map(|Run { node, from, to }| {
-                let (from, to, firing) = (*from as usize, *to as usize, self.firing(*node));
+                let (from, to, firing) = (*from as usize, *to as usize, &firings[node]);
                 quote! { for i in #from..#to { #firing } }
             });
             return loops.collect();
@@ -109,7 +101,7 @@ impl Emitter<'_> {
         });
         let count = runs.len();
         let firings = arms.iter().map(|(node, arm)| {
-            let firing = self.firing(*node);
+            let firing = &firings[node];
             quote! { #arm => { #firing } }
         });
         quote! {
@@ -122,37 +114,11 @@ impl Emitter<'_> {
         }
     }
 
-    /// Firing `i` of a node, if its tokens are present.
-    fn firing(&self, node: NodeId) -> TokenStream {
-        let (graph, own) = (self.graph, PortId { node, port: 0 });
-        match &graph.nodes[node].kind {
-            NodeKind::Delay(initial) => return self.delayed(node, initial.len()),
-            NodeKind::Boundary(PortKind::Input) if !graph.is_body => {
-                let (name, port) = (self.generator.name(own), super::types::ident(&graph.nodes[node].name));
-                return quote! { #name[i] = inputs.#port.take(); };
-            }
-            _ => {}
-        }
-        let step = self.step(node, BlockId::OUTERMOST);
-        let tests = !handles_absence(graph, self.generator.catalog, node)
-            && matches!(graph.nodes[node].kind, NodeKind::Library(_) | NodeKind::Each(_));
-        let mandatory = (0..graph.nodes[node].ports.len())
-            .map(|port| PortId { node, port })
-            .filter(|to| tests && graph.port(*to).kind == PortKind::Input && is_mandatory(graph, *to));
-        let (names, tokens): (Vec<Ident>, Vec<TokenStream>) =
-            mandatory.filter_map(|to| Some((self.tested(to), self.arriving(to, BlockId::OUTERMOST)?))).unzip();
-        match names.as_slice() {
-            [] => step,
-            _ => quote! { if let (#(Some(#names),)*) = (#(#tokens,)*) { #step } },
-        }
-    }
-
     /// Token `i` of a delay: first those that it holds, then the first ones of this iteration.
-    fn delayed(&self, node: NodeId, holds: usize) -> TokenStream {
+    pub fn take_delayed(&self, node: NodeId) -> TokenStream {
         let out = PortId { node, port: 1 };
-        if !self.plan.is_used(out) {
-            return quote!();
-        }
+        let NodeKind::Delay(initial) = &self.graph.nodes[node].kind else { return quote!() };
+        let holds = initial.len();
         let (name, held) = (self.generator.name(out), self.generator.held(node));
         let from = self.incoming(PortId { node, port: 0 });
         let newer = from.filter(|_| holds < self.count(node)).map(|from| {
@@ -168,9 +134,6 @@ impl Emitter<'_> {
     /// Puts the tokens of the iteration into a delay when all nodes have fired. Those that it sent already go through
     /// it.
     pub fn hold_iteration(&self, node: NodeId) -> TokenStream {
-        if !self.plan.is_multirate || !self.graph.nodes[node].is_delay() {
-            return quote!();
-        }
         let to = PortId { node, port: 0 };
         let (held, count) = (self.generator.held(node), self.count(node));
         let token = self.copied(to, BlockId::OUTERMOST).unwrap_or_else(|| quote!(None));

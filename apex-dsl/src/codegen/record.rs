@@ -1,20 +1,14 @@
 //! Recording and replay: where the code of a program lets tokens out to be recorded, or takes recorded ones in. Only
 //! programs that can be recorded have it (`apex_rt::record`).
 
-use super::{
-    Generator,
-    distinct::Distinct,
-    fire::Emitter,
-    program::boundaries,
-    types::ident,
-};
+use super::{Generator, distinct::Distinct, fire::Emitter, program::boundaries, types::ident};
 use crate::{
     analyse::{Analysis, Links, is_source},
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind, PortId, Standard},
+    program::{BlockId, Storage, is_buffer},
     syntax::tree::PortKind,
     threads::Part,
-    program::{BlockId, Storage, is_buffer},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -327,19 +321,16 @@ fn in_order(mailboxes: &[(usize, TokenStream, TokenStream)]) -> TokenStream {
 }
 
 impl Emitter<'_> {
-    /// Shows the observer the outputs of a node when it has fired.
-    pub fn observed_outputs(&self, node: NodeId, block: BlockId) -> TokenStream {
-        let ends = (0..self.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
-        ends.filter(|end| self.graph.port(*end).kind == PortKind::Output && self.plan.is_used(*end))
-            .filter_map(|end| {
-                if self.plan.storage(end) != Storage::Array {
-                    return self.generator.observe(self.graph, end, &self.option(end, block));
-                }
-                let observe = self.generator.observe(self.graph, end, &quote!(place.as_ref()))?;
-                let (name, rate) = (self.generator.name(end), self.graph.port(end).rate);
-                Some(quote! { for place in &#name[i * #rate..(i + 1) * #rate] { #observe } })
-            })
-            .collect()
+    /// Shows the observer the token at an output.
+    pub fn observed(&self, end: PortId, block: BlockId) -> TokenStream {
+        if self.plan.storage(end) != Storage::Array {
+            return self.generator.observe(self.graph, end, &self.option(end, block)).unwrap_or_default();
+        }
+        let observe = self.generator.observe(self.graph, end, &quote!(place.as_ref()));
+        let (name, rate) = (self.generator.name(end), self.graph.port(end).rate);
+        observe
+            .map(|observe| quote! { for place in &#name[i * #rate..(i + 1) * #rate] { #observe } })
+            .unwrap_or_default()
     }
 
     /// Tokens that a node sends. A replayed source is not called. `results` calls the node and binds its results to

@@ -7,8 +7,8 @@ use super::{
 use crate::{
     catalog::{ArgSig, Signature},
     graph::{Library, NodeId, NodeKind, PortId},
-    syntax::tree::PortKind,
     program::{BlockId, Storage, is_buffer},
+    syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
 use quote::quote;

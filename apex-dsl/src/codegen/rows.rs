@@ -4,10 +4,11 @@
 use super::{
     Generator,
     activity::{ProgramView, is_observed},
-    stamps,
     types::{ident, nanos},
 };
-use crate::{analyse::Delivery, graph::NodeId,
+use crate::{
+    analyse::Delivery,
+    graph::NodeId,
     program::{Carries, Flag, Port, Send, Slot},
 };
 use proc_macro2::{Literal, TokenStream};
@@ -110,7 +111,7 @@ impl Generator<'_> {
         let mut row = Row(quote!(Slot::new(#node)));
         row.number("on", self.connection(slot.connection));
         row.number("frees", slot.frees);
-        row.number("stamp", stamps::number(view, slot.connection));
+        row.number("stamp", view.program.lower.stamp(slot.connection));
         let number = Literal::usize_unsuffixed(number);
         let node = || self.node_constant(view, slot.node);
         match slot.carries_to(view.graph) {
@@ -200,7 +201,7 @@ fn anyway(view: ProgramView<'_>, port: &Port) -> Ident {
 
 /// Returns `true` if a token that goes off on a connection changes the state.
 fn has_effect(view: ProgramView<'_>, send: &Send) -> bool {
-    send.queued.is_some() || send.raises.is_some() || stamps::number(view, send.connection).is_some()
+    send.queued.is_some() || send.raises.is_some() || view.program.lower.stamp(send.connection).is_some()
 }
 
 fn add_sends<'a>(row: &mut Row, view: ProgramView<'_>, sends: impl Iterator<Item = &'a Send> + Clone) {
@@ -208,7 +209,7 @@ fn add_sends<'a>(row: &mut Row, view: ProgramView<'_>, sends: impl Iterator<Item
     row.list("raises", sends.clone().filter_map(|send| send.raises));
     let goes = |send: &&Send| send.queued.is_some() || send.raises.is_some();
     row.list("occupies", sends.clone().filter(goes).filter_map(|send| send.occupies));
-    row.list("stamps", sends.filter_map(|send| stamps::number(view, send.connection)));
+    row.list("stamps", sends.filter_map(|send| view.program.lower.stamp(send.connection)));
 }
 
 /// Name of a constant: `WAITING_SIGNAL` of `waiting.signal`. Its own names are those of the tables.

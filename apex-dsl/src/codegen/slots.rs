@@ -11,55 +11,17 @@ use super::{
 use crate::{
     analyse::Delivery,
     catalog::{ArgSig, Signature},
-    graph::{ConnectionId, Flow, Graph, Library, NodeId, NodeKind, PortId, Standard},
-    machine::Move,
-    syntax::tree::PortKind,
-    program::{Carries, is_buffer, Flag, Slot},
+    graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Standard},
+    program::{Slot, is_buffer},
 };
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use syn::Ident;
 
-/// Returns `true` if a slot removes its token. Without a queue, the last slot that a token reaches does.
-fn takes(view: ProgramView<'_>, connection: ConnectionId) -> bool {
-    let from = view.graph.connections[connection].from;
-    let same = |c: &&ConnectionId| view.graph.connections[**c].from == from;
-    view.analysis.asynchronous.delivery != Delivery::Queued
-        && view.links.sends[from.node].iter().rfind(same) == Some(&connection)
-}
-
 impl Generator<'_> {
-    /// The tokens of a node's asynchronous connections are on their way, as far as there are any: those for slots
-    /// are queued, those for inputs lie there. A slot sends on events only.
-    pub fn emit(&self, view: ProgramView<'_>, node: NodeId, by_process: bool) -> TokenStream {
-        self.emit_from(view, node, &|end| by_process || view.graph.port(end).kind == PortKind::Event)
-    }
-
-    /// The same for the events that activity came, or went.
-    pub fn tell(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        self.emit_from(view, node, &|end| view.graph.port(end).tells_of_activity())
-    }
-
-    /// The tokens of some ports of a node are on their way.
-    pub fn emit_from(&self, view: ProgramView<'_>, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> TokenStream {
-        let rows = view.wiring.of(node).iter().filter(|port| wanted(port.end) && !port.sends.is_empty());
-        rows.map(|port| self.send(view, port)).collect()
-    }
-
-    /// A step of a node ends: its activity goes with the first of its `events` that were triggered, and all of them are
-    /// on their way.
-    pub fn leave(&self, view: ProgramView<'_>, node: NodeId, events: &dyn Fn(PortId) -> bool) -> TokenStream {
-        let pass = self.pass_activity(view, node, &|end| events(end).then(|| self.kept(end)));
-        let send = self.emit_from(view, node, events);
-        let mut rows = view.wiring.of(node).iter().filter(|port| events(port.end));
-        let (Some(port), None) = (rows.next(), rows.next()) else { return quote!(#pass #send) };
-        let follows = !self.turn_effects(view, node, false).is_empty() || self.lower(view).checks_claims();
-        let is_observed = self.observed_event(view.graph, port.end).is_some();
-        if pass.is_empty() || send.is_empty() || follows || is_observed || view.graph.nodes[node].is_delay() {
-            return quote!(#pass #send);
-        }
-        let (name, token) = (ident(&view.labels.ports[&port.end]), self.kept(port.end));
-        quote! { core.leave(&Self::#name, #token, ctx, observer); }
+    /// The tokens of the events of a node are on their way.
+    pub fn emitted(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        self.ops(view, &view.program.emit(node, false))
     }
 
     /// Expression that is `true` if the state of the program holds a token.
@@ -77,37 +39,14 @@ impl Generator<'_> {
         quote!(&state.#name)
     }
 
-    /// Events of a node that are connected are empty before it may trigger them.
-    pub fn clear_events(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        self.clear(view, node, &|_| true)
-    }
-
-    /// The events `activated` and `deactivated` of a node are empty before its activity changes.
-    pub fn clear_told(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        self.clear(view, node, &|end| view.graph.port(end).tells_of_activity())
-    }
-
-    /// Some events of a node are empty before it may trigger them.
-    pub fn clear(&self, view: ProgramView<'_>, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> TokenStream {
-        let ends = (0..view.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
-        let names = ends.filter(|end| wanted(*end) && self.is_sent_event(view, *end)).map(|end| self.name(end));
-        quote! { #(state.#names = None;)* }
-    }
-
-    /// Returns `true` if an event is connected.
-    pub fn is_sent_event(&self, view: ProgramView<'_>, end: PortId) -> bool {
-        view.graph.port(end).kind == PortKind::Event
-            && view.links.sends[end.node].iter().any(|c| view.graph.connections[*c].from == end)
-    }
-
     /// Expression that is `true` if a connected event was triggered.
     pub fn sent_event(&self, view: ProgramView<'_>, end: PortId) -> Option<TokenStream> {
-        self.is_sent_event(view, end).then(|| self.waits(view.graph, end))
+        view.program.is_sent_event(end).then(|| self.waits(view.graph, end))
     }
 
     /// An event as an argument.
     pub fn event(&self, view: ProgramView<'_>, end: PortId) -> TokenStream {
-        if self.is_sent_event(view, end) {
+        if view.program.is_sent_event(end) {
             let name = self.name(end);
             quote!(::apex_rt::event(&mut state.#name))
         } else {
@@ -123,7 +62,8 @@ impl Generator<'_> {
         let slots = &view.wiring.slots;
         let inline = inlined(slots.len());
         let functions = slots.iter().enumerate().map(|(number, slot)| {
-            let (name, docs) = (ident(&view.labels.slots[number]), self.docs_of_connection(view.graph, slot.connection));
+            let (name, docs) =
+                (ident(&view.labels.slots[number]), self.docs_of_connection(view.graph, slot.connection));
             let code = self.slot(view, number, slot);
             let code = match code.is_empty() {
                 true => quote! { core.only_enter(&Self::SLOTS[#number], ctx, observer); },
@@ -160,53 +100,27 @@ impl Generator<'_> {
 
     /// Code of a slot; none if it calls nothing.
     fn slot(&self, view: ProgramView<'_>, number: usize, slot: &Slot) -> TokenStream {
-        let Slot { connection, node, .. } = *slot;
-        let brings = slot.carries_to(view.graph);
-        let turns = brings != Carries::Nothing;
-        let effects = if turns { self.turn_effects(view, node, brings != Carries::Away) } else { quote!() };
-        let turned = if effects.is_empty() { quote!(_) } else { quote!(turned) };
-        let effects = (!effects.is_empty()).then(|| quote! { if *turned { #effects } });
-        let check = turns.then(|| self.check_claims(view));
-        let settle = slot.settles.map(|row| quote! { core.dispatcher.settle(Self::CLUSTERS, #row); });
-        let call = self.call_slot(view, connection);
-        let from = view.graph.connections[connection].from;
-        let call = if takes(view, connection) { self.taken(view.graph, from, call) } else { call };
-        let triggers = |end: PortId| match view.graph.port(end).tells_of_activity() {
-            true => turns,
-            false => self.may_trigger(view, connection, end),
-        };
-        let clear = self.clear(view, node, &triggers);
-        let leave = self.leave(view, node, &|end| self.is_sent_event(view, end) && triggers(end));
-        let (before, after) = (quote!(#clear #effects #check #call), quote!(#leave #settle));
-        if before.is_empty() && after.is_empty() {
+        let served = view.program.served(number);
+        let [clear, turned, call, after] =
+            [&served.clear, &served.turned, &served.call, &served.after].map(|ops| self.ops(view, ops));
+        if clear.is_empty() && turned.is_empty() && call.is_empty() && after.is_empty() {
             return quote!();
         }
-        let index = self.index(node);
+        let (name, effects) = match turned.is_empty() {
+            true => (quote!(_), quote!()),
+            false => (quote!(turned), quote! { if *turned { #turned } }),
+        };
+        let index = self.index(slot.node);
         quote! {
-            let (ctx, #turned) = &core.enter(&Self::SLOTS[#number], ctx, observer);
-            #before
+            let (ctx, #name) = &core.enter(&Self::SLOTS[#number], ctx, observer);
+            #clear #effects #call
             observer.finished(#index);
             #after
         }
     }
 
-    /// Returns `true` if the call of a slot may trigger an event: one that is an argument, or tells how the call went.
-    fn may_trigger(&self, view: ProgramView<'_>, connection: ConnectionId, event: PortId) -> bool {
-        let to = view.graph.connections[connection].to;
-        let NodeKind::Library(library) = &view.graph.nodes[to.node].kind else { return true };
-        let signature = &self.catalog.signatures[library.signature];
-        match signature.slots.iter().find(|slot| slot.port == to.port) {
-            Some(slot) => {
-                let is_argument = slot.args.iter().any(|arg| matches!(arg, ArgSig::Port(port) if *port == event.port));
-                is_argument || view.graph.port(event).standard.is_some()
-            }
-            // `enable` and `disable` call nothing.
-            None => false,
-        }
-    }
-
     /// A slot takes its token away.
-    fn taken(&self, graph: &Graph, from: PortId, call: TokenStream) -> TokenStream {
+    pub fn taken(&self, graph: &Graph, from: PortId, call: &TokenStream) -> TokenStream {
         let name = self.name(from);
         if is_buffer(graph, self.catalog, from) {
             quote! { #call state.#name.clear(); }
@@ -215,77 +129,38 @@ impl Generator<'_> {
         }
     }
 
-    /// The call of a slot's method, or what the slot of a built-in node does.
-    pub fn call_slot(&self, view: ProgramView<'_>, connection: ConnectionId) -> TokenStream {
-        let graph = view.graph;
-        let c = &graph.connections[connection];
-        let node = c.to.node;
-        match (&graph.nodes[node].kind, graph.port(c.to).standard) {
-            (_, Some(Standard::Disable)) => self.set(Flag::Enabled(node), false),
-            (_, Some(Standard::Enable)) if graph.nodes[node].can_be_disabled() => {
-                let (is_enabled, watch) = (self.is_set(Flag::Enabled(node)), self.watch_silence(view, node));
-                let enable = self.set(Flag::Enabled(node), true);
-                // It was told to be silent: that is over now.
-                if watch.is_empty() {
-                    enable
-                } else {
-                    quote! { if !#is_enabled { #watch } #enable }
-                }
-            }
-            (NodeKind::Library(library), _) => self.call_method(view, connection, library),
-            (NodeKind::Probe, _) => {
-                let from = view.graph.connections[connection].from;
-                self.see(view.graph, node, from, &self.token(view, connection))
-            }
-            (NodeKind::Exit(code), _) => quote! { state.exit = Some(#code); },
-            (NodeKind::Reset, _) => quote! { Self::reset(nodes, state, core, ctx, observer); },
-            (NodeKind::Interrupt(_), _) => {
-                let name = self.interrupt_function(view, c.to);
-                let call = quote! { Self::#name(nodes, state, core, ctx, observer); };
-                // Over `=>`, only activity is given back.
-                match c.active && Standard::Resume.is_of_interrupt(c.to.port) {
-                    true if !view.analysis.active.contains(&node) => quote!(),
-                    true => {
-                        let brought = self.is_set(Flag::Active(node));
-                        quote! { if #brought { #call } }
-                    }
-                    false => call,
-                }
-            }
-            (NodeKind::Boundary(_), _) => {
-                let (port, token) = (ident(&graph.nodes[node].name), self.token(view, connection));
-                let room = view.wiring.bits.room().get(&node).map(|bit| quote! { core.dispatcher.clear(#bit); });
-                let copy = self.clone(graph, graph.connections[connection].from, &quote!(token));
-                quote! {
-                    if let Some(token) = #token { let _ = events.#port.put(#copy); }
-                    #room
-                }
-            }
-            _ => quote!(),
+    /// Puts the token of a slot into the mailbox of an event of the program.
+    pub fn put_out(&self, view: ProgramView<'_>, slot: usize, taken: bool, room: Option<usize>) -> TokenStream {
+        let Slot { connection, node, .. } = view.wiring.slots[slot];
+        let from = view.graph.connections[connection].from;
+        let (port, token) = (ident(&view.graph.nodes[node].name), self.slot_token(view, from, taken));
+        let room = room.map(|bit| quote! { core.dispatcher.clear(#bit); });
+        let copy = self.clone(view.graph, from, &quote!(token));
+        quote! {
+            if let Some(token) = #token { let _ = events.#port.put(#copy); }
+            #room
         }
     }
 
-    /// The token of a connection, where it lies: `Option<&T>`.
-    fn token(&self, view: ProgramView<'_>, connection: ConnectionId) -> TokenStream {
-        let from = view.graph.connections[connection].from;
+    /// The token of a slot, where it lies: `Option<&T>`.
+    pub fn slot_token(&self, view: ProgramView<'_>, from: PortId, taken: bool) -> TokenStream {
         let name = self.name(from);
         match is_buffer(view.graph, self.catalog, from) {
             true => quote!(state.#name.get()),
-            false if takes(view, connection) => quote!(#name.as_ref()),
+            false if taken => quote!(#name.as_ref()),
             false => quote!(state.#name.as_ref()),
         }
     }
 
-    fn call_method(&self, view: ProgramView<'_>, connection: ConnectionId, library: &Library) -> TokenStream {
-        let graph = view.graph;
+    /// The call of a slot's method.
+    pub fn call_method(&self, view: ProgramView<'_>, slot: usize, taken: bool) -> TokenStream {
+        let (graph, connection) = (view.graph, view.wiring.slots[slot].connection);
         let c = &graph.connections[connection];
-        let (node, signature) = (c.to.node, &self.catalog.signatures[library.signature]);
+        let node = c.to.node;
+        let NodeKind::Library(library) = &graph.nodes[node].kind else { return quote!() };
+        let signature = &self.catalog.signatures[library.signature];
         let Some(slot) = signature.slots.iter().find(|s| s.port == c.to.port) else {
-            // `enable` of a node that nothing disables is called only for the activity that it carries.
-            return match graph.port(c.to).standard {
-                Some(_) => quote!(),
-                None => self.bug(c.span, "the slot has no method"),
-            };
+            return self.bug(c.span, "the slot has no method");
         };
         let mut takes = false;
         let args: Vec<TokenStream> = slot
@@ -303,20 +178,14 @@ impl Generator<'_> {
         let (place, method) = (self.node_place(graph, node), ident(&slot.method));
         let call = quote!(#place.#method(#(#args),*));
         let call = self.contained(graph, node, library, call, slot.fallible);
-        let late = self.check_late(graph, node);
+        let late = self.check_late(view, node);
         let call = if takes {
-            let token = self.token(view, connection);
+            let token = self.slot_token(view, c.from, taken);
             quote! { if let Some(token) = #token { #call; } #late }
         } else {
             quote! { #call; #late }
         };
-        let call = self.recorded_slot(graph, node, self.states_told(graph, node, call));
-        if graph.nodes[node].can_be_disabled() {
-            let is_enabled = self.is_set(Flag::Enabled(node));
-            quote! { if #is_enabled { #call } }
-        } else {
-            call
-        }
+        self.recorded_slot(graph, node, self.states_told(graph, node, call))
     }
 
     /// The context for a node, which knows whether it is active.
@@ -398,7 +267,7 @@ impl Generator<'_> {
         let graph = view.graph;
         let (name, port) = (self.name(PortId { node, port: 0 }), ident(&graph.nodes[node].name));
         let test = self.allows(view, &free_to_send(view, node));
-        let emit = self.emit(view, node, false);
+        let emit = self.emitted(view, node);
         let serve = self.deliver(view, &view.links.sends[node]);
         let goes_on = quote! {
             let Self { state, core, inputs, .. } = self;
@@ -408,67 +277,5 @@ impl Generator<'_> {
             quiet = false;
         };
         (port, test, goes_on)
-    }
-
-    /// `start`: the nodes that are active from the beginning, and the tokens of its events.
-    pub fn begin(&self, view: ProgramView<'_>) -> TokenStream {
-        let graph = view.graph;
-        let mut code = quote!();
-        for (node, n) in graph.nodes.iter_enumerated() {
-            if n.starts_active && view.analysis.active.contains(&node) {
-                let (activate, tell) = (self.activate(view, node), self.tell(view, node));
-                code.extend(quote! { #activate #tell });
-            }
-            if matches!(n.kind, NodeKind::Start) {
-                let end = PortId { node, port: 0 };
-                if !self.is_sent_event(view, end) {
-                    continue;
-                }
-                let (name, emit) = (self.name(end), self.emit(view, node, false));
-                let sent = graph.connections.iter_enumerated().filter(|(_, c)| c.from == end);
-                let gains = sent.filter_map(|(i, c)| {
-                    match (graph.flow(c) == Flow::ToSlot, self.lower(view).carries(i)) {
-                        (true, Carries::Sometimes) => {
-                            Some(self.set(Flag::Carries(view.analysis.asynchronous.slot(i)), true))
-                        }
-                        (false, Carries::Always | Carries::Sometimes) => Some(self.set(Flag::Gains(c.to.node), true)),
-                        _ => None,
-                    }
-                });
-                code.extend(quote! { state.#name = Some(()); #(#gains)* #emit });
-            }
-        }
-        code.extend(self.check_claims(view));
-        code
-    }
-
-    /// Code that runs once, before the first reaction.
-    pub fn first(&self, view: ProgramView<'_>) -> TokenStream {
-        let watches = view.graph.nodes.ids().map(|node| self.watch_silence(view, node));
-        let (initial, begin) = (self.initial_states(), self.begin(view));
-        quote! { #(#watches)* #initial #begin }
-    }
-
-    /// `reset`: nothing is active, no token under way carries activity, and `start` is triggered again.
-    pub fn reset(&self, view: ProgramView<'_>) -> TokenStream {
-        // Those that `start` makes active again say both at once.
-        let deactivates = view.analysis.active.iter().map(|&node| {
-            if view.graph.nodes[node].is_delay() {
-                let held = self.held_activity(node);
-                return quote! { state.#held.clear(); };
-            }
-            let (clear, deactivate) = (self.clear_told(view, node), self.deactivate(view, node));
-            let tell = (!view.graph.nodes[node].starts_active).then(|| self.tell(view, node));
-            quote! { #clear #deactivate #tell }
-        });
-        let sets = self.activity_state(view).into_iter().map(|kept| kept.name);
-        let clears = sets.filter(|name| ["gains", "loses", "carries"].iter().any(|set| name == set));
-        let clears = clears.map(|name| quote! { core.#name = ::apex_rt::Bits::NONE; });
-        let remembered = view.analysis.active.iter().filter(|node| self.remembers(view, **node));
-        let forgets =
-            remembered.map(|node| self.held(*node)).map(|name| quote! { state.#name = ::apex_rt::Bits::NONE; });
-        let restart = view.graph.nodes.ids().map(|node| self.move_machine(view, node, Move::Restart));
-        let begin = self.begin(view);
-        quote! { #(#deactivates)* #(#clears)* #(#forgets)* #(#restart)* #begin }
     }
 }

@@ -9,8 +9,8 @@ use super::{
 use crate::{
     analyse::Analysis,
     graph::{Connection, Graph, NodeId, NodeKind, PortId},
-    syntax::tree::PortKind,
     program::{Storage, is_buffer, storage},
+    syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
 use quote::quote;

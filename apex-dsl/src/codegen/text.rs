@@ -4,9 +4,9 @@
 use super::{machine, names::item, program, types::ident};
 use crate::{
     catalog::Catalog,
+    checked::CheckedProgram,
     graph::{Graph, Library, NodeKind},
     machine::{Machine, Machines},
-    checked::CheckedProgram,
     report::Diagnostics,
     source::{FileId, Sources, Span},
 };

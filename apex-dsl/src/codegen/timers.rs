@@ -10,10 +10,10 @@ use super::{
     types::nanos,
 };
 use crate::{
-    analyse::{Analysis, ClusterId, is_source, silence_parameter},
+    analyse::silence_parameter,
     catalog::ArgSig,
-    graph::{ConnectionId, Graph, Node, NodeId, NodeKind, PortId, Standard},
-    program::{is_buffer, Entry, Flag, Silence, Timeout},
+    graph::{ConnectionId, Node, NodeId, NodeKind, PortId},
+    program::{Entry, Flag, Silence, Timeout, is_buffer},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -29,14 +29,6 @@ enum Timed {
 }
 
 impl Generator<'_> {
-    /// The time of a source's silence begins.
-    pub fn watch_silence(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        match self.lower(view).watches_silence(node) {
-            Some(_) => self.start_timeout(view, node),
-            None => quote!(),
-        }
-    }
-
     /// Timers and timeouts in the state of a program.
     pub fn timer_state(&self, view: ProgramView<'_>) -> Vec<StateField> {
         let ProgramView { graph, wiring, .. } = view;
@@ -139,18 +131,14 @@ impl Generator<'_> {
         }
     }
 
-    /// The silences of a cluster's own guards begin with its firing.
-    pub fn hear(&self, view: ProgramView<'_>, cluster: ClusterId) -> TokenStream {
-        let own = view.analysis.clusters[cluster].own_guards.iter();
-        let silences = own.filter_map(|guard| view.wiring.silence(*guard));
-        let starts: TokenStream = silences
-            .map(|index| {
-                let after = self.silence(view, &view.wiring.silences[index]);
-                quote! { core.silences[#index].start(ctx.now(), #after); }
-            })
-            .collect();
-        let open = (!starts.is_empty()).then(|| self.open_agenda(view));
-        quote! { #starts #open }
+    /// The times of silences begin.
+    pub fn hear(&self, view: ProgramView<'_>, silences: &[usize]) -> TokenStream {
+        let starts = silences.iter().map(|index| {
+            let after = self.silence(view, &view.wiring.silences[*index]);
+            quote! { core.silences[#index].start(ctx.now(), #after); }
+        });
+        let open = self.open_agenda(view);
+        quote! { #(#starts)* #open }
     }
 
     /// Duration of a silence: the shortest of its nodes.
@@ -206,13 +194,6 @@ impl Generator<'_> {
         view.wiring.has_agenda().then(|| quote! { core.agenda.open(); })
     }
 
-    /// The time of a node's `timeout` begins, if it has one.
-    fn start_timeout(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let Some(index) = view.wiring.timeout(node) else { return quote!() };
-        let after = nanos(view.wiring.timeouts[index].after);
-        quote! { core.start_timeout(#index, #after, ctx); }
-    }
-
     /// The guards of timers that are due hold.
     pub fn timers_due(&self, view: ProgramView<'_>) -> TokenStream {
         let timers = &view.wiring.timers;
@@ -238,7 +219,7 @@ impl Generator<'_> {
         let (name, told) = (self.name(PortId { node, port: 0 }), Self::told_ahead(node));
         let sends = &view.links.sends[node];
         let test = self.allows(view, &free_to_send(view, node));
-        let (emit, serve) = (self.emit(view, node, false), self.deliver(view, sends));
+        let (emit, serve) = (self.emitted(view, node), self.deliver(view, sends));
         quote! {
             if self.state.#told != self.state.time.ahead() #test {
                 let Self { state, core, .. } = self;
@@ -326,13 +307,6 @@ impl Generator<'_> {
     fn timeout_arm(&self, view: ProgramView<'_>, index: usize) -> Arm {
         let (graph, node) = (view.graph, view.wiring.timeouts[index].node);
         let docs = format!(" `timeout` of `{}`, {}.", graph.path(node), self.line(graph.nodes[node].span));
-        let clear = self.clear_events(view, node);
-        let trigger = self.trigger(graph, node, Standard::Timeout);
-        let leave = self.leave(view, node, &|end| {
-            let sent = matches!(graph.port(end).standard, Some(Standard::Timeout | Standard::Deactivated));
-            sent && self.is_sent_event(view, end)
-        });
-        let serve = self.deliver(view, &view.links.sends[node]);
-        Arm { number: index, docs, code: quote! { core.stop_timeout(#index); #clear #trigger #leave #serve } }
+        Arm { number: index, docs, code: self.ops(view, &view.program.expired(index)) }
     }
 }

@@ -1,10 +1,10 @@
 //! Input of the lowering.
 
 use crate::{
-    analyse::{Analysis, Links, is_source},
+    analyse::{Analysis, ClusterId, Links, is_source},
     catalog::{Catalog, Signature},
     claims::Decided,
-    graph::{Graph, NodeId, NodeKind},
+    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId},
 };
 use std::time::Duration;
 
@@ -59,5 +59,26 @@ impl<'a> Lower<'a> {
     pub fn watches_silence(self, node: NodeId) -> Option<Duration> {
         let watches = is_source(self.graph, self.catalog, self.links, node) && !self.is_active(node);
         self.graph.nodes[node].modifiers.timeout.filter(|_| watches)
+    }
+
+    /// The number of a connection's stamp, if it is kept.
+    pub fn stamp(self, connection: ConnectionId) -> Option<usize> {
+        self.analysis.stamps.connections.iter().position(|c| *c == connection)
+    }
+
+    /// Returns `true` if clusters downstream need the time at which a cluster's source fired.
+    pub fn leaves_stamp(self, cluster: ClusterId) -> bool {
+        let down = &self.analysis.clusters[cluster].downstream;
+        down.iter().any(|c| self.analysis.stamps.clusters.contains(c))
+    }
+
+    /// The connection into an input.
+    pub fn connection(self, to: PortId) -> Option<ConnectionId> {
+        self.links.inputs[to.node].iter().copied().find(|c| self.graph.connections[*c].to == to)
+    }
+
+    /// Origin of the tokens of an input.
+    pub fn incoming(self, to: PortId) -> Option<PortId> {
+        self.connection(to).map(|c| self.graph.connections[c].from)
     }
 }

@@ -4,14 +4,35 @@
 //! A program consists of *rows* (nodes, ports, slots, timers, timeouts: [`Wiring`]), of the *conditions* that its
 //! dispatcher looks at ([`Bits`]), and of *operations*.
 
+mod activity;
 mod bits;
 mod carries;
+mod clusters;
+mod interrupt;
 mod lower;
+mod op;
 mod plan;
+mod slots;
 mod wiring;
 
 pub use bits::{Bits, ClusterRow, MissingRow};
 pub use carries::Carries;
 pub use lower::Lower;
+pub use op::{Cancel, Op, Ops, Served, Taken};
 pub use plan::{BlockId, Plan, Storage, is_buffer, storage};
 pub use wiring::{Entry, Flag, Port, Send, Silence, Slot, Timeout, Wiring};
+
+/// A program, or the part of one that a thread runs.
+pub struct Program<'a> {
+    /// What it is lowered from.
+    pub lower: Lower<'a>,
+    /// Its rows.
+    pub wiring: Wiring,
+}
+
+impl<'a> Program<'a> {
+    /// Lowers a program.
+    pub fn new(lower: Lower<'a>) -> Self {
+        Self { lower, wiring: Wiring::new(lower) }
+    }
+}

@@ -209,6 +209,11 @@ impl Wiring {
         self.ports.values().flatten()
     }
 
+    /// The row of a port.
+    pub fn port(&self, end: PortId) -> Option<&Port> {
+        self.of(end.node).iter().find(|port| port.end == end)
+    }
+
     /// The rows of a node.
     pub fn of(&self, node: NodeId) -> &[Port] {
         self.ports.get(&node).map_or(&[], Vec::as_slice)

@@ -15,10 +15,10 @@ mod world;
 
 use apex_dsl::{
     catalog::Catalog,
+    checked::CheckedProgram,
     claims::Verdict,
     graph::{ClaimKind, Graph},
     passes,
-    checked::CheckedProgram,
     report::{Diagnostic, Diagnostics, Severity},
     source::Sources,
 };
