@@ -1,16 +1,10 @@
 //! One cluster as straight-line code: blocks, firings, and how tokens get from one to the next.
 
-use super::{
-    Generator,
-    activity::ProgramView,
-    ops::Writer,
-    types::{ident, path},
-};
+use super::{Generator, activity::ProgramView, call::Calling, ops::Writer, types::ident};
 use crate::{
-    analyse::{Analysis, ClusterId, Links, handles_absence},
-    catalog::{ArgSig, Signature},
-    graph::{Graph, Library, NodeId, NodeKind, PortId, Standard},
-    program::{BlockId, Flag, Op, Plan, Storage},
+    analyse::{Analysis, ClusterId, Links},
+    graph::{Graph, NodeId, NodeKind, PortId},
+    program::{BlockId, Fire, Op, Plan, Storage},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
@@ -23,7 +17,6 @@ pub struct Emitter<'a> {
     pub view: ProgramView<'a>,
     pub graph: &'a Graph,
     pub analysis: &'a Analysis,
-    pub links: &'a Links,
     pub plan: Plan,
     pub cluster: ClusterId,
 }
@@ -70,7 +63,7 @@ impl<'a> Emitter<'a> {
                 let (tokens, body) = (inputs.iter().map(|to| self.arriving(*to, block)), self.ops_in(body, block));
                 quote! { if let (#(Some(#names),)*) = (#(#tokens,)*) { #body } }
             }
-            Op::Fire(node) => self.fire(*node, block),
+            Op::Fire { node, fire } => self.fire(*node, fire, block),
             Op::IfSent { tokens, then } => {
                 let sent = tokens.iter().map(|end| match self.graph.port(*end).kind {
                     PortKind::Output => {
@@ -220,28 +213,29 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn fire(&self, node: NodeId, block: BlockId) -> TokenStream {
-        match &self.graph.nodes[node].kind {
-            NodeKind::Library(library) => self.fire_library(node, library, block),
-            NodeKind::Each(each) => {
-                let (fire, late) = (self.fire_each(node, each, block), self.generator.check_late(self.view, node));
+    fn fire(&self, node: NodeId, fire: &Fire, block: BlockId) -> TokenStream {
+        let input = PortId { node, port: 0 };
+        match (fire, &self.graph.nodes[node].kind) {
+            (Fire::Call(call), NodeKind::Library(library)) => Calling::new(self, node, library, call, block).code(),
+            (Fire::Each(deadline), NodeKind::Each(each)) => {
+                let (fire, late) = (self.fire_each(node, each, block), self.generator.late(self.view, node, *deadline));
                 let copies = self.copies(node);
                 quote! { #fire #copies #late }
             }
-            NodeKind::Delay(_) => {
+            (Fire::Hold, _) => {
                 let held = self.generator.held(node);
-                let token = self.copied(PortId { node, port: 0 }, block).unwrap_or_else(|| quote!(None));
+                let token = self.copied(input, block).unwrap_or_else(|| quote!(None));
                 quote! { state.#held.put(#token); }
             }
-            NodeKind::Boundary(PortKind::Output) if !self.graph.is_body => {
+            (Fire::Output, _) => {
                 let port = ident(&self.graph.nodes[node].name);
-                match self.arrival(PortId { node, port: 0 }, block) {
+                match self.arrival(input, block) {
                     Some((from, token)) => self.generator.store(self.graph, from, &quote!(outputs.#port), &token),
                     None => quote!(),
                 }
             }
-            NodeKind::Relay => {
-                let token = self.copied(PortId { node, port: 0 }, block);
+            (Fire::Relay, _) => {
+                let token = self.copied(input, block);
                 let out = PortId { node, port: 1 };
                 // Nothing may ever come, which then says nothing of the type.
                 let token = token.unwrap_or_else(|| {
@@ -250,7 +244,7 @@ impl<'a> Emitter<'a> {
                 });
                 self.bind(out, token, true)
             }
-            NodeKind::Probe => match self.arrival(PortId { node, port: 0 }, block) {
+            (Fire::See, _) => match self.arrival(input, block) {
                 Some((from, token)) => self.generator.see(self.graph, node, from, &token),
                 None => quote!(),
             },
@@ -263,96 +257,8 @@ impl<'a> Emitter<'a> {
         self.view.program.lower.incoming(to)
     }
 
-    fn fire_library(&self, node: NodeId, library: &Library, block: BlockId) -> TokenStream {
-        let signature = &self.generator.catalog.signatures[library.signature];
-        let index = self.generator.index(node);
-        let params = self.set_params(node, signature, block);
-        // Tokens at its parameters are all that a node without `process` takes.
-        let Some(args) = &signature.process else { return params };
-        let told = handles_absence(self.graph, self.generator.catalog, node);
-        let args: Vec<TokenStream> =
-            args.iter().map(|arg| self.argument(node, library, signature, *arg, block, told)).collect();
-        let call = if signature.is_function {
-            let function = path(&signature.path);
-            quote!(#function(#(#args),*))
-        } else {
-            let place = self.generator.node_place(self.graph, node);
-            quote!(#place.process(#(#args),*))
-        };
-        let processed = self.generator.trigger(self.view, node, Standard::Processed);
-        let call = if processed.is_empty() { call } else { quote!({ #processed #call }) };
-        let call = self.with_checked_params(node, library, signature, call, block);
-        let call = if told { self.told(node, signature, call, block) } else { call };
-        let results = self.results(node, library, signature, call, told);
-        let copies = self.copies(node);
-        let results = self.recorded(node, block, quote! { #results #copies }, processed);
-        let outputs = self.param_outputs(node, library, signature, block);
-        let late = self.generator.check_late(self.view, node);
-        let code = quote! { observer.fired(#index); #params #results #outputs #late observer.finished(#index); };
-        if self.graph.nodes[node].can_be_disabled() {
-            let is_enabled = self.generator.is_set(Flag::Enabled(node));
-            let clears = self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); });
-            quote! { if #is_enabled { #code } else { #(#clears)* } }
-        } else {
-            code
-        }
-    }
-
-    fn argument(
-        &self,
-        node: NodeId,
-        library: &Library,
-        signature: &Signature,
-        arg: ArgSig,
-        block: BlockId,
-        told: bool,
-    ) -> TokenStream {
-        match arg {
-            ArgSig::Ctx => self.generator.context(self.view, node),
-            ArgSig::Port(port) => {
-                let (end, p) = (PortId { node, port }, &signature.ports[port]);
-                match p.kind {
-                    PortKind::Output => {
-                        let name = self.generator.name(end);
-                        quote!(state.#name.begin())
-                    }
-                    PortKind::Input if p.any_number => {
-                        let elements = self.graph.nodes[node].elements(port);
-                        let tokens = elements.map(|port| self.input(PortId { node, port }, p.optional, block, told));
-                        quote!([#(#tokens),*])
-                    }
-                    PortKind::Input => self.input(end, p.optional, block, told),
-                    PortKind::Event | PortKind::Slot => self.generator.event(self.view, end),
-                }
-            }
-            ArgSig::Param(param) => match self.param_source(node, param) {
-                Some(_) if signature.params[param].range.is_some() => {
-                    let name = format_ident!("param_{param}");
-                    quote!(#name)
-                }
-                Some(to) => self.clone_of_arrived(to, block),
-                None => self.generator.argument(self.graph, node, library, param),
-            },
-        }
-    }
-
-    /// The token at an input, as the node takes it.
-    fn input(&self, end: PortId, optional: bool, block: BlockId, told: bool) -> TokenStream {
-        match optional {
-            true => match self.arriving(end, block) {
-                Some(token) => self.judged(end, token, true),
-                None => quote!(None),
-            },
-            false => match self.arrived(end, block) {
-                Some(_) if told => self.tested(end).into_token_stream(),
-                Some(token) => self.judged(end, token, false),
-                None => quote!(),
-            },
-        }
-    }
-
     /// Lets rustc judge a connection whose types the scan could not compare.
-    fn judged(&self, to: PortId, token: TokenStream, optional: bool) -> TokenStream {
+    pub fn judged(&self, to: PortId, token: TokenStream, optional: bool) -> TokenStream {
         let Some(connection) = self.view.program.lower.connection(to) else { return token };
         let Some(link) = self.generator.link(self.graph, connection) else { return token };
         let NodeKind::Library(library) = &self.graph.nodes[to.node].kind else { return token };
@@ -368,98 +274,11 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The input of a parameter, if a token arrives at it.
-    pub fn param_source(&self, node: NodeId, param: usize) -> Option<PortId> {
-        let ports = &self.graph.nodes[node].ports;
-        let port = ports.iter().position(|p| p.parameter == Some(param) && p.kind == PortKind::Input)?;
-        let to = PortId { node, port };
-        self.incoming(to).map(|_| to)
-    }
-
     /// A copy of the token that has arrived at an input, as `T`.
     pub fn clone_of_arrived(&self, to: PortId, block: BlockId) -> TokenStream {
         match self.incoming(to).zip(self.arrived(to, block)) {
             Some((from, token)) => self.generator.clone(self.graph, from, &token),
             None => self.generator.bug(self.graph.nodes[to.node].span, "a parameter that waits for a token has none"),
-        }
-    }
-
-    /// Tokens at parameter ports of a struct node are put into its fields first.
-    fn set_params(&self, node: NodeId, signature: &Signature, block: BlockId) -> TokenStream {
-        if signature.is_function {
-            return quote!();
-        }
-        let (index, place) = (self.generator.index(node), self.generator.node_place(self.graph, node));
-        let sets = (0..signature.params.len()).filter_map(|param| {
-            let (token, name) = (self.arriving(self.param_source(node, param)?, block)?, &signature.params[param].name);
-            Some(quote! { if let Some(value) = #token { ::apex_rt::set_param::<#param, _, _>(&mut #place, value, #index, #name, observer); } })
-        });
-        sets.collect()
-    }
-
-    /// A function is not called with a parameter that is out of range.
-    fn with_checked_params(
-        &self,
-        node: NodeId,
-        library: &Library,
-        signature: &Signature,
-        call: TokenStream,
-        block: BlockId,
-    ) -> TokenStream {
-        if !signature.is_function {
-            return call;
-        }
-        let index = self.generator.index(node);
-        let checked: Vec<usize> = (0..signature.params.len())
-            .filter(|p| signature.params[*p].range.is_some() && self.param_source(node, *p).is_some())
-            .collect();
-        checked.iter().rev().enumerate().fold(call, |call, (depth, param)| {
-            let arrived = self.param_source(node, *param).and_then(|to| self.arrived(to, block));
-            let Some(token) = arrived else { return call };
-            let (name, node_type) = (&signature.params[*param].name, self.generator.node_type(self.graph, library));
-            let local = format_ident!("param_{param}");
-            let check = quote!(::apex_rt::checked_param::<#param, #node_type, _>(#token, #index, #name, observer));
-            let flat = depth > 0 || signature.returns.maybe || signature.returns.fallible;
-            if flat { quote!(#check.and_then(|#local| #call)) } else { quote!(#check.map(|#local| #call)) }
-        })
-    }
-
-    /// A node that wants to be told of ⊥ is called in one way or the other.
-    fn told(&self, node: NodeId, signature: &Signature, call: TokenStream, block: BlockId) -> TokenStream {
-        let (names, tokens): (Vec<Ident>, Vec<TokenStream>) = signature
-            .ports
-            .iter()
-            .enumerate()
-            .filter(|(_, p)| p.kind == PortKind::Input && !p.optional)
-            .flat_map(|(port, _)| self.graph.nodes[node].elements(port))
-            .map(|port| PortId { node, port })
-            .filter_map(|to| Some((self.tested(to), self.arriving(to, block)?)))
-            .unzip();
-        let place = self.generator.node_place(self.graph, node);
-        let method = ident(signature.no_message.as_deref().unwrap_or_default());
-        let clears = self.buffers(node).into_iter().map(|name| quote! { state.#name.clear(); });
-        let value = if signature.returns.maybe || signature.returns.fallible || !signature.returns.value {
-            call
-        } else {
-            quote!(Some(#call))
-        };
-        let missing = match (signature.returns.value, signature.returns.fallible) {
-            (true, true) => quote!(Ok(None)),
-            (true, false) => quote!(None),
-            (false, true) => quote!(Ok(())),
-            (false, false) => quote!(()),
-        };
-        let value = if signature.returns.fallible && signature.returns.value && !signature.returns.maybe {
-            quote!(#value.map(Some))
-        } else {
-            value
-        };
-        quote! {
-            match (#(#tokens,)*) {
-                (#(Some(#names),)*) => #value,
-                #[allow(unreachable_patterns)]
-                _ => { #place.#method(); #(#clears)* #missing }
-            }
         }
     }
 }

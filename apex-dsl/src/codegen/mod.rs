@@ -2,6 +2,7 @@
 
 mod activity;
 mod bugs;
+mod call;
 mod cells;
 mod claims;
 mod clusters;

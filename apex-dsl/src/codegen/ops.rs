@@ -128,7 +128,7 @@ impl Writer<'_> {
             Op::Settle(row) => quote! { core.dispatcher.settle(Self::CLUSTERS, #row); },
             Op::Serve { slot, unless_exit } => generator.serve_one(view, *slot, *unless_exit),
             Op::ServeCircle(slots) => generator.serve_circle(view, slots),
-            Op::Call { slot, taken } => generator.call_method(view, *slot, *taken),
+            Op::Call { slot, taken, call } => generator.call_method(view, *slot, *taken, call.as_ref()),
             Op::SeeSlot { slot, taken } => {
                 let slot = &view.wiring.slots[*slot];
                 let from = view.graph.connections[slot.connection].from;
@@ -228,7 +228,8 @@ impl Writer<'_> {
         let (generator, graph) = (self.generator, self.view.graph);
         let machine = self.view.program.lower.signature(node).and_then(|signature| signature.machine.as_ref());
         let moved = machine.map_or(&[][..], |machine| &machine.moved);
-        let events = moved.iter().map(|port| generator.event(self.view, PortId { node, port: *port }));
+        let events = moved.iter().map(|port| PortId { node, port: *port });
+        let events = events.map(|event| generator.event(event, self.view.program.is_sent_event(event)));
         let (place, method) = (generator.node_place(graph, node), ident(how.method()));
         generator.states_told(graph, node, quote! { #place.#method(#(#events),*); })
     }

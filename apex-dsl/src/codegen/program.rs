@@ -307,7 +307,8 @@ impl Generator<'_> {
     }
 
     /// Creates a node again, unless Rust made it. Its parameters stay as they are: they are settings, not state.
-    pub fn remake(&self, graph: &Graph, node: NodeId, library: &Library) -> TokenStream {
+    pub fn remake(&self, graph: &Graph, node: NodeId) -> TokenStream {
+        let NodeKind::Library(library) = &graph.nodes[node].kind else { return quote!() };
         if library.handed_in || self.catalog.signatures[library.signature].is_function {
             return quote!();
         }

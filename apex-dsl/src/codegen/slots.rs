@@ -10,9 +10,9 @@ use super::{
 };
 use crate::{
     analyse::Delivery,
-    catalog::{ArgSig, Signature},
-    graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Standard},
-    program::{Slot, is_buffer},
+    catalog::Signature,
+    graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId},
+    program::{Arg, Failing, Slot, SlotCall, is_buffer},
 };
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
@@ -39,14 +39,9 @@ impl Generator<'_> {
         quote!(&state.#name)
     }
 
-    /// Expression that is `true` if a connected event was triggered.
-    pub fn sent_event(&self, view: ProgramView<'_>, end: PortId) -> Option<TokenStream> {
-        view.program.is_sent_event(end).then(|| self.waits(view.graph, end))
-    }
-
-    /// An event as an argument.
-    pub fn event(&self, view: ProgramView<'_>, end: PortId) -> TokenStream {
-        if view.program.is_sent_event(end) {
+    /// An event as an argument; `sent` if it is connected.
+    pub fn event(&self, end: PortId, sent: bool) -> TokenStream {
+        if sent {
             let name = self.name(end);
             quote!(::apex_rt::event(&mut state.#name))
         } else {
@@ -153,33 +148,33 @@ impl Generator<'_> {
     }
 
     /// The call of a slot's method.
-    pub fn call_method(&self, view: ProgramView<'_>, slot: usize, taken: bool) -> TokenStream {
+    pub fn call_method(
+        &self,
+        view: ProgramView<'_>,
+        slot: usize,
+        taken: bool,
+        slot_call: Option<&SlotCall>,
+    ) -> TokenStream {
         let (graph, connection) = (view.graph, view.wiring.slots[slot].connection);
         let c = &graph.connections[connection];
         let node = c.to.node;
         let NodeKind::Library(library) = &graph.nodes[node].kind else { return quote!() };
         let signature = &self.catalog.signatures[library.signature];
-        let Some(slot) = signature.slots.iter().find(|s| s.port == c.to.port) else {
+        let method = signature.slots.iter().find(|s| s.port == c.to.port);
+        let Some((SlotCall { args, failing, deadline }, slot)) = slot_call.zip(method) else {
             return self.bug(c.span, "the slot has no method");
         };
-        let mut takes = false;
-        let args: Vec<TokenStream> = slot
-            .args
-            .iter()
-            .map(|arg| match *arg {
-                ArgSig::Port(port) if port == slot.port => {
-                    takes = true;
-                    self.judged_slot(graph, connection, library, signature)
-                }
-                ArgSig::Port(port) => self.event(view, PortId { node, port }),
-                _ => self.context(view, node),
-            })
-            .collect();
+        let uses_token = args.iter().any(|arg| matches!(arg, Arg::OfSlot));
+        let args = args.iter().map(|arg| match *arg {
+            Arg::OfSlot => self.judged_slot(graph, connection, library, signature),
+            Arg::Event { event, sent } => self.event(event, sent),
+            _ => self.context(view, node),
+        });
         let (place, method) = (self.node_place(graph, node), ident(&slot.method));
         let call = quote!(#place.#method(#(#args),*));
-        let call = self.contained(graph, node, library, call, slot.fallible);
-        let late = self.check_late(view, node);
-        let call = if takes {
+        let call = self.contained(view, node, *failing, call);
+        let late = self.late(view, node, *deadline);
+        let call = if uses_token {
             let token = self.slot_token(view, c.from, taken);
             quote! { if let Some(token) = #token { #call; } #late }
         } else {
@@ -199,25 +194,19 @@ impl Generator<'_> {
     }
 
     /// A call whose failure is reported: its value as an `Option`, or the call itself where nothing can fail.
-    pub fn contained(
-        &self,
-        graph: &Graph,
-        node: NodeId,
-        library: &Library,
-        call: TokenStream,
-        fallible: bool,
-    ) -> TokenStream {
+    pub fn contained(&self, view: ProgramView<'_>, node: NodeId, failing: Failing, call: TokenStream) -> TokenStream {
         let index = self.index(node);
-        let n = &graph.nodes[node];
-        if !n.is_contained() {
-            return if fallible { quote!(::apex_rt::sent(#call, #index, observer)) } else { call };
-        }
+        let (fallible, event, restart) = match failing {
+            Failing::Never => return call,
+            Failing::Reported => return quote!(::apex_rt::sent(#call, #index, observer)),
+            Failing::Contained { fallible, event, restart } => (fallible, event, restart),
+        };
         let how = if fallible { quote!(contain_fallible) } else { quote!(contain) };
-        let event = n.standard(Standard::Failed).map(|port| {
-            let name = self.name(PortId { node, port });
+        let event = event.map(|end| {
+            let name = self.name(end);
             quote! { state.#name = Some(failure); }
         });
-        let restart = n.modifiers.restart.then(|| self.remake(graph, node, library));
+        let restart = restart.then(|| self.remake(view.graph, node));
         quote! {
             match ::apex_rt::#how(|| #call) {
                 Ok(value) => Some(value),

@@ -8,7 +8,8 @@ use super::{
 };
 use crate::{
     analyse::ClusterId,
-    graph::{ConnectionId, NodeId, Standard},
+    graph::{ConnectionId, NodeId},
+    program::{Deadline, Op},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -33,11 +34,11 @@ impl Generator<'_> {
     }
 
     /// Check of a node with a `deadline` when it has finished.
-    pub fn check_late(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let Some(deadline) = view.graph.nodes[node].modifiers.deadline else { return quote!() };
-        let (index, deadline) = (self.index(node), duration(deadline));
-        let trigger = self.trigger(view, node, Standard::Late);
-        quote! { if ctx.is_late(#index, #deadline, observer) { #trigger } }
+    pub fn late(&self, view: ProgramView<'_>, node: NodeId, deadline: Option<Deadline>) -> TokenStream {
+        let Some(Deadline { time, event }) = deadline else { return quote!() };
+        let (index, time) = (self.index(node), duration(time));
+        let trigger = event.map(|event| self.ops(view, &[Op::Trigger(event)]));
+        quote! { if ctx.is_late(#index, #time, observer) { #trigger } }
     }
 }
 

@@ -145,7 +145,7 @@ impl Program<'_> {
     fn step(&self, node: NodeId, plan: &Plan) -> Ops {
         let graph = self.lower.graph;
         let mut ops: Ops = self.take_activity(node).into_iter().collect();
-        ops.push(Op::Fire(node));
+        ops.push(Op::Fire { node, fire: self.fire(node, plan) });
         if graph.nodes[node].is_delay() && self.lower.is_active(node) {
             ops.push(Op::HoldActivity(node));
         }

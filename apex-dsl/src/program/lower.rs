@@ -5,6 +5,7 @@ use crate::{
     catalog::{Catalog, Signature},
     claims::Decided,
     graph::{ConnectionId, Graph, NodeId, NodeKind, PortId},
+    syntax::tree::PortKind,
 };
 use std::time::Duration;
 
@@ -80,5 +81,13 @@ impl<'a> Lower<'a> {
     /// Origin of the tokens of an input.
     pub fn incoming(self, to: PortId) -> Option<PortId> {
         self.connection(to).map(|c| self.graph.connections[c].from)
+    }
+
+    /// The input of a parameter, if a token arrives at it.
+    pub fn param_source(self, node: NodeId, param: usize) -> Option<PortId> {
+        let ports = &self.graph.nodes[node].ports;
+        let port = ports.iter().position(|p| p.parameter == Some(param) && p.kind == PortKind::Input)?;
+        let to = PortId { node, port };
+        self.incoming(to).map(|_| to)
     }
 }

@@ -8,6 +8,7 @@ mod activity;
 mod bits;
 mod carries;
 mod clusters;
+mod fire;
 mod interrupt;
 mod lower;
 mod op;
@@ -17,6 +18,7 @@ mod wiring;
 
 pub use bits::{Bits, ClusterRow, MissingRow};
 pub use carries::Carries;
+pub use fire::{Arg, Call, CallResult, Deadline, Failing, Fire, SlotCall};
 pub use lower::Lower;
 pub use op::{Cancel, Op, Ops, Served, Taken};
 pub use plan::{BlockId, Plan, Storage, is_buffer, storage};

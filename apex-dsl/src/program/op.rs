@@ -1,6 +1,6 @@
 //! Operations: what a program does, one after the other.
 
-use super::{BlockId, Flag};
+use super::{BlockId, Fire, Flag, SlotCall};
 use crate::{
     analyse::{ClusterId, Run},
     graph::{NodeId, PortId},
@@ -63,8 +63,9 @@ pub enum Op {
     ServeCircle(Vec<usize>),
 
     // Slots
-    /// Calls the method of a slot. The token is taken away if `taken`.
-    Call { slot: usize, taken: bool },
+    /// Calls the method of a slot; `None` if it has none, which is a fault of the compiler. The token is taken away if
+    /// `taken`.
+    Call { slot: usize, taken: bool, call: Option<SlotCall> },
     /// Shows a probe the token of a slot.
     SeeSlot { slot: usize, taken: bool },
     /// Puts the token of a slot into the mailbox of an event of the program, of which `room` is the condition that it
@@ -110,7 +111,7 @@ pub enum Op {
     /// Happens if a token has arrived at each of the inputs.
     IfArrived { inputs: Vec<PortId>, body: Ops },
     /// Fires a node.
-    Fire(NodeId),
+    Fire { node: NodeId, fire: Fire },
     /// Happens if one of the tokens was sent.
     IfSent { tokens: Vec<PortId>, then: Ops },
     /// Shows observers the token at an output.

@@ -111,9 +111,10 @@ impl Program<'_> {
             // `enable` of a node that nothing disables is called only for the activity that it carries.
             (NodeKind::Library(_), Some(_)) => vec![],
             (NodeKind::Library(_), None) if graph.nodes[node].can_be_disabled() => {
-                vec![Op::If { flag: Flag::Enabled(node), is: true, then: vec![Op::Call { slot, taken }] }]
+                let call = Op::Call { slot, taken, call: self.slot_call(c.to) };
+                vec![Op::If { flag: Flag::Enabled(node), is: true, then: vec![call] }]
             }
-            (NodeKind::Library(_), None) => vec![Op::Call { slot, taken }],
+            (NodeKind::Library(_), None) => vec![Op::Call { slot, taken, call: self.slot_call(c.to) }],
             (NodeKind::Probe, _) => vec![Op::SeeSlot { slot, taken }],
             (NodeKind::Exit(code), _) => vec![Op::Exit(*code)],
             (NodeKind::Reset, _) => vec![Op::Reset],
