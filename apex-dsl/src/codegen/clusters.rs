@@ -95,7 +95,7 @@ impl Generator<'_> {
 }
 
 /// A cluster in the code of a reaction.
-pub struct Firing {
+pub struct FiringCode {
     pub cluster: ClusterId,
     /// Its row in the table of the dispatcher; without one it fires once in a reaction.
     pub row: Option<usize>,
@@ -104,7 +104,7 @@ pub struct Firing {
     pub served: TokenStream,
 }
 
-impl Firing {
+impl FiringCode {
     /// Code of its own. `slots` is how many there are where steps are counted.
     pub fn straight(&self, slots: Option<usize>, in_loop: bool, exit: Option<&TokenStream>) -> TokenStream {
         let Self { row, fire, served, .. } = self;
@@ -134,7 +134,7 @@ impl Firing {
 
 /// Code for many clusters: all of them by number, in their order, which is that of their rows. There are `all`
 /// clusters.
-pub fn table(firing: &[Firing], all: usize, slots: Option<usize>, exit: Option<&TokenStream>) -> TokenStream {
+pub fn table(firing: &[FiringCode], all: usize, slots: Option<usize>, exit: Option<&TokenStream>) -> TokenStream {
     let count = firing.len();
     let budget = slots.map(|_| quote! { if self.state.steps.is_used_up() { break; } });
     let step = slots.map(|slots| quote! { self.state.steps.take(#slots + row); });
@@ -186,14 +186,14 @@ pub fn table(firing: &[Firing], all: usize, slots: Option<usize>, exit: Option<&
 }
 
 /// The slots that are served when a cluster of a table has fired: from the queue after each, or each its own.
-fn served(firing: &[Firing]) -> TokenStream {
+fn served(firing: &[FiringCode]) -> TokenStream {
     let mut all = firing.iter().map(|firing| firing.served.to_string()).filter(|served| !served.is_empty());
     let Some(first) = all.next() else { return quote!() };
     let own = || firing.iter().enumerate().filter(|(_, firing)| !firing.served.is_empty());
     if all.all(|served| served == first) {
         return own().next().map(|(_, firing)| firing.served.clone()).unwrap_or_default();
     }
-    let arms = own().map(|(place, Firing { served, .. })| {
+    let arms = own().map(|(place, FiringCode { served, .. })| {
         let place = Literal::usize_unsuffixed(place);
         quote! { #place => { #served } }
     });

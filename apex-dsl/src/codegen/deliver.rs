@@ -6,14 +6,13 @@ use super::{
     sets::{set, set_type},
     types::ident,
 };
-use crate::graph::ConnectionId;
 use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Generator<'_> {
     /// Serves slots until none is ready; says whether there was one.
     pub fn serve(&self, view: ProgramView<'_>) -> TokenStream {
-        let ProgramView { graph, analysis, wiring, .. } = view;
+        let ProgramView { graph: _, analysis, wiring, .. } = view;
         let needs: Vec<&[usize]> = wiring.slots.iter().map(|slot| slot.needs.as_slice()).collect();
         let count = needs.len();
         let call = self.slots(view).call();
@@ -34,7 +33,7 @@ impl Generator<'_> {
             ),
             false => (quote!(), quote!()),
         };
-        let exit = self.has_exit(graph).then(|| quote! { if self.state.exit.is_some() { break; } });
+        let exit = view.program.has_exit().then(|| quote! { if self.state.exit.is_some() { break; } });
         quote! {
             #needs_table
             #[inline]
@@ -51,11 +50,6 @@ impl Generator<'_> {
                 any
             }
         }
-    }
-
-    /// Serves the slots that tokens on `sends` can come to, one after the other, where that needs no queue.
-    pub fn deliver(&self, view: ProgramView<'_>, sends: &[ConnectionId]) -> TokenStream {
-        self.ops(view, &view.program.deliver(sends))
     }
 
     /// Serves a slot if a token waits there, unless the program ends if `unless_exit`.
@@ -75,7 +69,7 @@ impl Generator<'_> {
             let waits = self.waits(view.graph, view.graph.connections[view.wiring.slots[*slot].connection].from);
             quote!(self.#waits)
         });
-        let exit = self.has_exit(view.graph).then(|| quote!(|| self.state.exit.is_some()));
+        let exit = view.program.has_exit().then(|| quote!(|| self.state.exit.is_some()));
         quote! {
             while (#(#waits)||*) {
                 #(#serves)*

@@ -4,15 +4,15 @@ use super::{
     Generator,
     activity::ProgramView,
     cells::receivers,
-    clusters::{Firing, fire, table},
+    clusters::{FiringCode, fire, table},
     sets::{cluster_rows, set, set_type},
     state::{Kind, StateField},
     types::ident,
 };
 use crate::{
-    analyse::{Delivery, Guard, MANY, at_start, blockers},
+    analyse::{Delivery, Guard, MANY, blockers},
     graph::{Graph, NodeId, NodeKind},
-    syntax::tree::PortKind,
+    program::{After, Firing, Poll, Reaction},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -44,16 +44,16 @@ impl Generator<'_> {
         if view.wiring.may_get_stuck {
             field("stuck", quote!(usize), quote!(0));
         }
-        if self.has_exit(view.graph) {
+        if view.program.has_exit() {
             field("exit", quote!(::core::option::Option<u8>), quote!(None));
         }
-        if self.has_start(view) {
+        if view.program.has_start() {
             field("started", quote!(bool), quote!(false));
         }
         if view.wiring.has_agenda() {
             field("agenda", quote!(::apex_rt::Agenda), quote!(::apex_rt::Agenda::new()));
         }
-        if self.has_time(view) {
+        if view.program.has_time() {
             field("time", quote!(::apex_rt::ProgramTime), quote!(::apex_rt::ProgramTime::new()));
         }
         for (cell, _) in receivers(view.graph) {
@@ -64,17 +64,6 @@ impl Generator<'_> {
             field(&Self::told_ahead(node).to_string(), quote!(i64), quote!(0));
         }
         fields
-    }
-
-    /// Returns `true` if a token can end the program.
-    pub fn has_exit(&self, graph: &Graph) -> bool {
-        graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Exit(_)))
-    }
-
-    fn has_start(&self, view: ProgramView<'_>) -> bool {
-        let started = |n: &crate::graph::Node| n.starts_active || matches!(n.kind, NodeKind::Start);
-        let watches = |node: NodeId| view.program.lower.watches_silence(node).is_some();
-        view.graph.nodes.iter().any(started) || view.graph.nodes.ids().any(watches)
     }
 
     /// The tables of the dispatcher, and the functions that serve slots.
@@ -102,7 +91,7 @@ impl Generator<'_> {
         }
         code.extend(self.row_constants(view));
         code.extend(self.expire_functions(view));
-        if self.has_start(view) {
+        if view.program.has_start() {
             let begin = self.ops(view, &view.program.first());
             code.extend(quote! {
                 fn begin<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
@@ -133,42 +122,22 @@ impl Generator<'_> {
     /// `react_with`; where it is recorded, what is inside of that.
     pub fn react(&self, view: ProgramView<'_>) -> TokenStream {
         let bits = &view.wiring.bits;
-        let ProgramView { graph, analysis, .. } = view;
-        let queued = analysis.asynchronous.delivery == Delivery::Queued;
-        let serves = !analysis.asynchronous.slots.is_empty() && queued;
-        let endless = analysis.asynchronous.endless;
-        let (raises, expires, wishes) = (self.raises(view), self.expires_first(view), self.wishes(view));
-        let once = analysis.guards.iter().enumerate().filter(|(_, g)| **g == Guard::React).filter_map(|(i, _)| {
-            let bit = bits.guard(i)?;
-            Some(quote! { self.core.dispatcher.raise(#bit); })
-        });
-        let once: Vec<TokenStream> = once.collect();
+        let ProgramView { graph, analysis, program, .. } = view;
+        let Reaction { start, once, before, polls, firings, has_rounds, left } = program.reaction();
+        let endless = program.is_endless();
+        let (raises, expires, wishes) = (self.raises(view, &polls), self.expires_first(view), self.wishes(view));
         let next = self.next(view);
-        let serve = |quiet: bool| match (serves, quiet) {
-            (false, _) => quote!(),
-            (true, true) => {
-                quote! { if !self.core.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } }
-            }
-            (true, false) => quote! { if !self.core.queue.is_empty() { self.serve(ctx, observer); } },
-        };
-        let loops = !bits.dispatched().is_empty() || !raises.is_empty() || !expires.is_empty();
-        let any_stays = !bits.is_all_free();
-        // Slots see in which order clusters fire: that of the text.
-        let ordered = any_stays || !analysis.asynchronous.slots.is_empty();
-        let has_exit = self.has_exit(graph);
+        let has_exit = program.has_exit();
         let exit =
             has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
-        let firing = analysis.clusters.ids().filter(|c| analysis.clusters[*c].fires).map(|cluster| {
-            let c = &analysis.clusters[cluster];
-            let served = match queued {
-                false => self.deliver(view, &c.sends),
-                true if c.sends.is_empty() && !any_stays => quote!(),
-                true => serve(false),
-            };
-            Firing { cluster, row: bits.row(cluster), fire: fire(view, cluster), served }
-        });
-        let (inside, before): (Vec<Firing>, Vec<Firing>) =
-            firing.partition(|firing| loops && (firing.row.is_some() || ordered));
+        let fired = |firing: Firing| FiringCode {
+            cluster: firing.cluster,
+            row: firing.row,
+            fire: fire(view, firing.cluster),
+            served: self.served(view, &firing.served),
+        };
+        let inside: Vec<FiringCode> = firings.into_iter().map(fired).collect();
+        let before: Vec<FiringCode> = before.into_iter().map(fired).collect();
         let steps = endless.then_some(analysis.asynchronous.slots.len());
         let before: TokenStream = before.iter().map(|firing| firing.straight(steps, false, exit.as_ref())).collect();
         let in_turn = inside.iter().any(|firing| firing.row.is_none());
@@ -182,13 +151,13 @@ impl Generator<'_> {
             (false, true) => quote! { if self.core.dispatcher.take_news() || first { #clusters } },
             (false, false) => quote! { if self.core.dispatcher.take_news() { #clusters } },
         };
-        let start = self.has_start(view).then(|| {
-            let serve = if queued { serve(false) } else { self.deliver(view, &at_start(graph, analysis)) };
+        let start = start.map(|serve| {
+            let serve = self.served(view, &serve);
             quote! { if !::core::mem::replace(&mut self.state.started, true) { self.begin(ctx, observer); #serve } }
         });
         let begin_steps = endless.then(|| {
             // What the reaction before left when its steps were used up.
-            let serve = self.deliver(view, &analysis.asynchronous.slots);
+            let serve = self.ops(view, &left);
             let ready = (!bits.dispatched().is_empty()).then(|| quote! { self.core.dispatcher.look_again(); });
             quote! { self.state.steps.begin(); #ready #serve }
         });
@@ -204,8 +173,10 @@ impl Generator<'_> {
         };
         let stuck = self.stuck(view);
         let stop = endless.then(|| quote! { if self.state.steps.is_used_up() { break; } });
-        let serve_first = serve(true);
-        let has_instants = Self::has_instants(view);
+        let serve_first = program.has_queue().then(|| {
+            quote! { if !self.core.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } }
+        });
+        let has_instants = program.has_instants();
         // Sources without a period fire when the reaction has made up for all that is late.
         let begins = match (self.part.is_some(), has_instants) {
             (true, true) => quote!(begins && completes),
@@ -213,7 +184,7 @@ impl Generator<'_> {
             (false, true) => quote!(completes),
             (false, false) => quote!(true),
         };
-        let body = loops.then(|| {
+        let body = has_rounds.then(|| {
             quote! {
                 let mut first = #begins;
                 loop {
@@ -229,8 +200,8 @@ impl Generator<'_> {
             }
         });
         let begin = (!once.is_empty() || !before.is_empty()).then(|| match self.part.is_some() || has_instants {
-            true => quote! { if #begins { #(#once)* #before } },
-            false => quote! { #(#once)* #before },
+            true => quote! { if #begins { #(self.core.dispatcher.raise(#once);)* #before } },
+            false => quote! { #(self.core.dispatcher.raise(#once);)* #before },
         });
         let signature = self.signature(graph);
         let instant = quote! {
@@ -249,7 +220,7 @@ impl Generator<'_> {
         let next = quote!(next.or(#next));
         let (instant_begins, skips) = (self.next_instant(view), self.skips(view));
         let own_time = quote! { let now = self.state.time.of(now, observer); };
-        let reaction = match (self.has_time(view), has_instants) {
+        let reaction = match (view.program.has_time(), has_instants) {
             (false, _) => quote! {
                 #exit
                 let at = now;
@@ -394,40 +365,41 @@ impl Generator<'_> {
         }
     }
 
-    /// Conditions that each round of a reaction polls: timers, mailboxes, timeouts.
-    fn raises(&self, view: ProgramView<'_>) -> TokenStream {
-        let bits = &view.wiring.bits;
-        let ProgramView { graph, analysis, .. } = view;
-        let mut raises = Raises { has_agenda: view.wiring.has_agenda(), code: quote!(), timed: quote!() };
-        for (node, bit) in bits.room() {
-            let port = ident(&graph.nodes[*node].name);
-            raises.always(quote! { if !self.events.#port.is_full() { self.core.dispatcher.raise(#bit); } });
+    /// What is served when something has sent tokens.
+    fn served(&self, view: ProgramView<'_>, after: &After) -> TokenStream {
+        match after {
+            After::Queue => quote! { if !self.core.queue.is_empty() { self.serve(ctx, observer); } },
+            After::Slots(ops) => self.ops(view, ops),
         }
-        for (index, guard) in analysis.guards.iter().enumerate() {
-            let Some(bit) = bits.guard(index) else { continue };
-            match guard {
-                Guard::Input(node) => {
-                    let port = ident(&graph.nodes[*node].name);
-                    raises.always(quote! { if self.inputs.#port.is_full() { self.core.dispatcher.raise(#bit); } });
+    }
+
+    /// What each round of a reaction polls.
+    fn raises(&self, view: ProgramView<'_>, polls: &[Poll]) -> TokenStream {
+        let polls = polls.iter().map(|poll| match poll {
+            Poll::Room { event, bit } => {
+                let port = ident(&view.graph.nodes[*event].name);
+                quote! { if !self.events.#port.is_full() { self.core.dispatcher.raise(#bit); } }
+            }
+            Poll::Input { input, bit } => {
+                let port = ident(&view.graph.nodes[*input].name);
+                quote! { if self.inputs.#port.is_full() { self.core.dispatcher.raise(#bit); } }
+            }
+            Poll::Timers => {
+                let due = self.timers_due(view);
+                match view.wiring.has_agenda() {
+                    true => quote! { if self.core.agenda.is_due(at) { #due } },
+                    false => due,
                 }
-                Guard::Timer(_) | Guard::React | Guard::Token(_) | Guard::Events(_) => {}
             }
-        }
-        raises.timed(self.timers_due(view));
-        let slots: Vec<NodeId> = graph.nodes.ids().filter(|node| is_entered(view, *node)).collect();
-        if slots.len() > 1 {
-            raises.always(self.enter_in_order(view, &slots));
-        }
-        for (id, node) in graph.nodes.iter_enumerated() {
-            match node.kind {
-                NodeKind::Boundary(_) if slots == [id] => raises.always(self.enter(view, id)),
-                NodeKind::Sender(far) => raises.always(self.send_far(view, id, far)),
-                NodeKind::Receiver(far) => raises.always(self.receive_far(view, id, far)),
-                NodeKind::SetBack => raises.always(self.goes_back(view, id)),
-                _ => {}
-            }
-        }
-        raises.finish()
+            Poll::Slots(slots) => match slots.as_slice() {
+                [slot] => self.enter(view, slot),
+                several => self.enter_in_order(view, several),
+            },
+            Poll::Sender(sender) => self.send_far(view, sender),
+            Poll::Receiver(receiver) => self.receive_far(view, receiver),
+            Poll::SetBack(entering) => self.goes_back(view, entering),
+        });
+        polls.collect()
     }
 
     /// Code for one timeout or silence, if nothing else is left to do at an instant: what came in time counts before
@@ -455,47 +427,5 @@ impl Generator<'_> {
         };
         let budget = view.analysis.asynchronous.endless.then(|| quote!(&&!self.state.steps.is_used_up()));
         quote!(#free #budget)
-    }
-}
-
-/// The conditions that all connections on which a node sends are free.
-pub fn free_to_send(view: ProgramView<'_>, node: NodeId) -> Vec<usize> {
-    view.links.sends[node].iter().filter_map(|c| view.wiring.bits.free(*c)).collect()
-}
-
-/// Returns `true` for a slot of the program whose tokens can go on.
-fn is_entered(view: ProgramView<'_>, node: NodeId) -> bool {
-    matches!(view.graph.nodes[node].kind, NodeKind::Boundary(PortKind::Slot)) && !view.links.sends[node].is_empty()
-}
-
-/// Code that looks at what may have happened, in the order of the program: at timers only if one of them may be due.
-struct Raises {
-    has_agenda: bool,
-    code: TokenStream,
-    /// Code that polls timers, in sequence.
-    timed: TokenStream,
-}
-
-impl Raises {
-    fn always(&mut self, code: TokenStream) {
-        self.flush();
-        self.code.extend(code);
-    }
-
-    fn timed(&mut self, code: TokenStream) {
-        self.timed.extend(code);
-    }
-
-    fn flush(&mut self) {
-        let timed = std::mem::take(&mut self.timed);
-        self.code.extend(match self.has_agenda && !timed.is_empty() {
-            true => quote! { if self.core.agenda.is_due(at) { #timed } },
-            false => timed,
-        });
-    }
-
-    fn finish(mut self) -> TokenStream {
-        self.flush();
-        self.code
     }
 }

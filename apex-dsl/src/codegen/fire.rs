@@ -2,7 +2,7 @@
 
 use super::{Generator, activity::ProgramView, call::Calling, ops::Writer, types::ident};
 use crate::{
-    analyse::{Analysis, ClusterId, Links},
+    analyse::{Analysis, ClusterId},
     graph::{Graph, NodeId, NodeKind, PortId},
     program::{BlockId, Fire, Op, Plan, Storage},
     syntax::tree::PortKind,
@@ -26,7 +26,7 @@ impl<'a> Emitter<'a> {
     pub fn new(generator: &'a Generator<'a>, view: ProgramView<'a>, cluster: ClusterId) -> Self {
         let ProgramView { graph, analysis, links, .. } = view;
         let plan = Plan::new(graph, generator.catalog, links, analysis, cluster);
-        Self { generator, view, graph, analysis, links, plan, cluster }
+        Self { generator, view, graph, analysis, plan, cluster }
     }
 
     /// All operations of the cluster.

@@ -4,7 +4,6 @@ use super::{
     Generator,
     activity::ProgramView,
     clusters::inlined,
-    dispatch::free_to_send,
     numbered::{Arm, Numbered},
     types::ident,
 };
@@ -12,18 +11,13 @@ use crate::{
     analyse::Delivery,
     catalog::Signature,
     graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId},
-    program::{Arg, Failing, Slot, SlotCall, is_buffer},
+    program::{Arg, Entering, Failing, Slot, SlotCall, is_buffer},
 };
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use syn::Ident;
 
 impl Generator<'_> {
-    /// The tokens of the events of a node are on their way.
-    pub fn emitted(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        self.ops(view, &view.program.emit(node, false))
-    }
-
     /// Expression that is `true` if the state of the program holds a token.
     pub fn waits(&self, graph: &Graph, end: PortId) -> TokenStream {
         let name = self.name(end);
@@ -231,16 +225,16 @@ impl Generator<'_> {
     }
 
     /// Takes the token of a slot of the program, if there is one and it can go on.
-    pub fn enter(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let (port, test, goes_on) = self.entering(view, node);
+    pub fn enter(&self, view: ProgramView<'_>, slot: &Entering) -> TokenStream {
+        let (port, test, goes_on) = self.entering(view, slot);
         quote! { if self.inputs.#port.is_full() #test { #goes_on } }
     }
 
     /// Takes the tokens of several slots of the program, in the order in which they were put in.
-    pub fn enter_in_order(&self, view: ProgramView<'_>, nodes: &[NodeId]) -> TokenStream {
+    pub fn enter_in_order(&self, view: ProgramView<'_>, slots: &[Entering]) -> TokenStream {
         let (mut arrivals, mut arms) = (vec![], vec![]);
-        for (place, node) in nodes.iter().enumerate() {
-            let (port, test, goes_on) = self.entering(view, *node);
+        for (place, slot) in slots.iter().enumerate() {
+            let (port, test, goes_on) = self.entering(view, slot);
             arrivals.push(quote!(self.inputs.#port.arrival().filter(|_| true #test)));
             arms.push(quote! { #place => { #goes_on } });
         }
@@ -252,17 +246,17 @@ impl Generator<'_> {
     }
 
     /// The port of a slot of the program, the conditions under which its token can go on, and the code that lets it.
-    fn entering(&self, view: ProgramView<'_>, node: NodeId) -> (Ident, TokenStream, TokenStream) {
-        let graph = view.graph;
-        let (name, port) = (self.name(PortId { node, port: 0 }), ident(&graph.nodes[node].name));
-        let test = self.allows(view, &free_to_send(view, node));
-        let emit = self.emitted(view, node);
-        let serve = self.deliver(view, &view.links.sends[node]);
+    fn entering(
+        &self,
+        view: ProgramView<'_>,
+        Entering { node, free, then }: &Entering,
+    ) -> (Ident, TokenStream, TokenStream) {
+        let (name, port) = (self.name(PortId { node: *node, port: 0 }), ident(&view.graph.nodes[*node].name));
+        let (test, then) = (self.allows(view, free), self.ops(view, then));
         let goes_on = quote! {
             let Self { state, core, inputs, .. } = self;
             state.#name = inputs.#port.take();
-            #emit
-            #serve
+            #then
             quiet = false;
         };
         (port, test, goes_on)

@@ -3,7 +3,6 @@
 use super::{
     Generator,
     activity::ProgramView,
-    dispatch::free_to_send,
     numbered::{Arm, Numbered},
     stamps,
     state::{Kind, StateField},
@@ -11,9 +10,8 @@ use super::{
 };
 use crate::{
     analyse::silence_parameter,
-    catalog::ArgSig,
-    graph::{ConnectionId, Node, NodeId, NodeKind, PortId},
-    program::{Entry, Flag, Silence, Timeout, is_buffer},
+    graph::{ConnectionId, NodeId},
+    program::{Entering, Entry, Flag, Silence, Timeout, is_buffer},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -77,27 +75,6 @@ impl Generator<'_> {
             (Timed::Silence, quote!(core.silences), wiring.silences.len()),
         ];
         lists.into_iter().filter(|(.., count)| *count > 0)
-    }
-
-    /// Returns `true` if something happens at a time, so that a late reaction has several instants.
-    pub fn has_instants(view: ProgramView<'_>) -> bool {
-        Self::timed(view).next().is_some()
-    }
-
-    /// Returns `true` if the time matters to a program: to its timers, or to a node that may look at it.
-    pub fn has_time(&self, view: ProgramView<'_>) -> bool {
-        let looks = |args: &[ArgSig]| args.contains(&ArgSig::Ctx);
-        let is_told = |node: &Node| match &node.kind {
-            NodeKind::Library(library) => {
-                let signature = &self.catalog.signatures[library.signature];
-                let slots = signature.slots.iter().any(|slot| looks(&slot.args));
-                slots || signature.process.as_deref().is_some_and(looks) || node.modifiers.deadline.is_some()
-            }
-            NodeKind::Each(_) => true,
-            _ => false,
-        };
-        let goes_back = |node: &Node| matches!(node.kind, NodeKind::SetBack);
-        Self::has_instants(view) || view.graph.nodes.iter().any(|node| is_told(node) || goes_back(node))
     }
 
     /// The next instant of a reaction: the earliest time after the last instant at which something is due, else `now`.
@@ -215,18 +192,14 @@ impl Generator<'_> {
     }
 
     /// The time has gone back since the event of `node` was last triggered.
-    pub fn goes_back(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        let (name, told) = (self.name(PortId { node, port: 0 }), Self::told_ahead(node));
-        let sends = &view.links.sends[node];
-        let test = self.allows(view, &free_to_send(view, node));
-        let (emit, serve) = (self.emitted(view, node), self.deliver(view, sends));
+    pub fn goes_back(&self, view: ProgramView<'_>, Entering { node, free, then }: &Entering) -> TokenStream {
+        let told = Self::told_ahead(*node);
+        let (test, then) = (self.allows(view, free), self.ops(view, then));
         quote! {
             if self.state.#told != self.state.time.ahead() #test {
                 let Self { state, core, .. } = self;
                 state.#told = state.time.ahead();
-                state.#name = Some(());
-                #emit
-                #serve
+                #then
                 quiet = false;
             }
         }
