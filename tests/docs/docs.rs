@@ -2,9 +2,9 @@
 
 use apex_dsl::{
     catalog::Catalog,
+    checked::CheckedProgram,
     machine::Machines,
     passes,
-    checked::CheckedProgram,
     report::{Diagnostics, render},
     source::Sources,
 };

@@ -5,7 +5,9 @@
 
 use crate::compile::{How, Program, run};
 use apex_dsl::graph::NodeId;
-use apex_tests::oracle::{Case, Checker, Failure, generate, on_threads, paced, read, with_timeouts};
+use apex_tests::oracle::{
+    Case, Checked, Checker, Failure, Record, generate, interpret, on_threads, paced, read, with_timeouts,
+};
 use std::{collections::BTreeMap, env};
 
 /// Seeds of graphs with errors in the past, which are always tested.
@@ -69,13 +71,33 @@ fn wrong_record(checker: &Checker, program: &Program, trace: &str) -> Option<Str
         return Some(format!("the program stopped early:\n{}", last_lines(trace, 20)));
     }
     let checked = checker.check(&program.text).expect("only legal texts are compiled");
-    let (step, why): Failure = checker.judge(&checked, &records).err()?;
+    let Err((step, why)): Result<(), Failure> = checker.judge(&checked, &records) else {
+        return differs_interpreted(checker, &checked, &records);
+    };
     let names = |node: NodeId| {
         if node.index() < checked.graph.nodes.len() { checked.graph.path(node) } else { "inner".to_owned() }
     };
     let shown: Vec<String> =
         records[step.saturating_sub(25)..=step].iter().map(|r| r.named(&names, &checked)).collect();
     Some(format!("{why}\n  {}", shown.join("\n  ")))
+}
+
+/// The first difference between a run of a compiled program and that of the interpreter. Programs on several threads
+/// are not compared: the interpreter has one.
+fn differs_interpreted(checker: &Checker, checked: &Checked, records: &[Record]) -> Option<String> {
+    if checked.is_split {
+        return None;
+    }
+    let times = records.iter().filter_map(|r| if let Record::Begin(now) = r { Some(*now as i64) } else { None });
+    let times: Vec<i64> = times.collect();
+    let interpreted = match interpret(&checker.catalog(), checked, &times) {
+        Ok(interpreted) => interpreted,
+        Err(why) => return Some(format!("it is not interpreted: {why}")),
+    };
+    let same = records.iter().zip(&interpreted).take_while(|(compiled, interpreted)| compiled == interpreted).count();
+    let (compiled, interpreted) = (records.get(same), interpreted.get(same));
+    (compiled.is_some() || interpreted.is_some())
+        .then(|| format!("step {same} differs from the interpreter's: {compiled:?}, but {interpreted:?}"))
 }
 
 fn last_lines(text: &str, count: usize) -> String {

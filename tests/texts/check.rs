@@ -7,9 +7,9 @@ use crate::{
 };
 use apex_dsl::{
     catalog::{Catalog, Crates},
+    checked::CheckedProgram,
     graph::{Graph, NodeKind},
     passes,
-    checked::CheckedProgram,
     report::{Diagnostic, Diagnostics, Severity, json, render},
     source::{Sources, World},
 };

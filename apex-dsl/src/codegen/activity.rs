@@ -157,9 +157,3 @@ pub fn followed(call: &TokenStream, effects: &TokenStream) -> TokenStream {
         false => quote! { if #call { #effects } },
     }
 }
-
-/// Returns `true` if observers are notified of a node's activity. They are not if the node only passes tokens on.
-pub fn is_observed(graph: &Graph, node: NodeId) -> bool {
-    use NodeKind::{Interrupt, Receiver, Relay, Sender};
-    !matches!(graph.nodes[node].kind, Relay | Interrupt(_) | Sender(_) | Receiver(_))
-}

@@ -3,7 +3,7 @@
 
 use super::{
     Generator,
-    activity::{ProgramView, is_observed},
+    activity::ProgramView,
     types::{ident, nanos},
 };
 use crate::{
@@ -67,7 +67,7 @@ impl Generator<'_> {
             let (number, after) = (Literal::usize_unsuffixed(timeout), nanos(view.wiring.timeouts[timeout].after));
             row.add("timeout", &quote!(#number, #after));
         }
-        if !is_observed(view.graph, node) {
+        if !view.program.lower.is_observed(node) {
             row.add("unobserved", &quote!());
         }
         row.0

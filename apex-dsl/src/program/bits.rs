@@ -97,6 +97,11 @@ impl Bits {
         self.count - 1
     }
 
+    /// Number of conditions.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// Number of words, of 64 conditions each.
     pub fn words(&self) -> usize {
         // The dispatcher has a bit of its own.

@@ -90,4 +90,10 @@ impl<'a> Lower<'a> {
         let to = PortId { node, port };
         self.incoming(to).map(|_| to)
     }
+
+    /// Returns `true` if observers are notified of a node's activity. They are not if the node only passes tokens on.
+    pub fn is_observed(self, node: NodeId) -> bool {
+        use NodeKind::{Interrupt, Receiver, Relay, Sender};
+        !matches!(self.graph.nodes[node].kind, Relay | Interrupt(_) | Sender(_) | Receiver(_))
+    }
 }

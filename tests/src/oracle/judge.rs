@@ -2,8 +2,10 @@
 
 use super::script;
 use apex_dsl::{
-    catalog::Catalog,
-    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId, Value},
+    analyse::Analysis,
+    catalog::{Catalog, Signature},
+    checked::CheckedProgram,
+    graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Value},
     passes,
     report::{Diagnostics, Severity},
     source::Sources,
@@ -27,8 +29,12 @@ pub struct Checker {
 pub struct Checked {
     /// The graph.
     pub graph: Graph,
+    /// Results of its analysis.
+    pub analysis: Analysis,
     /// Net of the graph.
     pub net: Net,
+    /// `true` if it runs on several threads.
+    pub is_split: bool,
 }
 
 /// One entry of a recorded run.
@@ -96,9 +102,10 @@ impl Checker {
         if !errors.is_empty() {
             return Err(errors.join("\n"));
         }
-        let graph = checked.programs.into_iter().next_back().ok_or("there is no program")?.graph;
+        let CheckedProgram { graph, analysis, split, .. } =
+            checked.programs.into_iter().next_back().ok_or("there is no program")?;
         let net = apex_petri::net(&graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
-        Ok(Checked { graph, net })
+        Ok(Checked { graph, analysis, net, is_split: split.is_some() })
     }
 
     /// The node types.
@@ -135,20 +142,19 @@ fn record(line: &str) -> Option<Record> {
 
 /// Identifiers and parameters of the scripted nodes of a graph.
 pub fn script_of(graph: &Graph, catalog: &Catalog) -> BTreeMap<NodeId, (i64, script::Parameters)> {
-    let mut scripts = BTreeMap::new();
-    for (node, n) in graph.nodes.iter_enumerated() {
-        let NodeKind::Library(library) = &n.kind else { continue };
-        let signature = &catalog.signatures[library.signature];
-        let value =
-            |name: &str| signature.params.iter().position(|p| p.name == name).and_then(|i| library.params.get(i));
-        if let (Some(id), Some(Value::List(list))) = (value("id").and_then(integer), value("script")) {
-            let list: Vec<i64> = list.iter().filter_map(integer).collect();
-            if let [seed, mode, limit] = list[..] {
-                scripts.insert(node, (id, [seed, mode, limit]));
-            }
-        }
-    }
-    scripts
+    let scripts = graph.nodes.iter_enumerated().filter_map(|(node, n)| {
+        let NodeKind::Library(library) = &n.kind else { return None };
+        Some((node, script(&catalog.signatures[library.signature], library)?))
+    });
+    scripts.collect()
+}
+
+/// Identifier and parameters of a scripted node.
+pub fn script(signature: &Signature, library: &Library) -> Option<(i64, script::Parameters)> {
+    let value = |name: &str| signature.params.iter().position(|p| p.name == name).and_then(|i| library.params.get(i));
+    let (Some(id), Some(Value::List(list))) = (value("id").and_then(integer), value("script")) else { return None };
+    let list: Vec<i64> = list.iter().filter_map(integer).collect();
+    Some((id, list.try_into().ok()?))
 }
 
 fn integer(value: &Value) -> Option<i64> {
@@ -189,7 +195,7 @@ fn replay(
     records: &[Record],
     hesitant: &BTreeSet<NodeId>,
 ) -> Result<(), Failure> {
-    let Checked { graph, net } = checked;
+    let Checked { graph, net, .. } = checked;
     let scripts = script_of(graph, catalog);
     let by_id: BTreeMap<i64, NodeId> = scripts.iter().map(|(node, (id, _))| (*id, *node)).collect();
     let sends = |call: Call, port: usize| match scripts.get(&call.node) {

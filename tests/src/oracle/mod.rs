@@ -2,6 +2,7 @@
 
 mod case;
 mod generate;
+mod interpret;
 mod judge;
 mod script;
 mod text;
@@ -9,6 +10,7 @@ mod walk;
 
 pub use case::{Case, NODE_TYPES};
 pub use generate::{generate, on_threads, paced, with_timeouts};
+pub use interpret::interpret;
 pub use judge::{Checked, Checker, Failure, Record, judge, read, script_of};
 pub use script::{ALWAYS, Now, Parameters, call, note, origin, run_unevenly, sends, take_notes, value};
 pub use walk::walk;

@@ -1,0 +1,203 @@
+//! Execution of a cluster: blocks, firings, and how tokens get from one to the next.
+
+use crate::{
+    Value,
+    ops::{Place, Run},
+    state::State,
+};
+use apex_dsl::{
+    analyse::{ClusterId, Run as Firings},
+    graph::{NodeId, NodeKind, PortId},
+    program::{BlockId, Lower, Op, Plan, Storage},
+    syntax::tree::PortKind,
+};
+use apex_rt::{Ctx, Observer};
+use std::collections::BTreeMap;
+
+/// Tokens of a firing of a cluster.
+pub struct Local<'a> {
+    lower: Lower<'a>,
+    plan: &'a Plan,
+    tokens: BTreeMap<PortId, Value>,
+    /// Tokens of an iteration with several rates.
+    arrays: BTreeMap<PortId, Vec<Option<Value>>>,
+    /// Number of the firing in the iteration.
+    firing: usize,
+}
+
+impl<'a> Local<'a> {
+    /// No tokens yet.
+    pub fn new(lower: Lower<'a>, plan: &'a Plan) -> Self {
+        Self { lower, plan, tokens: BTreeMap::new(), arrays: BTreeMap::new(), firing: 0 }
+    }
+
+    /// The token at an output; in an iteration, the first that this firing sends.
+    pub fn read(&self, state: &State, port: PortId) -> Option<Value> {
+        match self.plan.storage(port) {
+            Storage::Buffer | Storage::Outside => state.tokens.get(&port).cloned(),
+            Storage::Array => {
+                let place = self.firing * self.lower.graph.port(port).rate;
+                self.arrays.get(&port).and_then(|tokens| tokens.get(place).cloned().flatten())
+            }
+            _ => self.tokens.get(&port).cloned(),
+        }
+    }
+
+    /// The token that arrives at an input.
+    pub fn arriving(&self, state: &State, to: PortId) -> Option<Value> {
+        let from = self.lower.incoming(to)?;
+        if self.plan.storage(from) != Storage::Array {
+            return self.read(state, from);
+        }
+        let tokens = self.arrays.get(&from)?;
+        if !self.is_batched(to) {
+            return tokens.get(self.firing).cloned().flatten();
+        }
+        let rate = self.lower.graph.port(to).rate;
+        let batch = tokens.get(self.firing * rate..(self.firing + 1) * rate)?;
+        let batch: Option<Vec<Value>> = batch.iter().cloned().collect();
+        batch.map(|batch| std::rc::Rc::new(batch) as Value)
+    }
+
+    /// Puts a token at an output.
+    pub fn write(&mut self, state: &mut State, port: PortId, token: Option<Value>) {
+        let is_body_input = matches!(self.plan.storage(port), Storage::Argument | Storage::MaybeArgument);
+        match self.plan.storage(port) {
+            Storage::Array => self.spread(port, token),
+            Storage::Buffer if !is_body_input => put(&mut state.tokens, port, token),
+            _ => put(&mut self.tokens, port, token),
+        }
+    }
+
+    fn spread(&mut self, port: PortId, token: Option<Value>) {
+        let rate = self.lower.graph.port(port).rate;
+        let is_batched = self.is_batched(port);
+        let Some(places) = self.arrays.get_mut(&port) else { return };
+        match token {
+            Some(token) if is_batched => {
+                let batch = token.downcast_ref::<Vec<Value>>().cloned().unwrap_or_default();
+                for (place, token) in places.iter_mut().skip(self.firing * rate).zip(batch) {
+                    *place = Some(token);
+                }
+            }
+            None if is_batched => {}
+            token => places[self.firing] = token,
+        }
+    }
+
+    /// Returns `true` if a port takes or sends an array of tokens at once.
+    fn is_batched(&self, port: PortId) -> bool {
+        self.lower
+            .signature(port.node)
+            .is_some_and(|signature| signature.ports.get(port.port).is_some() && signature.is_batched(port.port))
+    }
+}
+
+fn put(tokens: &mut BTreeMap<PortId, Value>, port: PortId, token: Option<Value>) {
+    match token {
+        Some(token) => drop(tokens.insert(port, token)),
+        None => drop(tokens.remove(&port)),
+    }
+}
+
+impl<'r, O: Observer> Run<'r, '_, O> {
+    /// Fires a cluster of the program.
+    pub fn fire_cluster(&mut self, cluster: ClusterId, ctx: &Ctx) {
+        let code = self.code;
+        let mut local = Local::new(code.program.lower, &code.plans[cluster]);
+        self.ops(&code.clusters[cluster], ctx, &mut Place { local: Some(&mut local), taken: None });
+    }
+
+    /// Executes an operation that belongs to a cluster.
+    pub fn in_cluster(&mut self, op: &Op, ctx: &Ctx, place: &mut Place<'_, 'r>) {
+        let Some(local) = place.local.as_deref_mut() else { return };
+        match op {
+            Op::Take(node) => {
+                let (port, token) = self.waiting(*node);
+                local.write(self.state, port, token);
+            }
+            Op::TakeDelayed(node) => {
+                let token = self.delayed(*node, local);
+                local.write(self.state, PortId { node: *node, port: 1 }, token);
+            }
+            Op::Declare(port) => self.declare(*port, local),
+            Op::Block { block, body } => {
+                if self.is_open(*block, local) {
+                    self.ops(body, ctx, place);
+                }
+            }
+            Op::Iteration { runs, firings } => {
+                for Firings { node, from, to } in runs {
+                    for firing in *from..*to {
+                        if let Some(local) = place.local.as_deref_mut() {
+                            local.firing = firing as usize;
+                        }
+                        self.ops(&firings[node], ctx, place);
+                    }
+                }
+                if let Some(local) = place.local.as_deref_mut() {
+                    local.firing = 0;
+                }
+            }
+            Op::IfArrived { inputs, body } => {
+                if inputs.iter().all(|input| local.arriving(self.state, *input).is_some()) {
+                    self.ops(body, ctx, place);
+                }
+            }
+            Op::Fire { node, fire } => self.fire(*node, fire, ctx, local),
+            Op::Store(port) => {
+                let token = local.read(self.state, *port);
+                put(&mut self.state.tokens, *port, token);
+            }
+            Op::HoldIteration(node) => {
+                for firing in 0..self.code.program.lower.analysis.repetitions[*node] {
+                    local.firing = firing as usize;
+                    let token = local.arriving(self.state, PortId { node: *node, port: 0 });
+                    self.state.held.entry(*node).and_modify(|held| held.put(token));
+                }
+                local.firing = 0;
+            }
+            _ => {}
+        }
+    }
+
+    /// The token that waits in a delay or at an input of the program, and where it comes in.
+    fn waiting(&mut self, node: NodeId) -> (PortId, Option<Value>) {
+        let n = &self.code.graph().nodes[node];
+        let port = n.ports.iter().position(|port| port.kind == PortKind::Output).unwrap_or(0);
+        let token = match n.kind {
+            NodeKind::Delay(_) => self.state.held.get_mut(&node).and_then(|held| held.take_at(0)),
+            _ => self.state.inputs.remove(&node).map(|(_, token)| token),
+        };
+        (PortId { node, port }, token)
+    }
+
+    /// Token of a firing of a delay: first those that it holds, then the first ones of this iteration.
+    fn delayed(&mut self, node: NodeId, local: &Local<'_>) -> Option<Value> {
+        let NodeKind::Delay(initial) = &self.code.graph().nodes[node].kind else { return None };
+        match local.firing.checked_sub(initial.len()) {
+            None => self.state.held.get_mut(&node).and_then(|held| held.take_at(local.firing)),
+            Some(newer) => {
+                let from = self.code.program.lower.incoming(PortId { node, port: 0 })?;
+                local.arrays.get(&from)?.get(newer)?.clone()
+            }
+        }
+    }
+
+    fn declare(&mut self, port: PortId, local: &mut Local<'_>) {
+        match local.plan.storage(port) {
+            Storage::Buffer => drop(self.state.tokens.remove(&port)),
+            Storage::Array => {
+                let lower = self.code.program.lower;
+                let size = lower.analysis.repetitions[port.node] as usize * lower.graph.port(port).rate;
+                local.arrays.insert(port, vec![None; size]);
+            }
+            _ => drop(local.tokens.remove(&port)),
+        }
+    }
+
+    /// Returns `true` if all tokens that a block tests are there.
+    fn is_open(&self, block: BlockId, local: &Local<'_>) -> bool {
+        local.plan.tests[block].iter().all(|port| local.read(self.state, *port).is_some())
+    }
+}

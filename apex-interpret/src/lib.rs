@@ -1,0 +1,18 @@
+//! Interpreter of Apex programs: it executes the operations that the generated code is written from, over boxed nodes
+//! and tokens of any type. It is slow and simple; its firings, activity and times are those of the compiled program.
+//!
+//! A program on several threads is run as if it had one.
+
+mod call;
+mod cluster;
+mod code;
+mod conditions;
+mod delay;
+mod each;
+mod node;
+mod ops;
+mod react;
+mod state;
+
+pub use code::Interpreter;
+pub use node::{Args, Library, Node, Outcome, Value};

@@ -1,0 +1,76 @@
+//! Nodes and tokens, as the interpreter sees them.
+
+use apex_dsl::{
+    catalog::{Signature, Type},
+    graph,
+};
+use apex_rt::{Ctx, Failure};
+use std::{any::Any, rc::Rc, time::Duration};
+
+/// A token. Copies share it.
+pub type Value = Rc<dyn Any>;
+
+/// What a call returns: the tokens at the outputs, by the numbers of their ports in the signature.
+pub type Outcome = Result<Vec<(usize, Option<Value>)>, Failure>;
+
+/// A node.
+pub trait Node {
+    /// Calls `process`.
+    ///
+    /// # Errors
+    /// Returns the failure of the node.
+    fn process(&mut self, args: &mut Args) -> Outcome;
+
+    /// Calls the method of a slot, by its port in the signature.
+    ///
+    /// # Errors
+    /// Returns the failure of the node.
+    fn slot(&mut self, port: usize, args: &mut Args) -> Result<(), Failure>;
+
+    /// Calls the method for ⊥ at a mandatory input.
+    fn absent(&mut self) {}
+
+    /// Calls the method that is called when the node becomes active, or inactive.
+    fn turned(&mut self, _active: bool) {}
+
+    /// Calls the method that is called when the program ends.
+    fn stop(&mut self) {}
+
+    /// Returns the value of a parameter.
+    fn param(&self, param: usize) -> Option<Value>;
+
+    /// Sets a parameter, unless the value is out of range.
+    fn set_param(&mut self, param: usize, value: &Value);
+
+    /// Returns a parameter as the time without tokens after which the node is called with ⊥.
+    fn silence(&self, _param: usize) -> Duration {
+        Duration::MAX
+    }
+}
+
+/// Arguments of a call.
+pub struct Args {
+    /// Context of the call.
+    pub ctx: Ctx,
+    /// Tokens, in the order of the arguments. An input of any number of tokens has one for each connection.
+    pub tokens: Vec<Option<Value>>,
+    /// Values of parameters that have arrived at inputs, with their numbers.
+    pub params: Vec<(usize, Value)>,
+    /// Events that were triggered, by the numbers of their ports, with their tokens.
+    pub events: Vec<(usize, Value)>,
+}
+
+/// What the interpreter needs to know of node types and token types.
+pub trait Library {
+    /// Makes a node; `None` if its type is not known.
+    fn make(&self, signature: &Signature, library: &graph::Library) -> Option<Box<dyn Node>>;
+
+    /// Returns a token of a type: the constant of the text, or the default of the type.
+    fn token(&self, value: Option<&graph::Value>, ty: &Type) -> Option<Value>;
+
+    /// Returns the elements of a list.
+    fn items(&self, list: &Value) -> Vec<Value>;
+
+    /// Returns the list of some elements, for an output of a type.
+    fn list(&self, items: Vec<Value>, ty: &Type) -> Value;
+}

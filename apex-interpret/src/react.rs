@@ -1,0 +1,314 @@
+//! Reactions: which cluster fires and which slot is served, and when.
+
+use crate::{Interpreter, Value, ops::Run};
+use apex_dsl::{
+    analyse::Guard,
+    graph::NodeId,
+    program::{After, Entering, Entry, Firing, Flag, Poll},
+    syntax::tree::PortKind,
+};
+use apex_rt::{Ctx, Next, Observer, Time};
+
+/// Steps of a reaction; with more it is taken for an endless loop.
+const BUDGET: u32 = 1_000_000;
+
+impl Interpreter<'_> {
+    /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
+    pub fn react<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next {
+        let Self { code, state, library } = self;
+        Run { code, state, library: *library, observer }.react(now)
+    }
+
+    /// Puts a token into an input or slot of the program, by the name of the port, unless one waits there. Returns
+    /// `false` if there is no such port.
+    pub fn put(&mut self, port: &str, token: Value) -> bool {
+        let Some(node) = self.port(port, |kind| matches!(kind, PortKind::Input | PortKind::Slot)) else { return false };
+        let arrival = self.state.inputs.values().map(|(arrival, _)| arrival + 1).max().unwrap_or(0);
+        self.state.inputs.entry(node).or_insert((arrival, token));
+        true
+    }
+
+    /// The token that came out last at an output of the program.
+    pub fn output(&self, port: &str) -> Option<Value> {
+        let node = self.port(port, |kind| kind == PortKind::Output)?;
+        self.state.outputs.get(&node).cloned()
+    }
+
+    /// Takes the token of an event of the program.
+    pub fn take(&mut self, event: &str) -> Option<Value> {
+        let node = self.port(event, |kind| kind == PortKind::Event)?;
+        self.state.events.remove(&node)
+    }
+
+    /// Returns `true` if a node is active.
+    pub fn is_active(&self, node: NodeId) -> bool {
+        self.state.flags.contains(&Flag::Active(node))
+    }
+
+    fn port(&self, name: &str, is_meant: impl Fn(PortKind) -> bool) -> Option<NodeId> {
+        let graph = self.code.graph();
+        graph.nodes.position(|node| {
+            node.name == name && matches!(node.kind, apex_dsl::graph::NodeKind::Boundary(kind) if is_meant(kind))
+        })
+    }
+}
+
+impl<O: Observer> Run<'_, '_, O> {
+    fn react(&mut self, now: Time) -> Next {
+        let program = &self.code.program;
+        if !program.has_time() {
+            return match self.state.exit {
+                Some(code) => Next::Exit(code),
+                None => self.instant(now, now, true).unwrap_or_else(|next| next.or(self.sources())),
+            };
+        }
+        let now = self.state.time.of(now, self.observer);
+        if let Some(code) = self.state.exit {
+            return Next::Exit(code);
+        }
+        self.skip(now);
+        loop {
+            let at = self.next_instant(now);
+            self.state.time.begin(at);
+            let completes = at >= now || self.observer.ends_early();
+            match self.instant(at, now, completes) {
+                Ok(next) => return next,
+                Err(next) if completes => {
+                    // Instants that are left come before anything else.
+                    let next = if next.is_at_most(now) { next } else { next.or(self.sources()) };
+                    return self.state.time.outside(next);
+                }
+                Err(_) => {}
+            }
+        }
+    }
+
+    /// The earliest time after the last instant at which something is due, else `now`.
+    fn next_instant(&self, now: Time) -> Time {
+        let (state, last) = (&*self.state, self.state.time.last());
+        let at = state.timers.iter().fold(now, |at, timer| timer.instant(last, at));
+        state.timeouts.iter().chain(&state.silences).fold(at, |at, timeout| timeout.instant(last, at))
+    }
+
+    /// Sources with `skip` leave out the firings that they have missed.
+    fn skip(&mut self, now: Time) {
+        for (timer, (node, _)) in self.state.timers.iter_mut().zip(&self.code.program.wiring.timers) {
+            if self.code.program.lower.graph.nodes[*node].modifiers.skip {
+                timer.skip(now);
+            }
+        }
+    }
+
+    /// When a program wants to be called because of sources without a pace.
+    fn sources(&self) -> Next {
+        let analysis = self.code.program.lower.analysis;
+        let mut guards = analysis.clusters.iter().flat_map(|c| &c.own_guards);
+        if guards.any(|guard| analysis.guards[*guard] == Guard::React) { Next::Now } else { Next::Input }
+    }
+
+    /// One instant of a reaction: `Ok` if the reaction is over because of an exit or of too many steps, else the next
+    /// time at which something is due. Sources without a period fire if it `completes` the reaction.
+    fn instant(&mut self, at: Time, now: Time, completes: bool) -> Result<Next, Next> {
+        let code = self.code;
+        let reaction = &code.reaction;
+        let ctx = &Ctx::at(at, now);
+        self.state.steps = BUDGET;
+        self.outside(&reaction.left, ctx);
+        if let Some(served) = &reaction.start
+            && !std::mem::replace(&mut self.state.started, true)
+        {
+            self.outside(&code.first, ctx);
+            self.after(served, ctx);
+        }
+        let begins = completes || !code.program.has_instants();
+        if begins {
+            reaction.once.iter().for_each(|bit| self.state.conditions.set(*bit, true));
+            for firing in &reaction.before {
+                self.fires(firing, true, ctx);
+            }
+        }
+        let mut first = begins;
+        while reaction.has_rounds {
+            let mut quiet = !self.poll(at, ctx);
+            if code.program.has_queue() && self.serve_queue(ctx) {
+                quiet = false;
+            }
+            for firing in &reaction.firings {
+                if self.fires(firing, first, ctx) {
+                    quiet = false;
+                }
+                if self.state.exit.is_some() {
+                    break;
+                }
+            }
+            first = false;
+            if self.state.steps == 0 {
+                break;
+            }
+            if quiet && (self.silence_ends(at) || self.expire(at, ctx)) {
+                quiet = false;
+            }
+            if quiet || self.state.exit.is_some() {
+                break;
+            }
+        }
+        if let Some(code) = self.state.exit {
+            return Ok(Next::Exit(code));
+        }
+        if self.state.steps == 0 {
+            self.observer.endless(&[], &[]);
+            return Ok(Next::Now);
+        }
+        let timers = self.state.timers.iter().map(|timer| timer.wish(at));
+        let timeouts = self.state.timeouts.iter().chain(&self.state.silences).map(|timeout| timeout.wish(at));
+        Err(timers.chain(timeouts).fold(Next::Input, Next::or))
+    }
+
+    /// Serves what follows from tokens that were sent.
+    fn after(&mut self, after: &After, ctx: &Ctx) {
+        match after {
+            After::Queue => drop(self.serve_queue(ctx)),
+            After::Slots(ops) => self.outside(ops, ctx),
+        }
+    }
+
+    /// Fires a cluster if it is ready. One without a row fires once, in the `first` round. Returns `true` if it is a
+    /// reason for another round.
+    fn fires(&mut self, firing: &Firing, first: bool, ctx: &Ctx) -> bool {
+        let code = self.code;
+        if self.state.steps == 0 || self.state.exit.is_some() {
+            return false;
+        }
+        let Some(row) = firing.row else {
+            if first {
+                self.fire_cluster(firing.cluster, ctx);
+                self.after(&firing.served, ctx);
+            }
+            return false;
+        };
+        if !self.state.conditions.start(&code.rows[row]) {
+            return false;
+        }
+        self.step();
+        self.fire_cluster(firing.cluster, ctx);
+        self.state.conditions.finish(&code.rows, row);
+        self.after(&firing.served, ctx);
+        true
+    }
+
+    /// Polls what may have happened. Returns `true` if a token went on.
+    fn poll(&mut self, at: Time, ctx: &Ctx) -> bool {
+        let code = self.code;
+        let mut any = false;
+        for poll in &code.reaction.polls {
+            match poll {
+                Poll::Room { event, bit } => {
+                    if !self.state.events.contains_key(event) {
+                        self.state.conditions.set(*bit, true);
+                    }
+                }
+                Poll::Input { input, bit } => {
+                    if self.state.inputs.contains_key(input) {
+                        self.state.conditions.set(*bit, true);
+                    }
+                }
+                Poll::Timers => {
+                    for (timer, (_, bit)) in self.state.timers.iter().zip(&code.program.wiring.timers) {
+                        if timer.is_due(at) {
+                            self.state.conditions.set(*bit, true);
+                        }
+                    }
+                }
+                Poll::Slots(slots) => {
+                    while let Some(slot) = self.first_arrival(slots) {
+                        self.enter(slot, ctx);
+                        any = true;
+                        if slots.len() == 1 {
+                            break;
+                        }
+                    }
+                }
+                Poll::SetBack(entering) => {
+                    let (ahead, node) = (self.state.time.ahead(), entering.node);
+                    let told = self.state.told_ahead.get(&node).copied().unwrap_or(0);
+                    if told != ahead && self.may_enter(entering) {
+                        self.state.told_ahead.insert(node, ahead);
+                        self.outside(&entering.then, ctx);
+                        any = true;
+                    }
+                }
+                // The graph is not divided into thread groups.
+                Poll::Sender(_) | Poll::Receiver(_) => {}
+            }
+        }
+        any
+    }
+
+    /// The slot of the program whose token came first, of those whose tokens can go on.
+    fn first_arrival<'s>(&self, slots: &'s [Entering]) -> Option<&'s Entering> {
+        let arrival = |slot: &&Entering| self.state.inputs.get(&slot.node).map(|(arrival, _)| *arrival);
+        let waiting = slots.iter().filter(|slot| arrival(slot).is_some() && self.may_enter(slot));
+        waiting.min_by_key(arrival)
+    }
+
+    fn may_enter(&self, entering: &Entering) -> bool {
+        self.state.conditions.all(&entering.free) && self.state.steps > 0
+    }
+
+    /// Takes the token of a slot of the program.
+    fn enter(&mut self, slot: &Entering, ctx: &Ctx) {
+        let port = apex_dsl::graph::PortId { node: slot.node, port: 0 };
+        if let Some((_, token)) = self.state.inputs.remove(&slot.node) {
+            self.state.tokens.insert(port, token);
+        }
+        self.outside(&slot.then, ctx);
+    }
+
+    /// ⊥ takes the place of a token that did not come for too long. Returns `true` if one did not.
+    fn silence_ends(&mut self, at: Time) -> bool {
+        let code = self.code;
+        let mut any = false;
+        for (timeout, silence) in code.program.wiring.silences.iter().enumerate() {
+            if any || !self.state.silences[timeout].is_due(at) {
+                continue;
+            }
+            match &silence.entry {
+                Entry::Input { raises } => {
+                    if !self.state.conditions.has(*raises) {
+                        self.state.conditions.set(*raises, true);
+                        any = true;
+                    }
+                }
+                Entry::Connection { connection, raises, occupies, free } => {
+                    if self.state.conditions.all(free) {
+                        self.state.tokens.remove(&code.graph().connections[*connection].from);
+                        if let Some(stamp) = code.program.lower.stamp(*connection) {
+                            self.state.stamps[stamp] = at;
+                        }
+                        self.state.conditions.set(*occupies, false);
+                        self.state.conditions.set(*raises, true);
+                        any = true;
+                    }
+                }
+            }
+        }
+        any
+    }
+
+    /// The first timeout expires that is due and can. Returns `true` if there is one.
+    fn expire(&mut self, at: Time, ctx: &Ctx) -> bool {
+        let code = self.code;
+        let timeouts = code.program.wiring.timeouts.iter().enumerate();
+        let due = timeouts.filter(|(number, timeout)| {
+            let is_disabled = code.graph().nodes[timeout.node].can_be_disabled()
+                && !self.state.flags.contains(&Flag::Enabled(timeout.node));
+            self.state.timeouts[*number].is_due(at) && self.state.conditions.all(&timeout.needs) && !is_disabled
+        });
+        let Some((number, _)) = due.into_iter().next() else { return false };
+        if self.state.steps == 0 {
+            return false;
+        }
+        self.outside(&code.timeouts[number], ctx);
+        true
+    }
+}

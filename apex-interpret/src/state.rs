@@ -1,0 +1,139 @@
+//! State of a program that is interpreted.
+
+use crate::{Library, Node, Value, code::Code, conditions::Conditions, delay::Delay};
+use apex_dsl::{
+    analyse::ClusterId,
+    graph::{NodeId, NodeKind, PortId},
+    program::Flag,
+};
+use apex_rt::{ProgramTime, Time, Timeout, Timer};
+use std::{
+    collections::{BTreeMap, BTreeSet, VecDeque},
+    time::Duration,
+};
+
+/// Everything that a program remembers.
+pub struct State {
+    /// Nodes of the catalog.
+    pub nodes: BTreeMap<NodeId, Box<dyn Node>>,
+    /// Tokens that outlive a firing.
+    pub tokens: BTreeMap<PortId, Value>,
+    /// Tokens that delays hold.
+    pub held: BTreeMap<NodeId, Delay<Value>>,
+    /// Activity of these tokens.
+    pub held_activity: BTreeMap<NodeId, Delay<()>>,
+    /// Flags that are set.
+    pub flags: BTreeSet<Flag>,
+    /// Nodes that `cancel` remembers for `resume`.
+    pub remembered: BTreeMap<NodeId, BTreeSet<NodeId>>,
+    /// Conditions of the dispatcher.
+    pub conditions: Conditions,
+    /// Slots with waiting tokens.
+    pub queue: VecDeque<usize>,
+    /// Timers of sources.
+    pub timers: Vec<Timer>,
+    /// Timeouts of nodes.
+    pub timeouts: Vec<Timeout>,
+    /// Silences of guards.
+    pub silences: Vec<Timeout>,
+    /// Stamps of connections.
+    pub stamps: Vec<Time>,
+    /// Stamps of clusters.
+    pub cluster_stamps: BTreeMap<ClusterId, Time>,
+    /// Time of the program.
+    pub time: ProgramTime,
+    /// How far it was ahead when the event of a node was last triggered.
+    pub told_ahead: BTreeMap<NodeId, i64>,
+    /// Steps that are left in the reaction.
+    pub steps: u32,
+    /// `true` after `start`.
+    pub started: bool,
+    /// Code with which the program ends.
+    pub exit: Option<u8>,
+    /// Tokens that were put into inputs and slots of the program, in the order of their numbers.
+    pub inputs: BTreeMap<NodeId, (u64, Value)>,
+    /// Tokens at outputs of the program.
+    pub outputs: BTreeMap<NodeId, Value>,
+    /// Events of the program that wait to be taken.
+    pub events: BTreeMap<NodeId, Value>,
+    /// Tokens that probes saw.
+    pub seen: BTreeMap<NodeId, Vec<Value>>,
+    /// State of the bodies of `each`.
+    pub bodies: BTreeMap<NodeId, State>,
+}
+
+/// Timer or timeout without an end.
+const NEVER: i64 = i64::MAX;
+
+fn nanos(time: Option<Duration>, absent: i64) -> i64 {
+    time.map_or(absent, |time| i64::try_from(time.as_nanos()).unwrap_or(NEVER))
+}
+
+impl State {
+    /// State before the first reaction.
+    pub fn new(code: &Code<'_>, library: &dyn Library) -> Result<Self, String> {
+        let (graph, wiring, lower) = (code.graph(), &code.program.wiring, code.program.lower);
+        let (mut nodes, mut held, mut held_activity) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        for (node, n) in graph.nodes.iter_enumerated() {
+            match &n.kind {
+                NodeKind::Library(made) => {
+                    let signature = &lower.catalog.signatures[made.signature];
+                    let boxed = library.make(signature, made);
+                    nodes.insert(node, boxed.ok_or_else(|| format!("`{}` is not known", signature.name))?);
+                }
+                NodeKind::Delay(initial) => {
+                    let ty = &graph.port(PortId { node, port: 1 }).ty;
+                    let tokens = initial.iter().map(|value| library.token(value.as_ref(), ty)).collect();
+                    held.insert(node, Delay::new(tokens));
+                    held_activity.insert(node, Delay::new(vec![None; initial.len()]));
+                }
+                _ => {}
+            }
+        }
+        let timers = wiring.timers.iter().map(|(node, _)| {
+            let modifiers = &graph.nodes[*node].modifiers;
+            Timer::new(nanos(modifiers.after, 0), nanos(modifiers.every, NEVER))
+        });
+        let enabled = graph.nodes.ids().filter(|node| graph.nodes[*node].can_be_disabled()).map(Flag::Enabled);
+        let bodies = code.bodies.iter().map(|(node, body)| Ok((*node, Self::new(body, library)?)));
+        Ok(Self {
+            nodes,
+            tokens: BTreeMap::new(),
+            held,
+            held_activity,
+            flags: enabled.collect(),
+            remembered: BTreeMap::new(),
+            conditions: Conditions::new(wiring.bits.count(), &wiring.bits.initial()),
+            queue: VecDeque::new(),
+            timers: timers.collect(),
+            timeouts: vec![Timeout::new(); wiring.timeouts.len()],
+            silences: vec![Timeout::new(); wiring.silences.len()],
+            stamps: vec![Time::ZERO; lower.analysis.stamps.connections.len()],
+            cluster_stamps: BTreeMap::new(),
+            time: ProgramTime::new(),
+            told_ahead: BTreeMap::new(),
+            steps: u32::MAX,
+            started: false,
+            exit: None,
+            inputs: BTreeMap::new(),
+            outputs: BTreeMap::new(),
+            events: BTreeMap::new(),
+            seen: BTreeMap::new(),
+            bodies: bodies.collect::<Result<_, String>>()?,
+        })
+    }
+
+    /// Clears a flag. Returns `true` if it was set.
+    pub fn take(&mut self, flag: Flag) -> bool {
+        self.flags.remove(&flag)
+    }
+
+    /// Sets or clears a flag.
+    pub fn set(&mut self, flag: Flag, value: bool) {
+        if value {
+            self.flags.insert(flag)
+        } else {
+            self.flags.remove(&flag)
+        };
+    }
+}

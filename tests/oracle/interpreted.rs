@@ -1,0 +1,111 @@
+//! Random graphs, interpreted, compared with their nets.
+//!
+//! `APEX_INTERPRETED_GRAPHS` is the number of graphs (1,000), `APEX_ORACLE_SEED` the first seed.
+
+use apex_tests::oracle::{Case, Checker, Record, generate, interpret, paced, with_timeouts};
+use rayon::prelude::*;
+use std::env;
+
+/// Times of reactions that are in time, in ns.
+const IN_TIME: [i64; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
+/// Graphs that share a checker.
+const BATCH: u64 = 100;
+
+fn number(name: &str) -> Option<u64> {
+    env::var(name).ok().and_then(|text| text.parse().ok())
+}
+
+fn millis(times: &[i64]) -> Vec<i64> {
+    times.iter().map(|time| time * 1_000_000).collect()
+}
+
+/// Result for the graph of a seed.
+enum Tried {
+    /// It is not legal.
+    Illegal,
+    /// It runs correctly, with this number of calls.
+    Right(usize),
+    Wrong(String),
+}
+
+/// Compares the interpreted run of a graph with its net.
+fn as_net(checker: &Checker, case: &Case) -> Tried {
+    let text = case.text("Random");
+    let Ok(checked) = checker.check(&text) else { return Tried::Illegal };
+    let records = match interpret(&checker.catalog(), &checked, &millis(&IN_TIME)) {
+        Ok(records) => records,
+        Err(why) => return Tried::Wrong(why),
+    };
+    let Err((step, why)) = checker.judge(&checked, &records) else { return Tried::Right(calls(&records)) };
+    let names = |node: apex_dsl::graph::NodeId| {
+        if node.index() < checked.graph.nodes.len() { checked.graph.path(node) } else { "inner".to_owned() }
+    };
+    let shown = &records[step.saturating_sub(25)..=step.min(records.len() - 1)];
+    let shown: Vec<String> = shown.iter().map(|record| record.named(&names, &checked)).collect();
+    Tried::Wrong(format!("seed {}: {why}\n  {}\n{text}", case.seed, shown.join("\n  ")))
+}
+
+/// Compares the firings of late reactions with those of reactions in time.
+fn late_as_in_time(checker: &Checker, case: &Case) -> Tried {
+    let Ok(checked) = checker.check(&case.text("Random")) else { return Tried::Illegal };
+    let steps = |times: &[i64]| {
+        let records = interpret(&checker.catalog(), &checked, &millis(times)).unwrap_or_default();
+        let is_step = |record: &Record| !matches!(record, Record::Begin(_) | Record::PortId);
+        records.into_iter().filter(is_step).collect::<Vec<_>>()
+    };
+    let in_time = steps(&IN_TIME);
+    let differs = [&[0, 9][..], &[0, 2, 3, 7, 9]].into_iter().any(|late| steps(late) != in_time);
+    match differs {
+        true => Tried::Wrong(format!("seed {}: a late run differs", case.seed)),
+        false => Tried::Right(calls(&in_time)),
+    }
+}
+
+fn calls(records: &[Record]) -> usize {
+    records.iter().filter(|record| matches!(record, Record::Fired(_) | Record::Handled(_))).count()
+}
+
+/// Tests the graphs of the wanted number of seeds, divided by `share`.
+fn try_all(share: u64, made: impl Fn(u64) -> Case + Sync, test: impl Fn(&Checker, &Case) -> Tried + Sync) {
+    let count = number("APEX_INTERPRETED_GRAPHS").unwrap_or(1000) / share;
+    let first = number("APEX_ORACLE_SEED").unwrap_or(1);
+    let batches: Vec<u64> = (0..count.div_ceil(BATCH)).collect();
+    let tried: Vec<Tried> = batches
+        .par_iter()
+        .flat_map_iter(|batch| {
+            let checker = Checker::new();
+            let seeds = first + batch * BATCH..first + (batch * BATCH + BATCH).min(count);
+            seeds.map(|seed| test(&checker, &made(seed))).collect::<Vec<_>>()
+        })
+        .collect();
+    let right: Vec<usize> =
+        tried.iter().filter_map(|tried| if let Tried::Right(calls) = tried { Some(*calls) } else { None }).collect();
+    let wrong: Vec<&str> = tried
+        .iter()
+        .filter_map(|tried| if let Tried::Wrong(why) = tried { Some(why.as_str()) } else { None })
+        .collect();
+    let calls: usize = right.iter().sum();
+    println!(
+        "{count} seeds from APEX_ORACLE_SEED={first}: {} right, {} wrong, {calls} calls",
+        right.len(),
+        wrong.len()
+    );
+    assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong[..wrong.len().min(3)].join("\n"));
+    // Otherwise little was tested.
+    assert!(right.len() as u64 * 2 > count && calls > right.len() * 5, "too few graphs are legal, or they do nothing");
+}
+
+#[test]
+fn interpreted_graphs_run_as_their_nets_may() {
+    try_all(1, |seed| generate(seed, true), as_net);
+}
+
+#[test]
+fn interpreted_timeouts_come_as_in_their_nets() {
+    try_all(2, |seed| with_timeouts(generate(seed, true)), as_net);
+}
+
+#[test]
+fn interpreted_late_reactions_run_as_in_time() {
+    try_all(4, |seed| paced(with_timeouts(generate(seed, true))), late_as_in_time);
+}
