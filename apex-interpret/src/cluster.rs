@@ -8,7 +8,7 @@ use crate::{
 use apex_dsl::{
     analyse::{ClusterId, Run as Firings},
     graph::{NodeId, NodeKind, PortId},
-    program::{BlockId, Lower, Op, Plan, Storage},
+    program::{Lower, Op, Plan, Storage},
     syntax::tree::PortKind,
 };
 use apex_rt::{Ctx, Observer};
@@ -121,8 +121,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 local.write(self.state, PortId { node: *node, port: 1 }, token);
             }
             Op::Declare(port) => self.declare(*port, local),
-            Op::Block { block, body } => {
-                if self.is_open(*block, local) {
+            Op::Block { tokens, body, .. } => {
+                if tokens.iter().all(|port| local.read(self.state, *port).is_some()) {
                     self.ops(body, ctx, place);
                 }
             }
@@ -194,10 +194,5 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             }
             _ => drop(local.tokens.remove(&port)),
         }
-    }
-
-    /// Returns `true` if all tokens that a block tests are there.
-    fn is_open(&self, block: BlockId, local: &Local<'_>) -> bool {
-        local.plan.tests[block].iter().all(|port| local.read(self.state, *port).is_some())
     }
 }

@@ -68,7 +68,7 @@ impl Generator<'_> {
 
     /// The tables of the dispatcher, and the functions that serve slots.
     pub fn dispatcher(&self, view: ProgramView<'_>) -> TokenStream {
-        let ProgramView { graph, analysis, wiring, .. } = view;
+        let ProgramView { analysis, wiring, .. } = view;
         let bits = &wiring.bits;
         let (set, rows) = (set_type(bits), cluster_rows(view));
         let mut code = quote!();
@@ -100,7 +100,7 @@ impl Generator<'_> {
                 }
             });
         }
-        if graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset)) {
+        if view.program.has_reset() {
             let reset = self.ops(view, &view.program.reset());
             let (nodes, [state, core]) = (self.nodes_type(view), self.state_types(view));
             code.extend(quote! {

@@ -50,8 +50,8 @@ impl<'a> Emitter<'a> {
             Op::Take(node) => self.take(*node),
             Op::TakeDelayed(node) => self.take_delayed(*node),
             Op::Declare(end) => self.declare(*end),
-            Op::Block { block, body } => {
-                let (test, body) = (self.test(*block), self.ops_in(body, *block));
+            Op::Block { block, tokens, body } => {
+                let (test, body) = (self.test(tokens), self.ops_in(body, *block));
                 quote! { if let #test { #body } }
             }
             Op::Iteration { runs, firings } => {
@@ -123,8 +123,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// `Some(a) = &a`, or the same of several tokens.
-    fn test(&self, block: BlockId) -> TokenStream {
-        let tests = &self.plan.tests[block];
+    fn test(&self, tests: &[PortId]) -> TokenStream {
         let names: Vec<_> = tests.iter().map(|end| self.generator.name(*end)).collect();
         // Inside, a name that is bound further out stands for the value itself.
         let tokens: Vec<_> = tests.iter().map(|end| self.stored(*end)).collect();

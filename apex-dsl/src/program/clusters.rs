@@ -104,7 +104,8 @@ impl Program<'_> {
                 Step::Fire(node) => ops.extend(self.step(*node, plan)),
                 Step::Block(inner) => {
                     let block = BlockId::from(*next);
-                    ops.push(Op::Block { block, body: self.block(inner, plan, next) });
+                    let tokens = plan.tests[block].clone();
+                    ops.push(Op::Block { block, tokens, body: self.block(inner, plan, next) });
                 }
                 Step::Repeat(_) => {}
             }

@@ -13,6 +13,7 @@ mod interrupt;
 mod lower;
 mod op;
 mod plan;
+mod print;
 mod reaction;
 mod slots;
 mod wiring;
@@ -23,6 +24,7 @@ pub use fire::{Arg, Call, CallResult, Deadline, Failing, Fire, SlotCall};
 pub use lower::Lower;
 pub use op::{Cancel, Op, Ops, Served, Taken};
 pub use plan::{BlockId, Plan, Storage, is_buffer, storage};
+pub use print::{Lines, numbers};
 pub use reaction::{After, Entering, Firing, Poll, Reaction, Receiver, Sender};
 pub use wiring::{Entry, Flag, Port, Send, Silence, Slot, Timeout, Wiring};
 

@@ -103,7 +103,7 @@ pub enum Op {
     /// Declares a token before the blocks that use it.
     Declare(PortId),
     /// Happens if all tokens are there.
-    Block { block: BlockId, body: Ops },
+    Block { block: BlockId, tokens: Vec<PortId>, body: Ops },
     /// Fires nodes of a region with several rates: the firings of each in turn.
     Iteration { runs: Vec<Run>, firings: BTreeMap<NodeId, Ops> },
     /// Takes a token that a delay holds, or one of this iteration if it holds no more.

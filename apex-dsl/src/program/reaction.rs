@@ -173,6 +173,11 @@ impl Program<'_> {
         self.lower.graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Exit(_)))
     }
 
+    /// Returns `true` if a token can take all activity away and trigger `start` again.
+    pub fn has_reset(&self) -> bool {
+        self.lower.graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset))
+    }
+
     /// Returns `true` if something happens before the first reaction.
     pub fn has_start(&self) -> bool {
         let started = |n: &Node| n.starts_active || matches!(n.kind, NodeKind::Start);
