@@ -46,11 +46,7 @@ impl<'a> Code<'a> {
         let program = Program::new(Lower::new(graph, analysis, catalog, None));
         let plan = |cluster| Plan::new(graph, catalog, &analysis.links, analysis, cluster);
         let plans: IdVec<ClusterId, Plan> = analysis.clusters.ids().map(plan).collect();
-        let operations = |cluster: ClusterId| match graph.is_body {
-            true => program.inside(cluster, &plans[cluster]),
-            false => program.cluster(cluster, &plans[cluster]),
-        };
-        let clusters = analysis.clusters.ids().map(operations).collect();
+        let clusters = analysis.clusters.ids().map(|cluster| program.ops_of(cluster, &plans)).collect();
         let mut bodies = BTreeMap::new();
         for (node, n) in graph.nodes.iter_enumerated() {
             if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node)) {
@@ -71,6 +67,12 @@ impl<'a> Code<'a> {
             plans,
             program,
         }
+    }
+
+    /// Faults of the compiler that show in the program, also in the bodies of its `each`.
+    pub fn verify(&self) -> Vec<String> {
+        let inner = self.bodies.values().flat_map(Self::verify);
+        self.program.verify(&self.plans, &self.clusters).into_iter().chain(inner).collect()
     }
 
     /// The graph.
@@ -103,6 +105,9 @@ impl<'a> Interpreter<'a> {
         library: &'a dyn Library,
     ) -> Result<Self, String> {
         let code = Code::new(graph, analysis, catalog, &mut 0);
+        if let Some(fault) = code.verify().into_iter().next() {
+            return Err(format!("internal error of the compiler: {fault}"));
+        }
         let state = State::new(&code, library)?;
         Ok(Self { code, state, library })
     }

@@ -34,7 +34,7 @@ fn as_net(checker: &Checker, case: &Case) -> Tried {
     let Ok(checked) = checker.check(&text) else { return Tried::Illegal };
     let records = match interpret(&checker.catalog(), &checked, &millis(&IN_TIME)) {
         Ok(records) => records,
-        Err(why) => return Tried::Wrong(why),
+        Err(why) => return Tried::Wrong(format!("seed {}: {why}\n{text}", case.seed)),
     };
     let Err((step, why)) = checker.judge(&checked, &records) else { return Tried::Right(calls(&records)) };
     let names = |node: apex_dsl::graph::NodeId| {

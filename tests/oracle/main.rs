@@ -5,4 +5,5 @@ mod interpreted;
 mod nets;
 mod pnml;
 mod programs;
+mod verifier;
 mod words;

@@ -40,6 +40,10 @@ impl<'a> Lowered<'a> {
     /// The program of a graph.
     pub fn new(generator: &Generator<'a>, graph: &'a Graph, analysis: &'a Analysis) -> Self {
         let program = Program::new(Lower::new(graph, analysis, generator.catalog, generator.claims));
+        // What is found here would be a wrong program, or none that rustc takes.
+        if cfg!(debug_assertions) {
+            program.faults().iter().for_each(|fault| drop(generator.bug(graph.span, fault)));
+        }
         let labels = Labels::new(generator, graph, analysis, &program.wiring);
         Self { program, labels }
     }

@@ -96,4 +96,10 @@ impl<'a> Lower<'a> {
         use NodeKind::{Interrupt, Receiver, Relay, Sender};
         !matches!(self.graph.nodes[node].kind, Relay | Interrupt(_) | Sender(_) | Receiver(_))
     }
+
+    /// Events that the moves of a state machine trigger.
+    pub fn moved(self, node: NodeId) -> impl Iterator<Item = PortId> + 'a {
+        let machine = self.signature(node).and_then(|signature| signature.machine.as_ref());
+        machine.into_iter().flat_map(|machine| &machine.moved).map(move |port| PortId { node, port: *port })
+    }
 }

@@ -16,6 +16,7 @@ mod plan;
 mod print;
 mod reaction;
 mod slots;
+mod verify;
 mod wiring;
 
 pub use bits::{Bits, ClusterRow, MissingRow};

@@ -122,6 +122,27 @@ pub enum Op {
     HoldIteration(NodeId),
 }
 
+impl Op {
+    /// The operations inside of one.
+    pub fn inner(&self) -> Vec<&[Op]> {
+        match self {
+            Self::Activate { then, .. }
+            | Self::Deactivate { then, .. }
+            | Self::Pass { then, .. }
+            | Self::GiveBack { then, .. }
+            | Self::If { then, .. }
+            | Self::IfSent { then, .. }
+            | Self::Taking { body: then, .. }
+            | Self::Block { body: then, .. }
+            | Self::IfArrived { body: then, .. } => vec![then],
+            Self::TakeActivity { gains, loses, .. } => vec![gains, loses],
+            Self::Cancel(cancel) => cancel.takes.iter().map(|taken| &*taken.then).collect(),
+            Self::Iteration { firings, .. } => firings.values().map(|ops| &**ops).collect(),
+            _ => vec![],
+        }
+    }
+}
+
 /// Taking activity out of nodes.
 #[derive(Debug)]
 pub struct Cancel {
