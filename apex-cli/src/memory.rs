@@ -7,7 +7,7 @@ use crate::{
     made::{self, Made},
     project, run,
 };
-use apex_dsl::{codegen::Piece, passes, checked::CheckedProgram};
+use apex_dsl::{checked::CheckedProgram, codegen::Piece, passes};
 use apex_host::Workspace;
 use serde_json::{Value, json};
 use std::{
@@ -46,7 +46,11 @@ pub fn run(file: &Path, answer: &mut Answer) -> Result<ExitCode, String> {
 }
 
 /// Builds and runs a program that prints one size per line: for each graph its own size, then those of its parts.
-fn measure<'a>(file: &Path, programs: &[&'a CheckedProgram], of_all: Vec<Vec<Piece>>) -> Result<Vec<Measured<'a>>, String> {
+fn measure<'a>(
+    file: &Path,
+    programs: &[&'a CheckedProgram],
+    of_all: Vec<Vec<Piece>>,
+) -> Result<Vec<Measured<'a>>, String> {
     let workspace = Workspace::load(&run::package(file)?)?;
     let text = run::absolute(file)?;
     let made = Made {

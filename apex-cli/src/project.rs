@@ -2,11 +2,11 @@
 
 use apex_dsl::{
     catalog::Catalog,
+    checked::CheckedProgram,
     claims::MAX_STATES,
     graph::Graph,
     machine::Machine,
     passes,
-    checked::CheckedProgram,
     report::{Diagnostics, Severity, render},
     resolve::{Link, SourceSet},
     source::{Sources, World as _},

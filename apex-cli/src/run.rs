@@ -8,8 +8,8 @@ use crate::{
     replace::is_same,
 };
 use apex_dsl::{
-    graph::{Graph, NodeKind},
     checked::CheckedProgram,
+    graph::{Graph, NodeKind},
     report::nearest,
     syntax::MAX_BYTES,
     units,

@@ -3,8 +3,8 @@
 use crate::{answer::Answer, project};
 use apex_dsl::{
     analyse::Analysis,
-    graph::{Graph, MAIN_GROUP, NodeId},
     checked::CheckedProgram,
+    graph::{Graph, MAIN_GROUP, NodeId},
 };
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path, process::ExitCode};

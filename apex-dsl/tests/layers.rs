@@ -78,3 +78,20 @@ fn modules_use_only_what_lies_below() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+/// Only the code generator writes Rust, and the catalog reads it.
+#[test]
+fn rust_is_written_in_one_place() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut all = vec![];
+    files(&root, &mut all);
+    let writes = |file: &PathBuf| {
+        let below = file.strip_prefix(&root).expect("it is a source").to_string_lossy().into_owned();
+        let text = fs::read_to_string(file).expect("it can be read");
+        let is_meant = !["codegen", "catalog", "passes.rs"].iter().any(|module| below.starts_with(module));
+        (is_meant && (text.contains("quote") && text.contains("quote!") || text.contains("proc_macro2")))
+            .then_some(below)
+    };
+    let wrong: Vec<String> = all.iter().filter_map(writes).collect();
+    assert!(wrong.is_empty(), "only `codegen` and `catalog` use tokens of Rust: {}", wrong.join(", "));
+}

@@ -3,11 +3,11 @@
 use apex_dsl::{
     analyse::{Analysis, Block, ClusterId, Run, Step},
     catalog::{Catalog, SignatureId},
+    checked::CheckedProgram,
     claims::Decided,
-    program::{Storage, storage},
     graph::{Flow, Graph, Node, NodeId, NodeKind, PortId},
     machine::{self, Machines},
-    checked::CheckedProgram,
+    program::{Storage, storage},
     resolve::Link,
     source::{Sources, Span},
     syntax::tree::PortKind,

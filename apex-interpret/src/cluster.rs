@@ -121,10 +121,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 local.write(self.state, PortId { node: *node, port: 1 }, token);
             }
             Op::Declare(port) => self.declare(*port, local),
-            Op::Block { tokens, body, .. } => {
-                if tokens.iter().all(|port| local.read(self.state, *port).is_some()) {
-                    self.ops(body, ctx, place);
-                }
+            Op::Block { tokens, body, .. } if tokens.iter().all(|port| local.read(self.state, *port).is_some()) => {
+                self.ops(body, ctx, place);
             }
             Op::Iteration { runs, firings } => {
                 for Firings { node, from, to } in runs {
@@ -139,10 +137,10 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                     local.firing = 0;
                 }
             }
-            Op::IfArrived { inputs, body } => {
-                if inputs.iter().all(|input| local.arriving(self.state, *input).is_some()) {
-                    self.ops(body, ctx, place);
-                }
+            Op::IfArrived { inputs, body }
+                if inputs.iter().all(|input| local.arriving(self.state, *input).is_some()) =>
+            {
+                self.ops(body, ctx, place);
             }
             Op::Fire { node, fire } => self.fire(*node, fire, ctx, local),
             Op::Store(port) => {

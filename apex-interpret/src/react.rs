@@ -8,6 +8,7 @@ use apex_dsl::{
     syntax::tree::PortKind,
 };
 use apex_rt::{Ctx, Next, Observer, Time};
+use std::ops::ControlFlow;
 
 /// Steps of a reaction; with more it is taken for an endless loop.
 const BUDGET: u32 = 1_000_000;
@@ -59,7 +60,10 @@ impl<O: Observer> Run<'_, '_, O> {
         if !program.has_time() {
             return match self.state.exit {
                 Some(code) => Next::Exit(code),
-                None => self.instant(now, now, true).unwrap_or_else(|next| next.or(self.sources())),
+                None => match self.instant(now, now, true) {
+                    ControlFlow::Break(next) => next,
+                    ControlFlow::Continue(next) => next.or(self.sources()),
+                },
             };
         }
         let now = self.state.time.of(now, self.observer);
@@ -72,13 +76,13 @@ impl<O: Observer> Run<'_, '_, O> {
             self.state.time.begin(at);
             let completes = at >= now || self.observer.ends_early();
             match self.instant(at, now, completes) {
-                Ok(next) => return next,
-                Err(next) if completes => {
+                ControlFlow::Break(next) => return next,
+                ControlFlow::Continue(next) if completes => {
                     // Instants that are left come before anything else.
                     let next = if next.is_at_most(now) { next } else { next.or(self.sources()) };
                     return self.state.time.outside(next);
                 }
-                Err(_) => {}
+                ControlFlow::Continue(_) => {}
             }
         }
     }
@@ -106,9 +110,9 @@ impl<O: Observer> Run<'_, '_, O> {
         if guards.any(|guard| analysis.guards[*guard] == Guard::React) { Next::Now } else { Next::Input }
     }
 
-    /// One instant of a reaction: `Ok` if the reaction is over because of an exit or of too many steps, else the next
-    /// time at which something is due. Sources without a period fire if it `completes` the reaction.
-    fn instant(&mut self, at: Time, now: Time, completes: bool) -> Result<Next, Next> {
+    /// One instant of a reaction. Breaks if the reaction is over because of an exit or of too many steps; else goes on
+    /// with the next time at which something is due. Sources without a period fire if it `completes` the reaction.
+    fn instant(&mut self, at: Time, now: Time, completes: bool) -> ControlFlow<Next, Next> {
         let code = self.code;
         let reaction = &code.reaction;
         let ctx = &Ctx::at(at, now);
@@ -127,41 +131,40 @@ impl<O: Observer> Run<'_, '_, O> {
                 self.fires(firing, true, ctx);
             }
         }
-        let mut first = begins;
-        while reaction.has_rounds {
-            let mut quiet = !self.poll(at, ctx);
-            if code.program.has_queue() && self.serve_queue(ctx) {
-                quiet = false;
-            }
-            for firing in &reaction.firings {
-                if self.fires(firing, first, ctx) {
-                    quiet = false;
-                }
-                if self.state.exit.is_some() {
-                    break;
-                }
-            }
-            first = false;
-            if self.state.steps == 0 {
-                break;
-            }
-            if quiet && (self.silence_ends(at) || self.expire(at, ctx)) {
-                quiet = false;
-            }
-            if quiet || self.state.exit.is_some() {
-                break;
-            }
+        if reaction.has_rounds {
+            self.rounds(at, begins, ctx);
         }
         if let Some(code) = self.state.exit {
-            return Ok(Next::Exit(code));
+            return ControlFlow::Break(Next::Exit(code));
         }
         if self.state.steps == 0 {
             self.observer.endless(&[], &[]);
-            return Ok(Next::Now);
+            return ControlFlow::Break(Next::Now);
         }
         let timers = self.state.timers.iter().map(|timer| timer.wish(at));
         let timeouts = self.state.timeouts.iter().chain(&self.state.silences).map(|timeout| timeout.wish(at));
-        Err(timers.chain(timeouts).fold(Next::Input, Next::or))
+        ControlFlow::Continue(timers.chain(timeouts).fold(Next::Input, Next::or))
+    }
+
+    /// Rounds of an instant, until nothing is left to do. Sources without a period fire in the first one if the reaction
+    /// `begins`.
+    fn rounds(&mut self, at: Time, begins: bool, ctx: &Ctx) {
+        let code = self.code;
+        let mut first = begins;
+        loop {
+            let mut quiet = !self.poll(at, ctx);
+            quiet &= !(code.program.has_queue() && self.serve_queue(ctx));
+            for firing in &code.reaction.firings {
+                quiet &= !self.fires(firing, first, ctx);
+            }
+            first = false;
+            if self.state.steps == 0 || self.state.exit.is_some() {
+                return;
+            }
+            if quiet && !self.silence_ends(at) && !self.expire(at, ctx) {
+                return;
+            }
+        }
     }
 
     /// Serves what follows from tokens that were sent.

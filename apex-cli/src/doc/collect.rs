@@ -4,9 +4,9 @@ use super::book::{Claim, Files, Item, Key, Picture, State, Test, Text, Use};
 use apex_diagram::{MAX_ITEMS, chart, diagram, folded, folded_states, svg};
 use apex_dsl::{
     catalog::SignatureId,
+    checked::CheckedProgram,
     claims::Verdict,
     graph::Graph,
-    checked::CheckedProgram,
     resolve::GraphId,
     source::Span,
     syntax::tree::{Arg, Endpoint, GraphItem, Instance, Modifier, NodeBody, PathExpr, StateItem, TypeKind},

@@ -133,17 +133,6 @@ impl Generator<'_> {
         (format_ident!("{set}"), Literal::usize_unsuffixed(bit))
     }
 
-    /// Expression that is `true` if a node has activity.
-    pub fn is_active_now(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
-        match view.graph.nodes[node].is_delay() {
-            true => {
-                let held = self.held_activity(node);
-                quote!(state.#held.holds_any())
-            }
-            false => self.is_set(Flag::Active(node)),
-        }
-    }
-
     /// The method of a node that is called when it becomes active, or inactive.
     pub fn hook(&self, graph: &Graph, node: NodeId, active: bool) -> TokenStream {
         let NodeKind::Library(library) = &graph.nodes[node].kind else { return quote!() };

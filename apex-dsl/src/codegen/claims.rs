@@ -1,5 +1,4 @@
-//! Positions of activity, including tokens on their way. The program checks undecided claims whenever activity
-//! has moved; where all are decided, nothing is generated for them.
+//! Claims about activity that a program looks at while it runs. Where all are decided, nothing is generated for them.
 
 use super::{
     Generator,
@@ -7,20 +6,12 @@ use super::{
     state::{Kind, StateField},
 };
 use crate::{
-    claims::{Checks, Decided, FROM, Model, NEARER, Place, PlaceId, scopes_of},
-    graph::{ClaimKind, Flow},
-    program::{Carries, Flag},
+    claims::Decided,
+    program::{Broken, ClaimCheck, Spot},
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use std::collections::{BTreeMap, BTreeSet};
 use syn::Ident;
-
-/// Expression that tells whether there is activity, and the places of the model that it stands for.
-struct Flagged {
-    test: TokenStream,
-    of: BTreeSet<PlaceId>,
-}
 
 impl Generator<'_> {
     /// The claim `live`, if the program looks at it.
@@ -33,37 +24,33 @@ impl Generator<'_> {
         let undecided = view.program.lower.undecided().into_iter();
         let text = |claim: usize| view.graph.claim_text(&view.graph.claims[claim]);
         undecided
-            .map(|claim| StateField::new(Kind::Claim, text(claim), broken(claim), quote!(bool), quote!(false)))
+            .map(|claim| StateField::new(Kind::Claim, text(claim), broken_field(claim), quote!(bool), quote!(false)))
             .collect()
     }
 
     /// The function that looks at them.
     pub fn claim_function(&self, view: ProgramView<'_>) -> TokenStream {
-        if !view.program.lower.checks_claims() {
+        let checks = view.program.claim_checks();
+        if checks.is_empty() {
             return quote!();
         }
-        let model = Model::new(view.graph, self.catalog);
-        let checks = Checks::new(view.graph, &model);
-        let flags = self.place_flags(view, &model);
-        let looks = view.program.lower.undecided().into_iter().map(|claim| {
-            let names = |group| any(&flags, &checks.places(claim, group));
-            let is_broken = match view.graph.claims[claim].kind {
-                ClaimKind::Exclusive => {
-                    let all = (0..view.graph.claims[claim].of.len() as u32).map(names);
+        let looks = checks.into_iter().map(|ClaimCheck { claim, broken }| {
+            let is_broken = match broken {
+                Broken::Several(groups) => {
+                    let all = groups.iter().map(|group| self.any(group));
                     quote!([#(#all),*].into_iter().filter(|active| *active).count() > 1)
                 }
-                ClaimKind::Reaches => {
-                    let (from, nearer) = (names(FROM), names(NEARER));
+                Broken::Lost(from, nearer) => {
+                    let (from, nearer) = (self.any(&from), self.any(&nearer));
                     quote!((#from) && !(#nearer))
                 }
-                // It is not about activity.
-                ClaimKind::Live => quote!(false),
-                ClaimKind::Conserved => {
-                    let (all, given) = (flags.values().map(|flag| &flag.test), model.given);
+                Broken::NotConserved(all, given) => {
+                    let all = all.iter().map(|spot| self.has_activity(*spot));
                     quote!([#(#all),*].into_iter().filter(|active| *active).count() != #given)
                 }
+                Broken::Never => quote!(false),
             };
-            let name = broken(claim);
+            let name = broken_field(claim);
             quote! {
                 let broken = #is_broken;
                 if broken && !state.#name {
@@ -80,16 +67,12 @@ impl Generator<'_> {
 
     /// Function that tells if a nested graph is active, by its index.
     pub fn is_graph_active(&self, view: ProgramView<'_>) -> TokenStream {
-        let graph = view.graph;
-        if view.analysis.active.is_empty() || graph.scopes.len() == 1 {
+        let scopes = view.program.active_scopes();
+        if scopes.is_empty() {
             return quote!();
         }
-        let model = Model::new(graph, self.catalog);
-        let flags = self.place_flags(view, &model);
-        let arms = graph.nested().map(|scope| {
-            let inside = (0..).zip(&model.places).filter(|(_, place)| scopes_of(graph, **place).contains(&scope));
-            let inside: Vec<PlaceId> = inside.map(|(id, _)| id).collect();
-            let (index, active) = (scope.index() - 1, any(&flags, &inside));
+        let arms = scopes.iter().map(|(scope, spots)| {
+            let (index, active) = (scope.index() - 1, self.any(spots));
             quote! { #index => #active, }
         });
         quote! {
@@ -100,40 +83,25 @@ impl Generator<'_> {
         }
     }
 
-    /// The expressions that say where activity is, by their text.
-    fn place_flags(&self, view: ProgramView<'_>, model: &Model) -> BTreeMap<String, Flagged> {
-        let mut flags: BTreeMap<String, Flagged> = BTreeMap::new();
-        for (place, what) in (0..).zip(&model.places) {
-            let flag = match *what {
-                Place::Node(node) | Place::Delayed(node, _) => self.is_active_now(view, node),
-                Place::Remembered(..) => continue,
-                // Nothing is kept for connections that never carry a token.
-                Place::Connection(c) if !view.analysis.asynchronous.live[c] => continue,
-                Place::Connection(c) if view.program.lower.carries(c) != Carries::Sometimes => continue,
-                Place::Connection(c) => {
-                    let connection = &view.graph.connections[c];
-                    let flag = match view.graph.flow(connection) {
-                        Flow::ToSlot => Flag::Carries(view.analysis.asynchronous.slot(c)),
-                        Flow::Synchronous | Flow::ToInput => Flag::Gains(connection.to.node),
-                    };
-                    self.is_set(flag)
-                }
-            };
-            let flagged = Flagged { test: flag.clone(), of: BTreeSet::new() };
-            flags.entry(flag.to_string()).or_insert(flagged).of.insert(place);
+    /// Expression that is `true` if one of some places has activity.
+    fn any(&self, spots: &[Spot]) -> TokenStream {
+        let spots = spots.iter().map(|spot| self.has_activity(*spot));
+        quote!(false #(|| #spots)*)
+    }
+
+    /// Expression that is `true` if a place has activity.
+    pub fn has_activity(&self, spot: Spot) -> TokenStream {
+        match spot {
+            Spot::Flag(flag) => self.is_set(flag),
+            Spot::Held(delay) => {
+                let held = self.held_activity(delay);
+                quote!(state.#held.holds_any())
+            }
         }
-        flags
     }
 }
 
-/// The flag that says that a claim is broken.
-fn broken(claim: usize) -> Ident {
+/// The field that says that a claim is broken.
+fn broken_field(claim: usize) -> Ident {
     format_ident!("claim_{claim}")
-}
-
-/// Expression that is `true` if one of `places` has activity. Flags that also stand for other places are left out.
-fn any(flags: &BTreeMap<String, Flagged>, places: &[PlaceId]) -> TokenStream {
-    let meant = flags.values().filter(|flag| flag.of.iter().all(|place| places.contains(place)));
-    let meant = meant.map(|flag| &flag.test);
-    quote!(false #(|| #meant)*)
 }

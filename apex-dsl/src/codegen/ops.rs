@@ -203,7 +203,7 @@ impl Writer<'_> {
         let keep = remembered.as_ref().map(|kept| quote! { if taken { state.#kept = remembered; } });
         let takes = takes.iter().map(|Taken { node, on_the_way, remember, then }| {
             let flags = on_the_way.iter().map(|flag| generator.take(*flag));
-            let found = flags.chain([generator.is_active_now(self.view, *node)]);
+            let found = flags.chain([generator.has_activity(self.view.program.lower.spot(*node))]);
             let bits = remember.iter().map(|node| Literal::usize_unsuffixed(generator.index(*node)));
             let then = self.ops(then);
             quote! { if #(#found)|* { taken = true; #(remembered.set(#bits, true);)* #then } }

@@ -180,7 +180,7 @@ impl Generator<'_> {
     /// The context for a node, which knows whether it is active.
     pub fn context(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         if view.analysis.active.contains(&node) {
-            let is_active = self.is_active_now(view, node);
+            let is_active = self.has_activity(view.program.lower.spot(node));
             quote!(&ctx.of_node(#is_active))
         } else {
             quote!(ctx)

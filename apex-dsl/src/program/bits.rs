@@ -35,11 +35,14 @@ pub struct ClusterRow {
     pub above: Vec<usize>,
 }
 
-/// A token from an event that a cluster needs, with the conditions that the other tokens are there that it needs.
+/// A token from an event that a cluster needs besides others.
 #[derive(Debug)]
 pub struct MissingRow {
+    /// Conditions that the other tokens are there.
     pub others: Vec<usize>,
+    /// Condition that the token is there.
     pub token: usize,
+    /// The connection of the token.
     pub connection: ConnectionId,
 }
 

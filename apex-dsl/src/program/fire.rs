@@ -13,7 +13,7 @@ use std::time::Duration;
 #[derive(Debug)]
 pub enum Fire {
     /// Calls a node of the catalog.
-    Call(Call),
+    Call(Box<Call>),
     /// Runs the body of an `each` for each element of a list.
     Each(Option<Deadline>),
     /// Puts a token into a delay.
@@ -69,6 +69,7 @@ pub struct SlotCall {
 
 /// Argument of a call.
 #[derive(Debug, Clone)]
+#[allow(missing_docs, reason = "the fields are called what they are")]
 pub enum Arg {
     /// The context.
     Context,
@@ -134,7 +135,7 @@ impl Program<'_> {
         let graph = self.lower.graph;
         match &graph.nodes[node].kind {
             NodeKind::Library(library) => {
-                Fire::Call(self.call(node, &self.lower.catalog.signatures[library.signature], plan))
+                Fire::Call(Box::new(self.call(node, &self.lower.catalog.signatures[library.signature], plan)))
             }
             NodeKind::Each(_) => Fire::Each(self.deadline(node)),
             NodeKind::Delay(_) => Fire::Hold,

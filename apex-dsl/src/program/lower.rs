@@ -1,5 +1,6 @@
 //! Input of the lowering.
 
+use super::{Flag, Spot};
 use crate::{
     analyse::{Analysis, ClusterId, Links, is_source},
     catalog::{Catalog, Signature},
@@ -12,9 +13,13 @@ use std::time::Duration;
 /// What a program, the part of a thread group, or the body of an `each` is lowered from.
 #[derive(Clone, Copy)]
 pub struct Lower<'a> {
+    /// The graph.
     pub graph: &'a Graph,
+    /// Its analysis.
     pub analysis: &'a Analysis,
+    /// Its connections, by node.
     pub links: &'a Links,
+    /// The node types.
     pub catalog: &'a Catalog,
     /// Verdicts on its claims; none in a part of a program and in the body of an `each`.
     pub claims: Option<&'a Decided>,
@@ -101,5 +106,13 @@ impl<'a> Lower<'a> {
     pub fn moved(self, node: NodeId) -> impl Iterator<Item = PortId> + 'a {
         let machine = self.signature(node).and_then(|signature| signature.machine.as_ref());
         machine.into_iter().flat_map(|machine| &machine.moved).map(move |port| PortId { node, port: *port })
+    }
+
+    /// Where the activity of a node is kept.
+    pub fn spot(self, node: NodeId) -> Spot {
+        match self.graph.nodes[node].is_delay() {
+            true => Spot::Held(node),
+            false => Spot::Flag(Flag::Active(node)),
+        }
     }
 }

@@ -7,6 +7,7 @@
 mod activity;
 mod bits;
 mod carries;
+mod claims;
 mod clusters;
 mod fire;
 mod interrupt;
@@ -21,6 +22,7 @@ mod wiring;
 
 pub use bits::{Bits, ClusterRow, MissingRow};
 pub use carries::Carries;
+pub use claims::{Broken, ClaimCheck, Spot};
 pub use fire::{Arg, Call, CallResult, Deadline, Failing, Fire, SlotCall};
 pub use lower::Lower;
 pub use op::{Cancel, Op, Ops, Served, Taken};

@@ -13,6 +13,7 @@ pub type Ops = Vec<Op>;
 
 /// Operation of a program.
 #[derive(Debug)]
+#[allow(missing_docs, reason = "the fields are called what they are")]
 pub enum Op {
     // Activity
     /// Makes a node active. `then` happens if it was not.

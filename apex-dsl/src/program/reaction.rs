@@ -55,6 +55,7 @@ impl After {
 
 /// Something that may have happened since it was last polled.
 #[derive(Debug)]
+#[allow(missing_docs, reason = "the fields are called what they are")]
 pub enum Poll {
     /// An event of the program has been taken out: the condition is raised.
     Room { event: NodeId, bit: usize },

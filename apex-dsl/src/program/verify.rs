@@ -56,7 +56,7 @@ impl Program<'_> {
     }
 
     /// The port from which the token of a slot comes.
-    fn from_of(&self, slot: usize) -> PortId {
+    fn source_of(&self, slot: usize) -> PortId {
         self.lower.graph.connections[self.wiring.slots[slot].connection].from
     }
 
@@ -74,7 +74,9 @@ impl Program<'_> {
         let mut faults = vec![];
         for (number, slot) in self.wiring.slots.iter().enumerate() {
             let text = || self.lower.graph.connection_text(slot.connection);
-            if effects.written.contains(&self.from_of(number)) && !self.has_queue() && !effects.served.contains(&number)
+            if effects.written.contains(&self.source_of(number))
+                && !self.has_queue()
+                && !effects.served.contains(&number)
             {
                 faults.push(format!("slot {number} of `{}` is never served", text()));
             }
@@ -173,7 +175,7 @@ impl Effects {
         // A slot is called only if there may be a token for it, and may then cause others.
         let mut called = BTreeSet::new();
         loop {
-            let is_new = |slot: &usize| !called.contains(slot) && effects.written.contains(&program.from_of(*slot));
+            let is_new = |slot: &usize| !called.contains(slot) && effects.written.contains(&program.source_of(*slot));
             let new: Vec<usize> = (0..program.wiring.slots.len()).filter(is_new).collect();
             if new.is_empty() {
                 return effects;

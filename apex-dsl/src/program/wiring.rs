@@ -29,9 +29,10 @@ pub enum Flag {
     Carries(usize),
 }
 
-/// Effects of a token at a port outside its region. A port may have several of these rows.
+/// Effects of a token at a port outside its region.
 #[derive(Debug)]
 pub struct Port {
+    /// The port.
     pub end: PortId,
     /// An active connection leads on from it, and this row says what that does.
     pub is_active: bool,
@@ -46,6 +47,7 @@ pub struct Port {
 /// An asynchronous connection, as its sender sees it.
 #[derive(Debug)]
 pub struct Send {
+    /// The connection.
     pub connection: ConnectionId,
     /// The slot whose token is queued; `None` if the token itself tells that it waits.
     pub queued: Option<usize>,
@@ -60,10 +62,13 @@ pub struct Send {
 /// The call of a slot because of the token on a connection.
 #[derive(Debug)]
 pub struct Slot {
+    /// The connection.
     pub connection: ConnectionId,
+    /// The node of the slot.
     pub node: NodeId,
     /// The condition that the connection is free again.
     pub frees: Option<usize>,
+    /// Activity that its token may carry.
     pub carries: Carries,
     /// The cluster, by its row, that may have been waiting for this call to count as finished.
     pub settles: Option<usize>,
@@ -84,7 +89,9 @@ impl Slot {
 /// The `timeout` of a node: how long it may be active.
 #[derive(Debug)]
 pub struct Timeout {
+    /// The node.
     pub node: NodeId,
+    /// How long it may be active.
     pub after: Duration,
     /// The conditions under which its event can be triggered.
     pub needs: Vec<usize>,
@@ -95,6 +102,7 @@ pub struct Timeout {
 pub struct Silence {
     /// The guard, by its number in the analysis.
     pub guard: usize,
+    /// Where the token is missed.
     pub entry: Entry,
     /// The nodes that must be called then.
     pub nodes: Vec<NodeId>,
@@ -102,6 +110,7 @@ pub struct Silence {
 
 /// Place of the token that did not come.
 #[derive(Debug)]
+#[allow(missing_docs, reason = "the fields are called what they are")]
 pub enum Entry {
     /// At an input of the program. `raises` is the condition that a token is there.
     Input { raises: usize },

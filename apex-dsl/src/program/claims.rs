@@ -1,0 +1,113 @@
+//! Lowering of claims about activity: where the program keeps activity, also that of tokens on their way. Undecided
+//! claims are looked at whenever activity has moved.
+
+use super::{Carries, Flag, Program};
+use crate::{
+    claims::{Checks, FROM, Model, NEARER, Place, PlaceId, scopes_of},
+    graph::{ClaimKind, Flow, NodeId, ScopeId},
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Place of activity in the state of a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Spot {
+    /// A flag.
+    Flag(Flag),
+    /// A delay, which keeps the activity of its tokens.
+    Held(NodeId),
+}
+
+/// A claim that the program looks at while it runs.
+#[derive(Debug)]
+pub struct ClaimCheck {
+    /// Its number.
+    pub claim: usize,
+    /// When it is broken.
+    pub broken: Broken,
+}
+
+/// Activity that breaks a claim.
+#[derive(Debug)]
+pub enum Broken {
+    /// In more than one of these groups.
+    Several(Vec<Vec<Spot>>),
+    /// In one of the first places, but in none of the others.
+    Lost(Vec<Spot>, Vec<Spot>),
+    /// In another number of places than this.
+    NotConserved(Vec<Spot>, usize),
+    /// None: the claim is not about activity.
+    Never,
+}
+
+/// Places, with those of the model that each stands for.
+type Spots = BTreeMap<Spot, BTreeSet<PlaceId>>;
+
+impl Program<'_> {
+    /// The claims that the program looks at.
+    pub fn claim_checks(&self) -> Vec<ClaimCheck> {
+        let undecided = self.lower.undecided();
+        if undecided.is_empty() {
+            return vec![];
+        }
+        let graph = self.lower.graph;
+        let model = Model::new(graph, self.lower.catalog);
+        let (checks, spots) = (Checks::new(graph, &model), self.spots(&model));
+        let check = |claim: usize| {
+            let group = |group| within(&spots, &checks.places(claim, group));
+            let broken = match graph.claims[claim].kind {
+                ClaimKind::Exclusive => Broken::Several((0..graph.claims[claim].of.len() as u32).map(group).collect()),
+                ClaimKind::Reaches => Broken::Lost(group(FROM), group(NEARER)),
+                ClaimKind::Live => Broken::Never,
+                ClaimKind::Conserved => Broken::NotConserved(spots.keys().copied().collect(), model.given),
+            };
+            ClaimCheck { claim, broken }
+        };
+        undecided.into_iter().map(check).collect()
+    }
+
+    /// For each nested graph, the places whose activity is in it. Empty if nothing is ever active.
+    pub fn active_scopes(&self) -> Vec<(ScopeId, Vec<Spot>)> {
+        let graph = self.lower.graph;
+        if self.lower.analysis.active.is_empty() || graph.scopes.len() == 1 {
+            return vec![];
+        }
+        let model = Model::new(graph, self.lower.catalog);
+        let spots = self.spots(&model);
+        let nested = graph.nested().map(|scope| {
+            let inside = (0..).zip(&model.places).filter(|(_, place)| scopes_of(graph, **place).contains(&scope));
+            let inside: Vec<PlaceId> = inside.map(|(id, _)| id).collect();
+            (scope, within(&spots, &inside))
+        });
+        nested.collect()
+    }
+
+    /// Where activity is kept.
+    fn spots(&self, model: &Model) -> Spots {
+        let Self { lower, .. } = self;
+        let mut spots = Spots::new();
+        for (place, what) in (0..).zip(&model.places) {
+            let spot = match *what {
+                Place::Node(node) | Place::Delayed(node, _) => lower.spot(node),
+                Place::Remembered(..) => continue,
+                // Nothing is kept for connections that never carry a token.
+                Place::Connection(c) if !lower.analysis.asynchronous.live[c] => continue,
+                Place::Connection(c) if lower.carries(c) != Carries::Sometimes => continue,
+                Place::Connection(c) => {
+                    let connection = &lower.graph.connections[c];
+                    Spot::Flag(match lower.graph.flow(connection) {
+                        Flow::ToSlot => Flag::Carries(lower.analysis.asynchronous.slot(c)),
+                        Flow::Synchronous | Flow::ToInput => Flag::Gains(connection.to.node),
+                    })
+                }
+            };
+            spots.entry(spot).or_default().insert(place);
+        }
+        spots
+    }
+}
+
+/// Those that stand for some of `places`, and for no others.
+fn within(spots: &Spots, places: &[PlaceId]) -> Vec<Spot> {
+    let meant = spots.iter().filter(|(_, of)| of.iter().all(|place| places.contains(place)));
+    meant.map(|(spot, _)| *spot).collect()
+}
