@@ -49,7 +49,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             sets.iter().for_each(|(param, value)| node.set_param(*param, value));
         }
         let Some(args) = &call.args else { return };
-        let number = self.code.number(node);
+        let number = self.number(node);
         self.observer.fired(number);
         let is_missing = |input: &PortId| local.arriving(self.state, *input).is_none();
         if call.mandatory.iter().flatten().any(is_missing) {
@@ -143,7 +143,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         match result {
             Ok(value) => Some(value),
             Err(failure) => {
-                self.observer.failed(self.code.number(node), &failure);
+                self.observer.failed(self.number(node), &failure);
                 if let Failing::Contained { event, restart, .. } = failing {
                     if let Some(event) = event {
                         self.state.tokens.insert(event, std::rc::Rc::new(failure));
@@ -176,7 +176,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     /// Reports a node that has finished later than its `deadline` allows.
     fn late(&mut self, node: NodeId, deadline: Option<Deadline>, ctx: &Ctx) {
         let Some(Deadline { time, event }) = deadline else { return };
-        if ctx.is_late(self.code.number(node), time, self.observer)
+        if ctx.is_late(self.number(node), time, self.observer)
             && let Some(event) = event
         {
             self.state.tokens.insert(event, std::rc::Rc::new(()));

@@ -1,16 +1,61 @@
 //! A program that is interpreted: its operations, and its state.
 
-use crate::{Library, state::State};
+use crate::{Library, cells::Cells, state::State};
 use apex_dsl::{
     analyse::{Analysis, ClusterId},
     catalog::Catalog,
-    graph::{Graph, NodeId, NodeKind, PortId},
+    checked::CheckedProgram,
+    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId},
     index::IdVec,
     program::{ClusterRow, Lower, Ops, Plan, Program, Reaction, Served},
+    threads::{Origin, Part},
 };
 use std::collections::BTreeMap;
 
-/// Operations of a program, or of the body of an `each`.
+/// Numbers of nodes and connections, for observers.
+#[derive(Clone, Default)]
+pub struct Numbers {
+    /// Number of each node among all nodes.
+    pub own: IdVec<NodeId, usize>,
+    /// Number of each connection; `None` if observers do not know it.
+    pub connections: IdVec<ConnectionId, Option<usize>>,
+    /// Those in the bodies of `each`.
+    inner: BTreeMap<NodeId, Numbers>,
+}
+
+impl Numbers {
+    /// The numbers in a graph. `count` is the number of nodes before it.
+    fn new(graph: &Graph, count: &mut usize) -> Self {
+        let own = (*count..*count + graph.nodes.len()).collect();
+        *count += graph.nodes.len();
+        let connections = graph.connections.ids().map(|connection| Some(connection.index())).collect();
+        let mut inner = BTreeMap::new();
+        for (node, n) in graph.nodes.iter_enumerated() {
+            if let NodeKind::Each(each) = &n.kind {
+                inner.insert(node, Self::new(&each.body, count));
+            }
+        }
+        Self { own, connections, inner }
+    }
+
+    /// The numbers in the part of a thread group. Nodes that only pass tokens on come behind all others.
+    fn of_part(&self, part: &Part, beyond: usize) -> Self {
+        let mut numbers = Self::default();
+        for (node, origin) in part.origins.iter_enumerated() {
+            match origin {
+                Origin::Node(origin) => {
+                    numbers.own.push(self.own[*origin]);
+                    numbers.inner.extend(self.inner.get(origin).map(|inner| (node, inner.clone())));
+                }
+                Origin::Token(_) => drop(numbers.own.push(beyond + node.index())),
+            }
+        }
+        numbers.connections = part.connections.iter().map(|origin| origin.map(ConnectionId::index)).collect();
+        numbers
+    }
+}
+
+/// Operations of a program, of the part of a thread group, or of the body of an `each`.
 pub struct Code<'a> {
     /// The program.
     pub program: Program<'a>,
@@ -32,17 +77,17 @@ pub struct Code<'a> {
     pub reaction: Reaction,
     /// The clusters that the dispatcher looks at.
     pub rows: Vec<ClusterRow>,
-    /// Number of the first node among all nodes, for observers.
-    pub base: usize,
+    /// Numbers for observers.
+    pub numbers: Numbers,
+    /// It is the part of a thread group, beside others.
+    pub is_part: bool,
     /// Bodies of `each`.
     pub bodies: BTreeMap<NodeId, Code<'a>>,
 }
 
 impl<'a> Code<'a> {
-    /// Operations of a graph. `count` is the number of nodes before it.
-    fn new(graph: &'a Graph, analysis: &'a Analysis, catalog: &'a Catalog, count: &mut usize) -> Self {
-        let base = *count;
-        *count += graph.nodes.len();
+    /// Operations of a graph.
+    fn new(graph: &'a Graph, analysis: &'a Analysis, catalog: &'a Catalog, numbers: Numbers, is_part: bool) -> Self {
         let program = Program::new(Lower::new(graph, analysis, catalog, None));
         let plan = |cluster| Plan::new(graph, catalog, &analysis.links, analysis, cluster);
         let plans: IdVec<ClusterId, Plan> = analysis.clusters.ids().map(plan).collect();
@@ -50,7 +95,8 @@ impl<'a> Code<'a> {
         let mut bodies = BTreeMap::new();
         for (node, n) in graph.nodes.iter_enumerated() {
             if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node)) {
-                bodies.insert(node, Self::new(&each.body, body, catalog, count));
+                let inner = numbers.inner.get(&node).cloned().unwrap_or_default();
+                bodies.insert(node, Self::new(&each.body, body, catalog, inner, false));
             }
         }
         Self {
@@ -62,7 +108,8 @@ impl<'a> Code<'a> {
             interrupts: program.interrupts().into_iter().collect(),
             reaction: program.reaction(),
             rows: program.wiring.bits.rows(graph, analysis, &analysis.links),
-            base,
+            numbers,
+            is_part,
             bodies,
             plans,
             program,
@@ -70,7 +117,7 @@ impl<'a> Code<'a> {
     }
 
     /// Faults of the compiler that show in the program, also in the bodies of its `each`.
-    pub fn verify(&self) -> Vec<String> {
+    fn verify(&self) -> Vec<String> {
         let inner = self.bodies.values().flat_map(Self::verify);
         self.program.verify(&self.plans, &self.clusters).into_iter().chain(inner).collect()
     }
@@ -79,36 +126,42 @@ impl<'a> Code<'a> {
     pub fn graph(&self) -> &'a Graph {
         self.program.lower.graph
     }
-
-    /// Number of a node among all nodes, for observers.
-    pub fn number(&self, node: NodeId) -> usize {
-        self.base + node.index()
-    }
 }
 
 /// A program with its state.
 pub struct Interpreter<'a> {
-    pub(crate) code: Code<'a>,
-    pub(crate) state: State,
+    /// The program, or its parts: the main group is the first.
+    pub(crate) parts: Vec<(Code<'a>, State)>,
+    pub(crate) cells: Cells<'a>,
     pub(crate) library: &'a dyn Library,
 }
 
 impl<'a> Interpreter<'a> {
-    /// The program of a graph before its first reaction.
+    /// The program before its first reaction.
     ///
     /// # Errors
     /// Returns what the library does not know.
-    pub fn new(
-        graph: &'a Graph,
-        analysis: &'a Analysis,
-        catalog: &'a Catalog,
-        library: &'a dyn Library,
-    ) -> Result<Self, String> {
-        let code = Code::new(graph, analysis, catalog, &mut 0);
-        if let Some(fault) = code.verify().into_iter().next() {
-            return Err(format!("internal error of the compiler: {fault}"));
+    pub fn new(program: &'a CheckedProgram, catalog: &'a Catalog, library: &'a dyn Library) -> Result<Self, String> {
+        let mut count = 0;
+        let numbers = Numbers::new(&program.graph, &mut count);
+        let (codes, cells): (Vec<Code<'a>>, _) = match &program.split {
+            None => (vec![Code::new(&program.graph, &program.analysis, catalog, numbers, false)], &[][..]),
+            Some(split) => {
+                let part = |part: &'a Part| {
+                    Code::new(&part.graph, &part.analysis, catalog, numbers.of_part(part, count), true)
+                };
+                (split.parts.iter().map(part).collect(), &split.cells[..])
+            }
+        };
+        let mut parts = vec![];
+        for code in codes {
+            if let Some(fault) = code.verify().into_iter().next() {
+                return Err(format!("internal error of the compiler: {fault}"));
+            }
+            let state = State::new(&code, library)?;
+            parts.push((code, state));
         }
-        let state = State::new(&code, library)?;
-        Ok(Self { code, state, library })
+        let cells = Cells::new(cells, parts.len());
+        Ok(Self { parts, cells, library })
     }
 }

@@ -20,7 +20,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         let NodeKind::Each(each) = &graph.nodes[node].kind else { return };
         let (Some(list), Some(body)) = (each.list, code.bodies.get(&node)) else { return };
         let Some(tokens) = local.arriving(self.state, PortId { node, port: list }) else { return };
-        self.observer.fired(code.number(node));
+        let number = self.number(node);
+        self.observer.fired(number);
         let Some(mut inner) = self.state.bodies.remove(&node) else { return };
         // Ports of the body have the names of those of the node.
         let boundary = |port: usize, kind: PortKind| {
@@ -41,7 +42,13 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                     given.insert(PortId { node: inside, port: 0 }, token);
                 }
             }
-            let mut run = Run { code: body, state: &mut inner, library: self.library, observer: &mut *self.observer };
+            let mut run = Run {
+                code: body,
+                state: &mut inner,
+                cells: &mut *self.cells,
+                library: self.library,
+                observer: &mut *self.observer,
+            };
             for cluster in body.clusters.ids() {
                 let mut local = Local::new(body.program.lower, &body.plans[cluster]);
                 given.iter().for_each(|(port, token)| local.write(run.state, *port, Some(token.clone())));
@@ -60,6 +67,6 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             local.write(self.state, end, Some(list));
         }
         self.state.bodies.insert(node, inner);
-        self.observer.finished(code.number(node));
+        self.observer.finished(number);
     }
 }

@@ -1,9 +1,10 @@
 //! Interpreter of Apex programs: it executes the operations that the generated code is written from, over boxed nodes
 //! and tokens of any type. It is slow and simple; its firings, activity and times are those of the compiled program.
 //!
-//! A program on several threads is run as if it had one.
+//! Thread groups run in turn.
 
 mod call;
+mod cells;
 mod cluster;
 mod code;
 mod conditions;

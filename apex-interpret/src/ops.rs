@@ -1,6 +1,6 @@
 //! Execution of operations: activity, events, slots and time.
 
-use crate::{Library, Value, cluster::Local, code::Code, state::State};
+use crate::{Library, Value, cells::Cells, cluster::Local, code::Code, state::State};
 use apex_dsl::{
     graph::{NodeId, NodeKind, PortId},
     program::{Cancel, Carries, Flag, Op, Taken},
@@ -12,6 +12,7 @@ use apex_rt::{Ctx, Observer, Time};
 pub struct Run<'r, 'a, O> {
     pub code: &'r Code<'a>,
     pub state: &'r mut State,
+    pub cells: &'r mut Cells<'a>,
     pub library: &'r dyn Library,
     pub observer: &'r mut O,
 }
@@ -196,7 +197,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         let turned = self.state.flags.insert(Flag::Active(node));
         if turned {
             if self.code.program.lower.is_observed(node) {
-                self.observer.activity(self.code.number(node), true);
+                self.observer.activity(self.number(node), true);
             }
             if let Some(timeout) = self.code.program.wiring.timeout(node) {
                 self.start_timeout(timeout, ctx);
@@ -210,7 +211,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         let turned = self.state.take(Flag::Active(node));
         if turned {
             if self.code.program.lower.is_observed(node) {
-                self.observer.activity(self.code.number(node), false);
+                self.observer.activity(self.number(node), false);
             }
             if let Some(timeout) = self.code.program.wiring.timeout(node) {
                 self.state.timeouts[timeout].stop();
@@ -317,7 +318,9 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     fn serve(&mut self, number: usize, ctx: &Ctx) {
         let code = self.code;
         let slot = &code.program.wiring.slots[number];
-        self.observer.handled(slot.connection.index());
+        if let Some(connection) = code.numbers.connections[slot.connection] {
+            self.observer.handled(connection);
+        }
         if let Some(bit) = slot.frees {
             self.state.conditions.set(bit, true);
         }
@@ -335,7 +338,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             self.outside(&served.turned, &ctx);
         }
         self.outside(&served.call, &ctx);
-        self.observer.finished(code.number(slot.node));
+        self.observer.finished(self.number(slot.node));
         self.outside(&served.after, &ctx);
     }
 

@@ -3,7 +3,7 @@
 use crate::{Interpreter, Value, ops::Run};
 use apex_dsl::{
     analyse::Guard,
-    graph::NodeId,
+    graph::{NodeId, NodeKind, PortId},
     program::{After, Entering, Entry, Firing, Flag, Poll},
     syntax::tree::PortKind,
 };
@@ -16,51 +16,67 @@ const BUDGET: u32 = 1_000_000;
 impl Interpreter<'_> {
     /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
     pub fn react<O: Observer>(&mut self, now: Time, observer: &mut O) -> Next {
-        let Self { code, state, library } = self;
-        Run { code, state, library: *library, observer }.react(now)
+        let Self { parts, cells, library } = self;
+        let mut next = vec![Next::Input; parts.len()];
+        cells.wake_all();
+        for round in 0..apex_rt::threads::MAX_ROUNDS {
+            for (group, (code, state)) in parts.iter_mut().enumerate() {
+                if !cells.take_woken(group) {
+                    continue;
+                }
+                let mut run = Run { code, state, cells, library: *library, observer };
+                next[group] = run.react(now, round == 0);
+                if let Next::Exit(code) = next[group] {
+                    return Next::Exit(code);
+                }
+            }
+            if !cells.any_woken() {
+                return next.into_iter().fold(Next::Input, Next::or);
+            }
+        }
+        observer.endless(&[], &[]);
+        Next::Now
     }
 
     /// Puts a token into an input or slot of the program, by the name of the port, unless one waits there. Returns
     /// `false` if there is no such port.
     pub fn put(&mut self, port: &str, token: Value) -> bool {
         let Some(node) = self.port(port, |kind| matches!(kind, PortKind::Input | PortKind::Slot)) else { return false };
-        let arrival = self.state.inputs.values().map(|(arrival, _)| arrival + 1).max().unwrap_or(0);
-        self.state.inputs.entry(node).or_insert((arrival, token));
+        let inputs = &mut self.parts[0].1.inputs;
+        let arrival = inputs.values().map(|(arrival, _)| arrival + 1).max().unwrap_or(0);
+        inputs.entry(node).or_insert((arrival, token));
         true
     }
 
     /// The token that came out last at an output of the program.
     pub fn output(&self, port: &str) -> Option<Value> {
         let node = self.port(port, |kind| kind == PortKind::Output)?;
-        self.state.outputs.get(&node).cloned()
+        self.parts[0].1.outputs.get(&node).cloned()
     }
 
     /// Takes the token of an event of the program.
     pub fn take(&mut self, event: &str) -> Option<Value> {
         let node = self.port(event, |kind| kind == PortKind::Event)?;
-        self.state.events.remove(&node)
+        self.parts[0].1.events.remove(&node)
     }
 
-    /// Returns `true` if a node is active.
-    pub fn is_active(&self, node: NodeId) -> bool {
-        self.state.flags.contains(&Flag::Active(node))
-    }
-
+    /// The node of a port of the program. They belong to the main group.
     fn port(&self, name: &str, is_meant: impl Fn(PortKind) -> bool) -> Option<NodeId> {
-        let graph = self.code.graph();
-        graph.nodes.position(|node| {
-            node.name == name && matches!(node.kind, apex_dsl::graph::NodeKind::Boundary(kind) if is_meant(kind))
-        })
+        let graph = self.parts[0].0.graph();
+        graph
+            .nodes
+            .position(|node| node.name == name && matches!(node.kind, NodeKind::Boundary(kind) if is_meant(kind)))
     }
 }
 
 impl<O: Observer> Run<'_, '_, O> {
-    fn react(&mut self, now: Time) -> Next {
+    /// A reaction of a part. It `begins` one, or goes on with it because other parts did something meanwhile.
+    fn react(&mut self, now: Time, begins: bool) -> Next {
         let program = &self.code.program;
         if !program.has_time() {
             return match self.state.exit {
                 Some(code) => Next::Exit(code),
-                None => match self.instant(now, now, true) {
+                None => match self.instant(now, now, begins) {
                     ControlFlow::Break(next) => next,
                     ControlFlow::Continue(next) => next.or(self.sources()),
                 },
@@ -70,12 +86,19 @@ impl<O: Observer> Run<'_, '_, O> {
         if let Some(code) = self.state.exit {
             return Next::Exit(code);
         }
+        if !program.has_instants() {
+            self.state.time.begin(now);
+            return match self.instant(now, now, begins) {
+                ControlFlow::Break(next) => next,
+                ControlFlow::Continue(next) => self.state.time.outside(next.or(self.sources())),
+            };
+        }
         self.skip(now);
         loop {
             let at = self.next_instant(now);
             self.state.time.begin(at);
             let completes = at >= now || self.observer.ends_early();
-            match self.instant(at, now, completes) {
+            match self.instant(at, now, begins && completes) {
                 ControlFlow::Break(next) => return next,
                 ControlFlow::Continue(next) if completes => {
                     // Instants that are left come before anything else.
@@ -103,16 +126,19 @@ impl<O: Observer> Run<'_, '_, O> {
         }
     }
 
-    /// When a program wants to be called because of sources without a pace.
+    /// When a program wants to be called because of sources without a pace. If a part waits for others, they wake it.
     fn sources(&self) -> Next {
-        let analysis = self.code.program.lower.analysis;
+        let (analysis, bits) = (self.code.program.lower.analysis, &self.code.program.wiring.bits);
         let mut guards = analysis.clusters.iter().flat_map(|c| &c.own_guards);
-        if guards.any(|guard| analysis.guards[*guard] == Guard::React) { Next::Now } else { Next::Input }
+        let has_fired = |guard: usize| bits.guard(guard).is_none_or(|bit| !self.state.conditions.has(bit));
+        let wants =
+            |guard: &usize| analysis.guards[*guard] == Guard::React && (!self.code.is_part || has_fired(*guard));
+        if guards.any(wants) { Next::Now } else { Next::Input }
     }
 
     /// One instant of a reaction. Breaks if the reaction is over because of an exit or of too many steps; else goes on
-    /// with the next time at which something is due. Sources without a period fire if it `completes` the reaction.
-    fn instant(&mut self, at: Time, now: Time, completes: bool) -> ControlFlow<Next, Next> {
+    /// with the next time at which something is due. Sources without a period fire if it `begins` a reaction.
+    fn instant(&mut self, at: Time, now: Time, begins: bool) -> ControlFlow<Next, Next> {
         let code = self.code;
         let reaction = &code.reaction;
         let ctx = &Ctx::at(at, now);
@@ -124,7 +150,6 @@ impl<O: Observer> Run<'_, '_, O> {
             self.outside(&code.first, ctx);
             self.after(served, ctx);
         }
-        let begins = completes || !code.program.has_instants();
         if begins {
             reaction.once.iter().for_each(|bit| self.state.conditions.set(*bit, true));
             for firing in &reaction.before {
@@ -240,8 +265,8 @@ impl<O: Observer> Run<'_, '_, O> {
                         any = true;
                     }
                 }
-                // The graph is not divided into thread groups.
-                Poll::Sender(_) | Poll::Receiver(_) => {}
+                Poll::Sender(sender) => any |= self.send_far(sender),
+                Poll::Receiver(receiver) => any |= self.receive_far(receiver, ctx),
             }
         }
         any
@@ -260,7 +285,7 @@ impl<O: Observer> Run<'_, '_, O> {
 
     /// Takes the token of a slot of the program.
     fn enter(&mut self, slot: &Entering, ctx: &Ctx) {
-        let port = apex_dsl::graph::PortId { node: slot.node, port: 0 };
+        let port = PortId { node: slot.node, port: 0 };
         if let Some((_, token)) = self.state.inputs.remove(&slot.node) {
             self.state.tokens.insert(port, token);
         }

@@ -44,6 +44,8 @@ pub struct State {
     pub time: ProgramTime,
     /// How far it was ahead when the event of a node was last triggered.
     pub told_ahead: BTreeMap<NodeId, i64>,
+    /// Cells whose tokens are not done with.
+    pub holding: BTreeSet<usize>,
     /// Steps that are left in the reaction.
     pub steps: u32,
     /// `true` after `start`.
@@ -112,6 +114,7 @@ impl State {
             cluster_stamps: BTreeMap::new(),
             time: ProgramTime::new(),
             told_ahead: BTreeMap::new(),
+            holding: BTreeSet::new(),
             steps: u32::MAX,
             started: false,
             exit: None,

@@ -2,7 +2,7 @@
 //!
 //! `APEX_INTERPRETED_GRAPHS` is the number of graphs (1,000), `APEX_ORACLE_SEED` the first seed.
 
-use apex_tests::oracle::{Case, Checker, Record, generate, interpret, paced, with_timeouts};
+use apex_tests::oracle::{Case, Checker, Record, generate, interpret, on_threads, paced, with_timeouts};
 use rayon::prelude::*;
 use std::env;
 
@@ -38,7 +38,11 @@ fn as_net(checker: &Checker, case: &Case) -> Tried {
     };
     let Err((step, why)) = checker.judge(&checked, &records) else { return Tried::Right(calls(&records)) };
     let names = |node: apex_dsl::graph::NodeId| {
-        if node.index() < checked.graph.nodes.len() { checked.graph.path(node) } else { "inner".to_owned() }
+        if node.index() < checked.program.graph.nodes.len() {
+            checked.program.graph.path(node)
+        } else {
+            "inner".to_owned()
+        }
     };
     let shown = &records[step.saturating_sub(25)..=step.min(records.len() - 1)];
     let shown: Vec<String> = shown.iter().map(|record| record.named(&names, &checked)).collect();
@@ -103,6 +107,11 @@ fn interpreted_graphs_run_as_their_nets_may() {
 #[test]
 fn interpreted_timeouts_come_as_in_their_nets() {
     try_all(2, |seed| with_timeouts(generate(seed, true)), as_net);
+}
+
+#[test]
+fn interpreted_thread_groups_run_as_their_nets_may() {
+    try_all(4, |seed| on_threads(with_timeouts(generate(seed, true))), as_net);
 }
 
 #[test]

@@ -59,35 +59,36 @@ fn wrong(checker: &Checker, program: &Program, ways: &[How], records: &[Vec<Stri
     all.find_map(|(how, records)| {
         let why = match how {
             How::Again | How::Late => Some(records[at].clone()).filter(|difference| !difference.is_empty()),
-            How::InTurn | How::OnThreads => wrong_record(checker, program, &records[at]),
+            How::InTurn | How::OnThreads => wrong_record(checker, program, *how, &records[at]),
         };
         why.map(|why| format!("{why}\n  ({how:?})"))
     })
 }
 
-fn wrong_record(checker: &Checker, program: &Program, trace: &str) -> Option<String> {
+fn wrong_record(checker: &Checker, program: &Program, how: How, trace: &str) -> Option<String> {
     let records = read(trace);
     if !trace.ends_with("E\n") {
         return Some(format!("the program stopped early:\n{}", last_lines(trace, 20)));
     }
     let checked = checker.check(&program.text).expect("only legal texts are compiled");
     let Err((step, why)): Result<(), Failure> = checker.judge(&checked, &records) else {
-        return differs_interpreted(checker, &checked, &records);
+        // On threads, the order differs from run to run.
+        return if how == How::InTurn { differs_interpreted(checker, &checked, &records) } else { None };
     };
     let names = |node: NodeId| {
-        if node.index() < checked.graph.nodes.len() { checked.graph.path(node) } else { "inner".to_owned() }
+        if node.index() < checked.program.graph.nodes.len() {
+            checked.program.graph.path(node)
+        } else {
+            "inner".to_owned()
+        }
     };
     let shown: Vec<String> =
         records[step.saturating_sub(25)..=step].iter().map(|r| r.named(&names, &checked)).collect();
     Some(format!("{why}\n  {}", shown.join("\n  ")))
 }
 
-/// The first difference between a run of a compiled program and that of the interpreter. Programs on several threads
-/// are not compared: the interpreter has one.
+/// The first difference between a run of a compiled program and that of the interpreter.
 fn differs_interpreted(checker: &Checker, checked: &Checked, records: &[Record]) -> Option<String> {
-    if checked.is_split {
-        return None;
-    }
     let times = records.iter().filter_map(|r| if let Record::Begin(now) = r { Some(*now as i64) } else { None });
     let times: Vec<i64> = times.collect();
     let interpreted = match interpret(&checker.catalog(), checked, &times) {

@@ -20,7 +20,7 @@ struct Case<'a> {
 
 impl<'a> Case<'a> {
     fn new(checked: &'a Checked, catalog: &'a apex_dsl::catalog::Catalog) -> Self {
-        let (graph, analysis) = (&checked.graph, &checked.analysis);
+        let (graph, analysis) = (&checked.program.graph, &checked.program.analysis);
         let program = Program::new(Lower::new(graph, analysis, catalog, None));
         let plan = |cluster| Plan::new(graph, catalog, &analysis.links, analysis, cluster);
         let plans: IdVec<ClusterId, Plan> = analysis.clusters.ids().map(plan).collect();

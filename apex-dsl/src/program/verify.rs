@@ -5,7 +5,7 @@ use super::{
 };
 use crate::{
     analyse::ClusterId,
-    graph::{Flow, NodeId, PortId},
+    graph::{Flow, NodeId, NodeKind, PortId},
     index::IdVec,
     syntax::tree::PortKind,
 };
@@ -60,13 +60,19 @@ impl Program<'_> {
         self.lower.graph.connections[self.wiring.slots[slot].connection].from
     }
 
+    /// Returns `true` if a node is in a cluster that can fire.
+    fn fires(&self, node: NodeId) -> bool {
+        let analysis = self.lower.analysis;
+        analysis.clusters.get(analysis.cluster_of[node]).is_some_and(|c| c.fires && c.nodes.contains(&node))
+    }
+
     fn path(&self, node: NodeId) -> String {
         self.lower.graph.path(node)
     }
 
     /// In regions with several rates, an input of the program and a delay only take tokens.
     fn is_taken_first(&self, node: NodeId) -> bool {
-        use crate::graph::NodeKind::{Boundary, Delay};
+        use NodeKind::{Boundary, Delay};
         matches!(self.lower.graph.nodes[node].kind, Boundary(PortKind::Input) | Delay(_))
     }
 
@@ -105,7 +111,8 @@ impl Program<'_> {
         // A token that leads to a cluster that never fires waits forever.
         let fires = |send: &&Send| {
             let c = &graph.connections[send.connection];
-            graph.flow(c) == Flow::ToSlot || analysis.clusters[analysis.cluster_of[c.to.node]].fires
+            let is_sender = matches!(graph.nodes[c.to.node].kind, NodeKind::Sender(_));
+            graph.flow(c) == Flow::ToSlot || is_sender || self.fires(c.to.node)
         };
         let sends = self.wiring.ports().flat_map(|port| &port.sends).filter(fires);
         let faults = sends.flat_map(|send| {
@@ -132,9 +139,7 @@ impl Program<'_> {
             Flag::Carries(slot) => self.wiring.slots.get(slot).is_some_and(|slot| slot.carries == Carries::Sometimes),
             // What takes activity away goes to the other group with the token.
             Flag::Gains(node) | Flag::Loses(node) => {
-                let analysis = self.lower.analysis;
-                let fires = analysis.clusters[analysis.cluster_of[node]].fires;
-                effects.taken.contains(flag) || far.contains(&node) || !fires
+                effects.taken.contains(flag) || far.contains(&node) || !self.fires(node)
             }
             Flag::Active(_) | Flag::Enabled(_) => true,
         };

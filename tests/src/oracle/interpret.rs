@@ -145,7 +145,7 @@ impl Observer for Notes {
 pub fn interpret(catalog: &Catalog, checked: &Checked, times: &[i64]) -> Result<Vec<Record>, String> {
     let records = Records::default();
     let library = Scripts { records: records.clone() };
-    let mut program = Interpreter::new(&checked.graph, &checked.analysis, catalog, &library)?;
+    let mut program = Interpreter::new(&checked.program, catalog, &library)?;
     for now in times {
         records.borrow_mut().push(Record::Begin(*now as u64));
         program.react(Time::from_nanos(*now), &mut Notes(records.clone()));

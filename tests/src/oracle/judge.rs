@@ -2,7 +2,6 @@
 
 use super::script;
 use apex_dsl::{
-    analyse::Analysis,
     catalog::{Catalog, Signature},
     checked::CheckedProgram,
     graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Value},
@@ -27,14 +26,10 @@ pub struct Checker {
 
 /// A checked graph with its net.
 pub struct Checked {
-    /// The graph.
-    pub graph: Graph,
-    /// Results of its analysis.
-    pub analysis: Analysis,
-    /// Net of the graph.
+    /// The program.
+    pub program: CheckedProgram,
+    /// Net of its graph.
     pub net: Net,
-    /// `true` if it runs on several threads.
-    pub is_split: bool,
 }
 
 /// One entry of a recorded run.
@@ -64,8 +59,12 @@ impl Record {
             Self::Begin(now) => format!("reaction at {now} ns"),
             Self::Fired(node) => format!("fired {}", name(*node)),
             Self::Handled(connection) => {
-                let c = &checked.graph.connections[*connection];
-                format!("handled {} -> {}", checked.graph.end_name(c.from), checked.graph.end_name(c.to))
+                let c = &checked.program.graph.connections[*connection];
+                format!(
+                    "handled {} -> {}",
+                    checked.program.graph.end_name(c.from),
+                    checked.program.graph.end_name(c.to)
+                )
             }
             Self::Activity(node, active) => format!("{} {}active", name(*node), if *active { "" } else { "in" }),
             Self::Took(tokens) => format!("  took {tokens:?}"),
@@ -102,10 +101,9 @@ impl Checker {
         if !errors.is_empty() {
             return Err(errors.join("\n"));
         }
-        let CheckedProgram { graph, analysis, split, .. } =
-            checked.programs.into_iter().next_back().ok_or("there is no program")?;
-        let net = apex_petri::net(&graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
-        Ok(Checked { graph, analysis, net, is_split: split.is_some() })
+        let program = checked.programs.into_iter().next_back().ok_or("there is no program")?;
+        let net = apex_petri::net(&program.graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
+        Ok(Checked { program, net })
     }
 
     /// The node types.
@@ -171,7 +169,7 @@ const MAX_CHOICES: usize = 200;
 pub fn judge(catalog: &Catalog, checked: &Checked, records: &[Record]) -> Result<(), Failure> {
     let replay = |hesitant: &BTreeSet<NodeId>| replay(catalog, checked, records, hesitant);
     let Err((step, early)) = replay(&BTreeSet::new()) else { return Ok(()) };
-    let undecided = apex_petri::undecided(&checked.graph, &checked.net);
+    let undecided = apex_petri::undecided(&checked.program.graph, &checked.net);
     let Err((other, late)) = replay(&undecided) else { return Ok(()) };
     match choices(&undecided).take(MAX_CHOICES).any(|hesitant| replay(&hesitant).is_ok()) {
         true => Ok(()),
@@ -195,7 +193,7 @@ fn replay(
     records: &[Record],
     hesitant: &BTreeSet<NodeId>,
 ) -> Result<(), Failure> {
-    let Checked { graph, net, .. } = checked;
+    let Checked { program: CheckedProgram { graph, .. }, net } = checked;
     let scripts = script_of(graph, catalog);
     let by_id: BTreeMap<i64, NodeId> = scripts.iter().map(|(node, (id, _))| (*id, *node)).collect();
     let sends = |call: Call, port: usize| match scripts.get(&call.node) {

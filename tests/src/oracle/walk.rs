@@ -7,6 +7,7 @@ use super::{
 use crate::Dice;
 use apex_dsl::{
     catalog::Catalog,
+    checked::CheckedProgram,
     graph::{Graph, NodeId, NodeKind, PortId},
 };
 use apex_petri::{Call, State, Token, TransitionId, TransitionKind};
@@ -14,7 +15,7 @@ use std::{collections::BTreeMap, time::Duration};
 
 /// A random run of `reactions` reactions, one per millisecond. Silent transitions occur at random times.
 pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u64) -> Vec<Record> {
-    let Checked { graph, net, .. } = checked;
+    let Checked { program: CheckedProgram { graph, .. }, net } = checked;
     let scripts = script_of(graph, catalog);
     let sends = |call: Call, port: usize| match scripts.get(&call.node) {
         Some((id, parameters)) => {
