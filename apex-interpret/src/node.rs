@@ -10,7 +10,7 @@ use std::{any::Any, rc::Rc, time::Duration};
 /// A token. Copies share it.
 pub type Value = Rc<dyn Any>;
 
-/// What a call returns: the tokens at the outputs, by the numbers of their ports in the signature.
+/// Result of a call: the tokens at the outputs, by the numbers of their ports in the signature.
 pub type Outcome = Result<Vec<(usize, Option<Value>)>, Failure>;
 
 /// A node.
@@ -60,7 +60,7 @@ pub struct Args {
     pub events: Vec<(usize, Value)>,
 }
 
-/// What the interpreter needs to know of node types and token types.
+/// Knowledge of node types and token types.
 pub trait Library {
     /// Makes a node; `None` if its type is not known.
     fn make(&self, signature: &Signature, library: &graph::Library) -> Option<Box<dyn Node>>;

@@ -171,7 +171,7 @@ impl<O: Observer> Run<'_, '_, O> {
         ControlFlow::Continue(timers.chain(timeouts).fold(Next::Input, Next::or))
     }
 
-    /// Rounds of an instant, until nothing is left to do. Sources without a period fire in the first one if the reaction
+    /// Rounds of an instant, until nothing is left to do. Sources without a period fire in the first one if a reaction
     /// `begins`.
     fn rounds(&mut self, at: Time, begins: bool, ctx: &Ctx) {
         let code = self.code;

@@ -42,7 +42,7 @@ pub struct State {
     pub cluster_stamps: BTreeMap<ClusterId, Time>,
     /// Time of the program.
     pub time: ProgramTime,
-    /// How far it was ahead when the event of a node was last triggered.
+    /// Lead of the time when the event of a node was last triggered.
     pub told_ahead: BTreeMap<NodeId, i64>,
     /// Cells whose tokens are not done with.
     pub holding: BTreeSet<usize>,

@@ -63,7 +63,7 @@ impl<'a> Calling<'a> {
         quote! { if #is_enabled { #code } else { #clears } }
     }
 
-    /// Where the node is kept.
+    /// Place of the node.
     fn place(&self) -> TokenStream {
         self.emitter.generator.node_place(self.emitter.graph, self.node)
     }

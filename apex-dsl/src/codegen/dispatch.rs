@@ -365,7 +365,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What is served when something has sent tokens.
+    /// Service of slots when something has sent tokens.
     fn served(&self, view: ProgramView<'_>, after: &After) -> TokenStream {
         match after {
             After::Queue => quote! { if !self.core.queue.is_empty() { self.serve(ctx, observer); } },
@@ -373,7 +373,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What each round of a reaction polls.
+    /// Polls of each round of a reaction.
     fn raises(&self, view: ProgramView<'_>, polls: &[Poll]) -> TokenStream {
         let polls = polls.iter().map(|poll| match poll {
             Poll::Room { event, bit } => {

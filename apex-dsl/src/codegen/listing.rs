@@ -112,7 +112,7 @@ fn list_timers(lines: &mut Lines<'_>, view: ProgramView<'_>) {
     }
 }
 
-/// What happens before the first reaction, at `cancel` and `resume`, and at `reset`.
+/// Operations before the first reaction, at `cancel` and `resume`, and at `reset`.
 fn list_others(lines: &mut Lines<'_>, view: ProgramView<'_>) {
     let program = view.program;
     if program.has_start() {

@@ -16,7 +16,8 @@ use crate::{
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// Writes operations where the program is taken apart: `let Self { nodes, state, core, inputs, outputs, events } = self`.
+/// Writes operations, where the program is taken apart:
+/// `let Self { nodes, state, core, inputs, outputs, events } = self`.
 #[derive(Clone, Copy)]
 pub struct Writer<'a> {
     pub generator: &'a Generator<'a>,
@@ -165,7 +166,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether a token is there, for the functions of the runtime.
+    /// Expression that tells the functions of the runtime if a token is there.
     fn presence(&self, port: PortId) -> TokenStream {
         match self.inside {
             Some((emitter, block)) if self.view.graph.port(port).kind == PortKind::Output => {

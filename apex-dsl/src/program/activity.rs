@@ -116,7 +116,7 @@ impl Program<'_> {
         flags.collect()
     }
 
-    /// What happens once, before the first reaction.
+    /// Operations before the first reaction.
     pub fn first(&self) -> Ops {
         let watches = self.lower.graph.nodes.ids().filter_map(|node| self.watch_silence(node));
         watches.chain([Op::ShowStates]).chain(self.begin()).collect()

@@ -81,7 +81,7 @@ impl Program<'_> {
         nested.collect()
     }
 
-    /// Where activity is kept.
+    /// Places of activity.
     fn spots(&self, model: &Model) -> Spots {
         let Self { lower, .. } = self;
         let mut spots = Spots::new();

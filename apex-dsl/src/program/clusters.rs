@@ -7,7 +7,7 @@ use crate::{
     syntax::tree::PortKind,
 };
 impl Program<'_> {
-    /// What a cluster of a program does. The timers of its sources advance with it, and the silences of its inputs
+    /// Operations of a cluster of a program. The timers of its sources advance with it, and the silences of its inputs
     /// begin again. Events are emptied before and sent when all is done.
     pub fn cluster(&self, cluster: ClusterId, plan: &Plan) -> Ops {
         let c = &self.lower.analysis.clusters[cluster];
@@ -30,8 +30,8 @@ impl Program<'_> {
         ops
     }
 
-    /// What a cluster does without what surrounds it in a program: tokens that wait are taken, nodes fire, and tokens
-    /// for other clusters are left.
+    /// Operations of a cluster without those that surround them in a program: tokens that wait are taken, nodes fire,
+    /// and tokens for other clusters are left.
     pub fn inside(&self, cluster: ClusterId, plan: &Plan) -> Ops {
         let c = &self.lower.analysis.clusters[cluster];
         let mut ops: Ops = c.nodes.iter().flat_map(|node| self.read_first(*node, plan)).collect();

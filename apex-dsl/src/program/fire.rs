@@ -50,9 +50,9 @@ pub struct Call {
     pub buffers: Vec<PortId>,
     /// The event `processed`, if it is connected.
     pub processed: Option<PortId>,
-    /// What follows if the node fails.
+    /// Consequence of a failure.
     pub failing: Failing,
-    /// What follows if it is late.
+    /// Consequence of being late.
     pub deadline: Option<Deadline>,
 }
 
@@ -61,9 +61,9 @@ pub struct Call {
 pub struct SlotCall {
     /// The arguments.
     pub args: Vec<Arg>,
-    /// What follows if the node fails.
+    /// Consequence of a failure.
     pub failing: Failing,
-    /// What follows if it is late.
+    /// Consequence of being late.
     pub deadline: Option<Deadline>,
 }
 
@@ -102,7 +102,7 @@ pub struct CallResult {
     pub is_optional: bool,
 }
 
-/// What follows if a call fails.
+/// Consequence of a failed call.
 #[derive(Debug, Clone, Copy)]
 pub enum Failing {
     /// It cannot, but by a panic.
@@ -178,7 +178,7 @@ impl Program<'_> {
         inputs.map(|port| PortId { node, port }).filter(|to| self.lower.incoming(*to).is_some()).collect()
     }
 
-    /// What follows if a call of a node fails, which is `fallible`.
+    /// Consequence of a failed call of a node, which is `fallible`.
     pub fn failing(&self, node: NodeId, fallible: bool) -> Failing {
         let n = &self.lower.graph.nodes[node];
         match n.is_contained() {

@@ -10,7 +10,7 @@ use crate::{
 };
 use std::time::Duration;
 
-/// What a program, the part of a thread group, or the body of an `each` is lowered from.
+/// Input of the lowering of a program, of the part of a thread group, or of the body of an `each`.
 #[derive(Clone, Copy)]
 pub struct Lower<'a> {
     /// The graph.
@@ -108,7 +108,7 @@ impl<'a> Lower<'a> {
         machine.into_iter().flat_map(|machine| &machine.moved).map(move |port| PortId { node, port: *port })
     }
 
-    /// Where the activity of a node is kept.
+    /// Place of the activity of a node.
     pub fn spot(self, node: NodeId) -> Spot {
         match self.graph.nodes[node].is_delay() {
             true => Spot::Held(node),

@@ -33,7 +33,7 @@ pub use wiring::{Entry, Flag, Port, Send, Silence, Slot, Timeout, Wiring};
 
 /// A program, or the part of one that a thread runs.
 pub struct Program<'a> {
-    /// What it is lowered from.
+    /// Input of the lowering.
     pub lower: Lower<'a>,
     /// Its rows.
     pub wiring: Wiring,

@@ -168,7 +168,7 @@ pub struct Taken {
     pub on_the_way: Vec<Flag>,
     /// The nodes to which `resume` gives it back.
     pub remember: Vec<NodeId>,
-    /// What happens if there was activity.
+    /// Operations if there was activity.
     pub then: Ops,
 }
 
@@ -177,11 +177,11 @@ pub struct Taken {
 pub struct Served {
     /// Events that it may trigger, emptied.
     pub clear: Ops,
-    /// What happens if its node has become active, or inactive.
+    /// Operations if its node has become active, or inactive.
     pub turned: Ops,
     /// The call.
     pub call: Ops,
-    /// What follows.
+    /// Operations after the call.
     pub after: Ops,
 }
 

@@ -322,7 +322,7 @@ impl<'p> Lines<'p> {
     }
 }
 
-/// What follows a call.
+/// Consequences of a call.
 fn after_call(failing: Failing, deadline: Option<Deadline>) -> String {
     let failing = match failing {
         Failing::Never => "",

@@ -12,13 +12,13 @@ use crate::{
 /// nothing is left to do.
 #[derive(Debug)]
 pub struct Reaction {
-    /// What is served after `start`, before the first reaction; `None` if nothing starts.
+    /// Service of slots after `start`, before the first reaction; `None` if nothing starts.
     pub start: Option<After>,
     /// Conditions that are raised once: sources without a period.
     pub once: Vec<usize>,
     /// Clusters that fire once, before the rounds.
     pub before: Vec<Firing>,
-    /// What each round polls.
+    /// Polls of each round.
     pub polls: Vec<Poll>,
     /// The clusters of a round, in their order.
     pub firings: Vec<Firing>,
@@ -35,11 +35,11 @@ pub struct Firing {
     pub cluster: ClusterId,
     /// Its row in the table of the dispatcher; without one it fires once in a reaction.
     pub row: Option<usize>,
-    /// What is served when it has fired.
+    /// Service of slots when it has fired.
     pub served: After,
 }
 
-/// What is served when something has sent tokens.
+/// Service of slots when something has sent tokens.
 #[derive(Debug)]
 pub enum After {
     /// All slots in the queue.
@@ -80,7 +80,7 @@ pub struct Entering {
     pub node: NodeId,
     /// Conditions that its connections are free.
     pub free: Vec<usize>,
-    /// What then happens.
+    /// Operations when it enters.
     pub then: Ops,
 }
 
@@ -120,7 +120,7 @@ pub struct Receiver {
     pub carries: bool,
     /// The time at which the source of a token fired is needed.
     pub is_stamped: bool,
-    /// What a token does: activity passes; the token is sent; slots are served.
+    /// Operations for a token: activity passes; the token is sent; slots are served.
     pub then: [Ops; 3],
 }
 
@@ -206,7 +206,7 @@ impl Program<'_> {
         self.has_instants() || self.lower.graph.nodes.iter().any(is_told)
     }
 
-    /// What each round polls.
+    /// Polls of each round.
     fn polls(&self) -> Vec<Poll> {
         let (graph, bits) = (self.lower.graph, &self.wiring.bits);
         let rooms = bits.room().iter().map(|(event, bit)| Poll::Room { event: *event, bit: *bit });

@@ -50,7 +50,7 @@ impl Program<'_> {
         ends.filter(|end| wanted(*end) && self.is_sent_event(*end)).map(Op::Clear).collect()
     }
 
-    /// What the token of a slot does.
+    /// Operations for the token of a slot.
     pub fn served(&self, number: usize) -> Served {
         let slot = &self.wiring.slots[number];
         let (connection, node, graph) = (slot.connection, slot.node, self.lower.graph);

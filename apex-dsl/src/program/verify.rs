@@ -9,7 +9,7 @@ use crate::{
     index::IdVec,
     syntax::tree::PortKind,
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Program<'_> {
     /// Faults of the program, each a fault of the compiler.
@@ -21,7 +21,7 @@ impl Program<'_> {
         self.verify(&plans, &clusters)
     }
 
-    /// What a cluster does.
+    /// Operations of a cluster.
     pub fn ops_of(&self, cluster: ClusterId, plans: &IdVec<ClusterId, Plan>) -> Vec<Op> {
         match self.lower.graph.is_body {
             true => self.inside(cluster, &plans[cluster]),
@@ -80,7 +80,7 @@ impl Program<'_> {
         let mut faults = vec![];
         for (number, slot) in self.wiring.slots.iter().enumerate() {
             let text = || self.lower.graph.connection_text(slot.connection);
-            if effects.written.contains(&self.source_of(number))
+            if effects.written.all.contains(&self.source_of(number))
                 && !self.has_queue()
                 && !effects.served.contains(&number)
             {
@@ -148,20 +148,39 @@ impl Program<'_> {
     }
 }
 
-/// What can happen in a program: ports at which there may be tokens, slots that are served, and flags that are set and
-/// taken.
+/// Reachable effects of a program: ports at which there may be tokens, slots that are served, and flags that are set
+/// and taken.
 #[derive(Default)]
 struct Effects {
-    written: BTreeSet<PortId>,
+    written: Reached,
     served: BTreeSet<usize>,
     set: BTreeSet<Flag>,
     taken: BTreeSet<Flag>,
     /// `cancel`s and `resume`s that are called.
-    interrupts: BTreeSet<PortId>,
+    interrupts: Reached,
+}
+
+/// Ports that were reached, and those of them that were not looked at yet.
+#[derive(Default)]
+struct Reached {
+    all: BTreeSet<PortId>,
+    new: Vec<PortId>,
+}
+
+impl Reached {
+    fn insert(&mut self, port: PortId) {
+        if self.all.insert(port) {
+            self.new.push(port);
+        }
+    }
+
+    fn extend(&mut self, ports: impl IntoIterator<Item = PortId>) {
+        ports.into_iter().for_each(|port| self.insert(port));
+    }
 }
 
 impl Effects {
-    /// What can happen if these clusters fire.
+    /// Effects if these clusters fire.
     fn new<'o>(program: &Program<'_>, clusters: impl Iterator<Item = &'o Vec<Op>>) -> Self {
         let mut effects = Self::default();
         clusters.for_each(|ops| effects.ops(program, ops));
@@ -176,23 +195,21 @@ impl Effects {
         polls.iter().for_each(|poll| effects.poll(program, poll));
         (0..program.wiring.timeouts.len()).for_each(|timeout| effects.ops(program, &program.expired(timeout)));
         effects.ops(program, &program.first());
-        let interrupts = program.interrupts();
         // A slot is called only if there may be a token for it, and may then cause others.
-        let mut called = BTreeSet::new();
+        let interrupts: BTreeMap<PortId, Vec<Op>> = program.interrupts().into_iter().collect();
+        let mut slots: BTreeMap<PortId, Vec<usize>> = BTreeMap::new();
+        (0..program.wiring.slots.len()).for_each(|slot| slots.entry(program.source_of(slot)).or_default().push(slot));
         loop {
-            let is_new = |slot: &usize| !called.contains(slot) && effects.written.contains(&program.source_of(*slot));
-            let new: Vec<usize> = (0..program.wiring.slots.len()).filter(is_new).collect();
-            if new.is_empty() {
+            if let Some(port) = effects.written.new.pop() {
+                for slot in slots.get(&port).into_iter().flatten() {
+                    let served = program.served(*slot);
+                    let all = [&served.clear, &served.turned, &served.call, &served.after];
+                    all.into_iter().for_each(|ops| effects.ops(program, ops));
+                }
+            } else if let Some(slot) = effects.interrupts.new.pop() {
+                effects.ops(program, interrupts.get(&slot).map_or(&[], Vec::as_slice));
+            } else {
                 return effects;
-            }
-            for slot in new {
-                called.insert(slot);
-                let served = program.served(slot);
-                [&served.clear, &served.turned, &served.call, &served.after]
-                    .into_iter()
-                    .for_each(|ops| effects.ops(program, ops));
-                let called = interrupts.iter().filter(|(port, _)| effects.interrupts.contains(port));
-                called.map(|(_, ops)| ops).collect::<Vec<_>>().into_iter().for_each(|ops| effects.ops(program, ops));
             }
         }
     }
@@ -216,7 +233,7 @@ impl Effects {
     fn ops(&mut self, program: &Program<'_>, ops: &[Op]) {
         for op in ops {
             match op {
-                Op::Trigger(port) => drop(self.written.insert(*port)),
+                Op::Trigger(port) => self.written.insert(*port),
                 Op::Fire { node, fire } => self.fire(program, *node, fire),
                 Op::Call { slot, call: Some(call), .. } => {
                     let node = program.wiring.slots[*slot].node;
@@ -225,7 +242,7 @@ impl Effects {
                 }
                 Op::Move { node, .. } => self.written.extend(program.lower.moved(*node)),
                 Op::Cancel(cancel) => self.written.extend(cancel.cancelled.map(|(event, _)| event)),
-                Op::Interrupt(slot) => drop(self.interrupts.insert(*slot)),
+                Op::Interrupt(slot) => self.interrupts.insert(*slot),
                 Op::Serve { slot, .. } => drop(self.served.insert(*slot)),
                 Op::ServeCircle(slots) => self.served.extend(slots),
                 Op::Set(flag, true) => drop(self.set.insert(*flag)),

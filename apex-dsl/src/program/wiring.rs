@@ -91,7 +91,7 @@ impl Slot {
 pub struct Timeout {
     /// The node.
     pub node: NodeId,
-    /// How long it may be active.
+    /// Longest time for which it may be active.
     pub after: Duration,
     /// The conditions under which its event can be triggered.
     pub needs: Vec<usize>,
@@ -102,7 +102,7 @@ pub struct Timeout {
 pub struct Silence {
     /// The guard, by its number in the analysis.
     pub guard: usize,
-    /// Where the token is missed.
+    /// Place at which the token is missed.
     pub entry: Entry,
     /// The nodes that must be called then.
     pub nodes: Vec<NodeId>,
