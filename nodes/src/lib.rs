@@ -14,6 +14,7 @@ pub mod action;
 #[cfg(feature = "std")]
 pub mod cloud;
 pub mod flow;
+pub mod frames;
 #[cfg(feature = "image")]
 pub mod image;
 #[cfg(feature = "std")]
