@@ -67,7 +67,7 @@ pub fn frame_name(name: &str) -> Result<FrameName, NameTooLong> {
 ///
 /// Fails if a name is too long.
 #[node]
-pub fn moving(
+pub fn transform_of(
     ctx: &Ctx,
     pose: &Pose2,
     #[param] parent: &'static str,
@@ -85,12 +85,12 @@ mod tests {
     #[test]
     fn odometry_becomes_a_transform_at_its_time() {
         let ctx = Ctx::new(Time::from_millis(20));
-        let sent = moving(&ctx, &Pose2::new(1.0, 2.0, 0.0), "/odom", "base_link").expect("short names");
+        let sent = transform_of(&ctx, &Pose2::new(1.0, 2.0, 0.0), "/odom", "base_link").expect("short names");
         let [transform] = &sent.transforms[..] else { panic!("{sent:?}") };
         assert_eq!((transform.parent.as_str(), transform.child.as_str()), ("odom", "base_link"));
         assert_eq!((transform.stamp, transform.pose.position()), (Time::from_millis(20), [1.0, 2.0, 0.0]));
         let long = "camera_of_the_left_arm_of_the_second_robot";
-        let error = moving(&ctx, &Pose2::default(), long, "base").expect_err("too long");
+        let error = transform_of(&ctx, &Pose2::default(), long, "base").expect_err("too long");
         let text = "the name of a frame has 42 bytes, of which there may be 40: choose a shorter one";
         assert_eq!(std::format!("{error}"), text);
     }
