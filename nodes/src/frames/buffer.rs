@@ -3,7 +3,7 @@ use apex_rt::Time;
 use core::fmt;
 use heapless::Vec;
 
-/// Whether a transform holds for ever.
+/// Times at which a transform holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// It holds at all times: that of a sensor on its robot.
@@ -110,8 +110,8 @@ impl fmt::Display for Gap {
 
 /// Transforms between the frames of a tree, of the last moments.
 ///
-/// It has room for `FRAMES` frames, of which `MOVING` may move in their parent; of each of them `SAMPLES` transforms are
-/// kept, the newest ones. Between two of them positions change with constant velocity and rotations on the shortest way
+/// It has room for `FRAMES` frames, of which `MOVING` may move in their parent; of each of them the newest `SAMPLES`
+/// transforms are kept. Between two of them positions change with constant velocity and rotations on the shortest way
 /// with constant angular velocity. Nothing is said about times outside of them.
 #[derive(Debug, Clone)]
 pub struct TransformBuffer<const FRAMES: usize, const MOVING: usize, const SAMPLES: usize> {
@@ -155,8 +155,8 @@ impl<const FRAMES: usize, const MOVING: usize, const SAMPLES: usize> Default
 }
 
 impl<const FRAMES: usize, const MOVING: usize, const SAMPLES: usize> TransformBuffer<FRAMES, MOVING, SAMPLES> {
-    /// Takes a transform. A fixed one takes the place of the last fixed one between its frames, a moving one that of one
-    /// with its stamp. A moving one that is older than all that are kept is left out if there is no room.
+    /// Takes a transform. A fixed one takes the place of the last fixed one between its frames, a moving one that of
+    /// one with its stamp. A moving one that is older than all that are kept is left out if there is no room.
     ///
     /// # Errors
     /// It contradicts the others, or there is no room for a frame. Then the buffer is as before.
@@ -187,7 +187,11 @@ impl<const FRAMES: usize, const MOVING: usize, const SAMPLES: usize> TransformBu
     /// # Errors
     /// The first one that is not taken: the reason.
     pub fn insert_all(&mut self, all: &Transforms, kind: Kind) -> Result<(), TransformError> {
-        all.transforms.iter().fold(Ok(()), |result, transform| result.and(self.insert(transform, kind)))
+        let mut result = Ok(());
+        for transform in &all.transforms {
+            result = result.and(self.insert(transform, kind));
+        }
+        result
     }
 
     /// Pose of the frame `from` in the frame `to` at a time.
@@ -452,7 +456,7 @@ mod tests {
         for _ in 0..200 {
             let mut buffer = TransformBuffer::<24, 12, 4>::default();
             let count = 2 + random.below(22) as usize;
-            // Each frame but the first is in one before it; half of them move about the vertical axis while they travel.
+            // Each frame but the first is in one before it; half of them turn about the vertical axis and travel.
             let mut poses: List<[Matrix; 2]> = List::from([[matrix([0.0; 3], [0.0; 3]); 2]]);
             let mut links = List::new();
             for child in 1..count {

@@ -33,7 +33,9 @@ pub use place::{PlaceScan, seen_from_above};
 pub use pose::Pose3;
 pub use queue::{MAX_WAITING, TransformQueue};
 pub use rotation::{NotARotation, Rotation};
-pub use transform::{FrameName, MAX_NAME, MAX_TRANSFORMS, NameTooLong, Transform, Transforms, frame_name, transform_of};
+pub use transform::{
+    FrameName, MAX_NAME, MAX_TRANSFORMS, NameTooLong, Transform, Transforms, frame_name, transform_of,
+};
 #[cfg(feature = "urdf")]
 pub use urdf::{Joint, JointKind, Urdf, UrdfError};
 

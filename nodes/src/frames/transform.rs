@@ -62,8 +62,8 @@ pub fn frame_name(name: &str) -> Result<FrameName, NameTooLong> {
     FrameName::try_from(name).map_err(|_| NameTooLong { length: name.len() })
 }
 
-/// Pose that changes, such as that of odometry, as the transform of the frame `child` in the frame `parent`. Its time is
-/// the stamp of the token.
+/// Pose that changes, such as that of odometry, as the transform of the frame `child` in the frame `parent`. Its time
+/// is the stamp of the token.
 ///
 /// Fails if a name is too long.
 #[node]

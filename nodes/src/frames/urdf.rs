@@ -32,7 +32,7 @@ impl fmt::Display for UrdfError {
 
 impl std::error::Error for UrdfError {}
 
-/// How a joint moves.
+/// Movement of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointKind {
     /// It does not.
@@ -56,7 +56,7 @@ pub struct Joint {
     pub child: FrameName,
     /// Pose of the child in the parent when the joint is at 0.
     pub origin: Pose3,
-    /// How it moves.
+    /// Movement.
     pub kind: JointKind,
     /// Joint that it follows, with the factor and the offset of its position, in rad or m.
     mimic: Option<(FrameName, f64, f64)>,
