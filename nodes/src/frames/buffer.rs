@@ -468,7 +468,7 @@ mod tests {
                 let moves = child % 2 == 0;
                 links.push((parent, child, angles, place, moves.then_some((turn, shift))));
                 // At half of the time between two samples.
-                let half = moves.then_some((0.5 * turn, shift.map(|c| 0.5 * c))).unwrap_or_default();
+                let half = if moves { (0.5 * turn, shift.map(|c| 0.5 * c)) } else { (0.0, [0.0; 3]) };
                 let turned = |part: f64| {
                     let shifted = core::array::from_fn(|i| place[i] + 2.0 * part * half.1[i]);
                     let [roll, pitch, yaw] = angles;

@@ -177,8 +177,9 @@ mod tests {
 
     #[test]
     fn what_is_not_a_rotation_is_refused() {
-        let rounded = Rotation::new([0.0, 0.0, 0.7071, 0.7071]).expect("rounded");
-        assert!(off(rounded, [0.0, 0.0, 0.5_f64.sqrt(), 0.5_f64.sqrt()]) < 1e-12);
+        let rounded = Rotation::new([0.0, 0.0, 0.601, 0.799]).expect("rounded");
+        let length = 0.601_f64.hypot(0.799);
+        assert!(off(rounded, [0.0, 0.0, 0.601 / length, 0.799 / length]) < 1e-15);
         assert_eq!(Rotation::new(rounded.quaternion()), Ok(rounded), "the same again");
         for (quaternion, reason) in [
             ([0.0; 4], "the length of a quaternion is 0.000: its sender has not set it"),
