@@ -170,10 +170,13 @@ fn a_variant_of_a_robot_drives_on_a_recording() {
 
 /// Answers of the first firings of a player, until it has sent nothing three times.
 fn play<T: Message>(file: &str, topic: &'static str) -> (Vec<Result<T, String>>, bool) {
-    let mut node = BagTopic::<T>::construct((file.to_owned(), topic));
+    let mut node = BagTopic::<T>::construct((file.to_owned(), topic, false));
     let (mut sent, mut silent, mut ended) = (vec![], 0, None);
+    let mut now = Time::ZERO;
     while silent < 3 {
-        match node.process(&Ctx::new(Time::from_secs(100)), apex_rt::event(&mut ended)) {
+        let answer = node.process(&Ctx::new(now), apex_rt::event(&mut ended));
+        now = Time::from_secs(100);
+        match answer {
             Ok(None) => silent += 1,
             Ok(Some(token)) => sent.push(Ok(token)),
             Err(error) => sent.push(Err(error.to_string())),

@@ -23,7 +23,7 @@ impl std::error::Error for BagError {}
 
 /// Plays a topic of a recording (MCAP, or a bag of ROS 1), also of another program: sends each token in the first
 /// firing at or after its time, counted from the first message of the file. Times in headers are counted so, too.
-/// After the last token it triggers `done` and sends ⊥.
+/// After the last token it triggers `done` and sends ⊥, or with `repeat` begins again, at the time of that firing.
 ///
 /// Give it a short period: `every 1ms`. A firing sends one token at most, so that none is lost. `topic` may name one of
 /// several tokens in a message: `/tf: odom -> base_link`. The file is read while it is played.
@@ -38,10 +38,13 @@ pub struct BagTopic<T> {
     /// Topic, or name of the channel, and behind a colon the part of its messages.
     #[param]
     topic: &'static str,
+    /// Plays the topic again and again.
+    #[param(default = false)]
+    repeat: bool,
     state: State<T>,
 }
 
-/// Progress of a player.
+/// Progress of the node.
 #[derive(Default)]
 enum State<T> {
     #[default]
@@ -57,6 +60,8 @@ struct Player<T> {
     /// Topic, and part of its messages.
     wanted: (&'static str, &'static str),
     forms: Vec<Foreign<T>>,
+    /// Time at which it began.
+    begun: Time,
     /// Time of the first message, in ns.
     start: Option<u64>,
     /// Token that comes next, with its time.
@@ -76,7 +81,7 @@ impl<T: Message> BagTopic<T> {
         if let State::Closed = self.state {
             // Not opened again in each firing, if it cannot be.
             self.state = State::Ended;
-            self.state = State::Playing(Box::new(Player::open(&self.file, self.topic)?));
+            self.state = State::Playing(Box::new(Player::open(&self.file, self.topic, now)?));
         }
         let State::Playing(player) = &mut self.state else { return Ok(None) };
         if player.next.is_none() {
@@ -84,7 +89,7 @@ impl<T: Message> BagTopic<T> {
                 Ok(Some(next)) => player.next = Some(next),
                 Ok(None) => {
                     let end = player.end();
-                    self.state = State::Ended;
+                    self.state = if self.repeat && end.is_ok() { State::Closed } else { State::Ended };
                     done.emit(());
                     return end.map(|()| None);
                 }
@@ -108,12 +113,13 @@ enum Mistake {
 }
 
 impl<T: Message> Player<T> {
-    fn open(file: &str, topic: &'static str) -> Result<Self, String> {
+    fn open(file: &str, topic: &'static str, begun: Time) -> Result<Self, String> {
         let recording = Recording::open(Path::new(file)).map_err(|error| error.to_string())?;
         let (topic, part) = topic.split_once(':').unwrap_or((topic, ""));
         let mut forms: Vec<Foreign<T>> = T::others();
         forms.insert(0, Foreign::itself());
-        Ok(Self { recording, wanted: (topic.trim(), part.trim()), forms, start: None, next: None, has_topic: false })
+        let wanted = (topic.trim(), part.trim());
+        Ok(Self { recording, wanted, forms, begun, start: None, next: None, has_topic: false })
     }
 
     /// Reads the next token, with its time.
@@ -131,10 +137,11 @@ impl<T: Message> Player<T> {
             let bytes = message(&found.data).map_err(|why| Mistake::Message(format!("`{topic}`: {why}")))?;
             let reader = if channel.encoding == ROS1 { Ok(Reader::ros1(&bytes)) } else { Reader::new(&bytes) };
             let nanos = |time: u64| i64::try_from(time).unwrap_or(i64::MAX);
-            let token = reader.and_then(|reader| read(&mut reader.since(nanos(zero)), part));
+            let since = nanos(zero).saturating_sub(self.begun.as_nanos());
+            let token = reader.and_then(|reader| read(&mut reader.since(since), part));
             let token = token.map_err(|why| Mistake::Message(format!("`{topic}`: a message cannot be read: {why}")))?;
             if let Some(token) = token {
-                return Ok(Some((Time::from_nanos(nanos(found.time.saturating_sub(zero))), token)));
+                return Ok(Some((Time::from_nanos(nanos(found.time).saturating_sub(since)), token)));
             }
         }
     }
