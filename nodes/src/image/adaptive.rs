@@ -1,13 +1,13 @@
 use super::GrayImage;
 use apex_rt::{Out, node};
 
-/// Threshold that follows the light (thesis figure 9.1): a pixel becomes white if it differs from the mean of the square
-/// around it by at least `offset`, and black otherwise. With `dark` these are the pixels that are darker, and without it
-/// those that are lighter.
+/// Threshold that follows the light (thesis figure 9.1): a pixel becomes white if it differs from the mean of the
+/// square around it by at least `offset`, and black otherwise. With `dark` these are the pixels that are darker, and
+/// without it those that are lighter.
 ///
-/// The mean is rounded, and pixels beyond the border are those of the border, as with `adaptiveThreshold` of OpenCV: its
-/// `ADAPTIVE_THRESH_MEAN_C` with `THRESH_BINARY_INV` and `C = offset`, or with `THRESH_BINARY` and `C = 1 - offset`. The
-/// time does not depend on the radius.
+/// The mean is rounded, and pixels beyond the border are those of the border, as with `adaptiveThreshold` of OpenCV:
+/// its `ADAPTIVE_THRESH_MEAN_C` with `THRESH_BINARY_INV` and `C = offset`, or with `THRESH_BINARY` and `C = 1 -
+/// offset`. The time does not depend on the radius.
 #[node]
 #[derive(Debug, Clone)]
 pub struct AdaptiveThreshold {

@@ -23,8 +23,8 @@ pub struct Blob {
 
 /// Finds blobs (thesis figure 9.1): light areas, with the 8 neighbours of a pixel, and their centres of mass.
 ///
-/// At most [`MAX_BLOBS`] blobs, the largest ones, from top to bottom; the list may be empty. Those that touch the border
-/// of the image are blobs, too.
+/// At most [`MAX_BLOBS`] blobs, the largest ones, from top to bottom; the list may be empty. Those that touch the
+/// border of the image are blobs, too.
 #[node]
 #[derive(Debug, Clone)]
 pub struct FindBlobs {

@@ -4,8 +4,13 @@ use apex_nodes::{
     image::{Blobs, ColorImage},
     math::Random,
 };
-use apex_rt::prelude::*;
+use apex_rt::{
+    SimClock, drive_with,
+    prelude::*,
+    record::{Recorder, Tap, WhenFull},
+};
 use image::Rgb;
+use std::{io, path::Path};
 
 /// Width and height of the images, in pixels.
 const SIZE: (u32, u32) = (320, 240);
@@ -40,8 +45,8 @@ pub fn parts(time: Time) -> impl Iterator<Item = Part> {
     })
 }
 
-/// Simulated camera above a belt with dark parts. The light is much brighter on the right, so that no threshold fits the
-/// whole image. Triggers `ended` after `length`.
+/// Simulated camera above a belt with dark parts. The light is much brighter on the right, so that no threshold fits
+/// the whole image. Triggers `ended` after `length`.
 #[node]
 #[derive(Debug)]
 pub struct Belt {
@@ -79,3 +84,18 @@ pub fn count(blobs: &Blobs) -> f64 {
 }
 
 apex_macros::graph!("../blobs.afg");
+
+/// Makes the recording, in simulated time: a film of `length` s. An existing file is kept: the new one gets a number.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn film(path: &Path, length: f64) -> io::Result<()> {
+    let mut robot = Film::new();
+    robot.set_param("belt.length", length).map_err(|error| io::Error::other(error.to_string()))?;
+    let mut tap = Tap::Record(Recorder::to_file::<Film>(path, WhenFull::Wait)?);
+    drive_with(robot, SimClock::until(Time::MAX), &mut tap);
+    if let Tap::Record(recorder) = tap {
+        recorder.finish()?;
+    }
+    Ok(())
+}

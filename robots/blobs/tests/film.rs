@@ -1,29 +1,20 @@
 //! From the camera to blobs through a file.
 
 use apex_nodes::{image::ColorImage, io::BagTopic};
-use apex_rt::{
-    Construct as _, SimClock, drive_with, event,
-    prelude::*,
-    record::{Recorder, Tap, WhenFull},
-};
-use blobs::{Film, Find, Prototype, parts};
+use apex_rt::{Construct as _, event, prelude::*};
+use blobs::{Find, Prototype, film, parts};
 use std::{env, fs, path::PathBuf};
 
-/// Records the film of this length, in s.
-fn film(name: &str, length: f64) -> PathBuf {
+/// Films for this time, in s.
+fn filmed(name: &str, length: f64) -> PathBuf {
     let path = env::temp_dir().join(format!("apex-film-{}-{name}.mcap", std::process::id()));
-    let mut film = Film::new();
-    film.set_param("belt.length", length).expect("a parameter");
-    let mut tap = Tap::Record(Recorder::to_file::<Film>(&path, WhenFull::Wait).expect("a new file"));
-    drive_with(film, SimClock::until(Time::from_secs(60)), &mut tap);
-    let Tap::Record(recorder) = tap else { unreachable!("it records") };
-    assert!(recorder.finish().expect("room for the file").dropped.is_empty());
+    film(&path, length).expect("a film");
     path
 }
 
 #[test]
 fn every_part_of_the_film_is_a_blob() {
-    let path = film("parts", 4.0);
+    let path = filmed("parts", 4.0);
     let mut bag = BagTopic::<ColorImage>::construct((path.to_str().expect("text").to_owned(), "belt.image", false));
     let (mut find, mut seen, mut done) = (Find::new(), 0, None);
     for millis in 0.. {
@@ -51,7 +42,7 @@ fn every_part_of_the_film_is_a_blob() {
 
 #[test]
 fn the_film_is_played_again_and_again() {
-    let path = film("again", 0.5);
+    let path = filmed("again", 0.5);
     let mut bag = BagTopic::<ColorImage>::construct((path.to_str().expect("text").to_owned(), "belt.image", true));
     let mut sent = vec![];
     for millis in (0..1550).step_by(10) {
@@ -68,7 +59,7 @@ fn the_film_is_played_again_and_again() {
 
 #[test]
 fn the_prototype_runs_on_the_film() {
-    let path = film("robot", 0.3);
+    let path = filmed("robot", 0.3);
     let mut robot = Prototype::new();
     robot.set_param("bag.file", path.to_str().expect("text").to_owned()).expect("a parameter");
     for name in ["find.threshold.radius", "find.open.radius", "find.close.radius"] {
