@@ -145,10 +145,10 @@ impl Urdf {
         }
         let nodes: Vec<Node<'_, '_>> = children(robot, "joint").collect();
         let joints = nodes.iter().map(|node| joint(*node)).collect::<Result<Vec<_>, _>>()?;
+        check_count(robot, &joints)?;
         for (at, (joint, node)) in joints.iter().zip(&nodes).enumerate() {
             check(joint, *node, &joints[..at], &joints, &links)?;
         }
-        check_count(robot, &joints)?;
         Ok(Self { joints })
     }
 }
