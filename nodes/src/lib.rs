@@ -1,10 +1,11 @@
 //! Node library of Apex, with one module per field.
 //!
-//! `action`, `flow`, `lifecycle`, `math`, `persons`, `scan` and the inference of `learn` need neither the standard
-//! library nor a heap. The feature `std` (on by default) adds `io` (readers, writers and pictures), `map` (grid maps),
-//! `cloud` (point clouds of depth cameras), and path planning and following in `nav`. Further features add `image`
-//! (camera images), `learn` (training, and networks), `optim` (optimization of parameters), `slam` (localization and
-//! mapping), `localize` (localization on a plan) and `dxf` (plans from DXF files).
+//! `action`, `flow`, `frames`, `lifecycle`, `math`, `persons`, `scan` and the inference of `learn` need neither the
+//! standard library nor a heap. The feature `std` (on by default) adds `io` (readers, writers and pictures), `map`
+//! (grid maps), `cloud` (point clouds of depth cameras), and path planning and following in `nav`. Further features add
+//! `image` (camera images), `learn` (training, and networks), `optim` (optimization of parameters), `slam`
+//! (localization and mapping), `localize` (localization on a plan), `dxf` (plans from DXF files) and `urdf` (models of
+//! robots).
 //!
 //! Units are SI (metres, radians, seconds). Axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
@@ -14,6 +15,7 @@ pub mod action;
 #[cfg(feature = "std")]
 pub mod cloud;
 pub mod flow;
+pub mod frames;
 #[cfg(feature = "image")]
 pub mod image;
 #[cfg(feature = "std")]

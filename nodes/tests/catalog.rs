@@ -10,21 +10,28 @@ mod programs {
     apex_macros::graph!("library.afg");
 }
 
-/// Type as spelled in a source file; type parameters become `f64`.
-fn spell(ty: &Type, catalog: &Catalog) -> Option<String> {
-    let all =
-        |types: &[Type]| types.iter().map(|t| spell(t, catalog)).collect::<Option<Vec<_>>>().map(|t| t.join(", "));
+/// Type for the type parameters of a node: a time for those that need a stamp.
+fn argument(signature: &Signature) -> &'static str {
+    if signature.bounds.iter().any(|bound| bound.contains("Stamped")) { "apex_rt::Time" } else { "f64" }
+}
+
+/// Type as spelled in a source file, with `argument` for type parameters.
+fn spell(ty: &Type, argument: &str, catalog: &Catalog) -> Option<String> {
+    let all = |types: &[Type]| {
+        let types = types.iter().map(|t| spell(t, argument, catalog)).collect::<Option<Vec<_>>>();
+        types.map(|types| types.join(", "))
+    };
     let with =
         |name: String, args: &[Type]| Some(if args.is_empty() { name } else { format!("{name}<{}>", all(args)?) });
     match ty {
         Type::Primitive(name) => Some(name.clone()),
-        Type::Param(_) => Some("f64".to_owned()),
+        Type::Param(_) => Some(argument.to_owned()),
         Type::Named(name, args) => with(name.clone(), args),
         Type::Def(def, _, args) => with(catalog.path(*def)?.join("::").trim_start_matches("::").to_owned(), args),
         Type::Alias(def, ..) => Some(catalog.path(*def)?.join("::").trim_start_matches("::").to_owned()),
         Type::Tuple(parts) => all(parts).map(|parts| format!("({parts})")),
         Type::Unknown(number) if number.parse::<u64>().is_ok() => Some(number.clone()),
-        Type::Measured(number, unit) => Some(format!("{}[{unit}]", spell(number, catalog)?)),
+        Type::Measured(number, unit) => Some(format!("{}[{unit}]", spell(number, argument, catalog)?)),
         Type::Array(..) | Type::Ref(_) | Type::Unknown(_) => None,
     }
 }
@@ -52,10 +59,11 @@ fn value(ty: &Type, unit: &str) -> String {
 fn graph(number: usize, signature: &Signature, catalog: &Catalog) -> String {
     use apex_dsl::syntax::tree::PortKind;
     let path = signature.path.join("::");
+    let argument = argument(signature);
     let types = if signature.generics.is_empty() {
         String::new()
     } else {
-        format!("<{}>", vec!["f64"; signature.generics.len()].join(", "))
+        format!("<{}>", vec![argument; signature.generics.len()].join(", "))
     };
     let params = signature.params.iter().filter(|p| p.default.is_none());
     let params: Vec<String> =
@@ -66,7 +74,7 @@ fn graph(number: usize, signature: &Signature, catalog: &Catalog) -> String {
         params.join(", ")
     );
     for port in &signature.ports {
-        let Some(ty) = spell(&port.ty, catalog) else { continue };
+        let Some(ty) = spell(&port.ty, argument, catalog) else { continue };
         let (name, id) = (&port.name, format!("{}_{}", port.kind.word(), port.name));
         let _ = match port.kind {
             PortKind::Input if port.any_number => {

@@ -8,6 +8,7 @@ mod foreign;
 mod full;
 mod limits;
 mod python;
+mod robot;
 mod round;
 mod threads;
 mod types;

@@ -39,7 +39,7 @@ impl Components {
         let fits = |r: &Region| sides.contains(&r.width) && sides.contains(&r.height) && whole(r);
         let found = &mut self.found;
         found.clear();
-        found.extend(self.things.whole().filter(fits));
+        found.extend(self.things.whole().map(|thing| thing.region).filter(fits));
         found.sort_by_key(|r| Reverse(r.area));
         found.truncate(MAX_REGIONS);
         found.sort_by_key(|r| (r.top, r.left));
@@ -58,18 +58,34 @@ struct Run {
     thing: usize,
 }
 
+/// Object of an image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Thing {
+    pub region: Region,
+    /// Sums of the columns and rows of its pixels.
+    pub sums: [u64; 2],
+}
+
 /// Objects of an image, found row by row (union-find).
 #[derive(Debug, Clone, Default)]
-struct Things {
-    /// Region of each object, with the number of the object that it was merged into: an earlier one, or itself.
-    parts: Vec<(usize, Region)>,
+pub(super) struct Things {
+    /// Each object, with the number of the object that it was merged into: an earlier one, or itself.
+    parts: Vec<(usize, Thing)>,
     /// Runs of the previous row, and of the current one.
     above: Vec<Run>,
     row: Vec<Run>,
 }
 
+impl Thing {
+    fn joined(&self, other: &Self) -> Self {
+        let sums = [0, 1].map(|i| self.sums[i] + other.sums[i]);
+        Self { region: self.region.joined(&other.region), sums }
+    }
+}
+
 impl Things {
-    fn find(&mut self, image: &GrayImage, threshold: u8) {
+    /// Finds the objects of pixels that are at least as light as the threshold.
+    pub fn find(&mut self, image: &GrayImage, threshold: u8) {
         self.parts.clear();
         self.above.clear();
         for (y, row) in light::rows(image) {
@@ -88,7 +104,10 @@ impl Things {
     /// Object of a run: that of the touching runs above, including those at a corner, or a new one.
     fn thing(&mut self, first: u32, end: u32, y: u32, from: usize) -> usize {
         let number = self.parts.len();
-        self.parts.push((number, Region { left: first, top: y, width: end - first, height: 1, area: end - first }));
+        let region = Region { left: first, top: y, width: end - first, height: 1, area: end - first };
+        let [first_column, count, row] = [first, end - first, y].map(u64::from);
+        let sums = [count * first_column + count * (count - 1) / 2, count * row];
+        self.parts.push((number, Thing { region, sums }));
         let touching = self.above[from..].iter().take_while(|above| above.first <= end).count();
         (from..from + touching).fold(number, |thing, i| self.join(thing, self.above[i].thing))
     }
@@ -114,8 +133,8 @@ impl Things {
     }
 
     /// Objects that were not merged into others, in the order of their first pixels, row by row.
-    fn whole(&self) -> impl Iterator<Item = Region> {
-        self.parts.iter().enumerate().filter(|(i, (root, _))| i == root).map(|(_, (_, region))| *region)
+    pub fn whole(&self) -> impl Iterator<Item = Thing> {
+        self.parts.iter().enumerate().filter(|(i, (root, _))| i == root).map(|(_, (_, thing))| *thing)
     }
 }
 
@@ -171,7 +190,8 @@ mod tests {
             }
             let mut things = Things::default();
             things.find(&noise.into(), 1);
-            assert_eq!(things.whole().collect::<Vec<_>>(), expected, "{width} x {height}, one of {rarity}");
+            let found: Vec<Region> = things.whole().map(|thing| thing.region).collect();
+            assert_eq!(found, expected, "{width} x {height}, one of {rarity}");
         }
     }
 

@@ -1,4 +1,4 @@
-use super::{GrayImage, Region, light, window::gather};
+use super::{GrayImage, Region, light, window::Squares};
 use apex_rt::{Out, node};
 
 /// Extracts dark structures on light ground that are thinner than twice the radius (thesis 4.3.1): the morphological
@@ -12,8 +12,7 @@ pub struct BlackHat {
     #[param(default = 10, range = 1..=200)]
     radius: usize,
     part: Vec<u8>,
-    framed: Vec<u8>,
-    spare: Vec<u8>,
+    squares: Squares,
 }
 
 #[node]
@@ -29,30 +28,14 @@ impl BlackHat {
         self.part.clear();
         rows(image, &part).for_each(|row| self.part.extend_from_slice(row));
         // The closing: a dilation, then an erosion.
-        self.extremes(width, 0, u8::max);
-        self.extremes(width, 255, u8::min);
+        self.squares.lightest(&mut self.part, width, self.radius);
+        self.squares.darkest(&mut self.part, width, self.radius);
         let whole = image.size().0 as usize;
         let hats = dark.pixels.chunks_exact_mut(whole).skip(part.top as usize);
         for ((hat, closed), original) in hats.zip(self.part.chunks_exact(width)).zip(rows(image, &part)) {
             let hat = &mut hat[part.left as usize..][..width];
             hat.iter_mut().zip(closed).zip(original).for_each(|((hat, closed), original)| *hat = closed - original);
         }
-    }
-
-    /// Replaces each pixel of the part by the winner of all pixels in the square around it. Pixels outside the part
-    /// have the value `loser`.
-    fn extremes(&mut self, width: usize, loser: u8, winner: impl Fn(u8, u8) -> u8) {
-        let (frame, height) = (self.radius, self.part.len() / width);
-        let stride = width + 2 * frame;
-        self.framed.clear();
-        self.framed.resize(stride * (height + 2 * frame), loser);
-        let inner = self.framed.chunks_exact_mut(stride).skip(frame);
-        inner.zip(self.part.chunks_exact(width)).for_each(|(to, from)| to[frame..][..width].copy_from_slice(from));
-        // Windows that cross the end of a row begin in the frame, which is not read.
-        gather(&mut self.framed, &mut self.spare, 1, 2 * frame + 1, &winner);
-        gather(&mut self.framed, &mut self.spare, stride, 2 * frame + 1, &winner);
-        let squares = self.framed.chunks_exact(stride);
-        self.part.chunks_exact_mut(width).zip(squares).for_each(|(to, from)| to.copy_from_slice(&from[..width]));
     }
 }
 

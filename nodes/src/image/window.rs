@@ -22,6 +22,49 @@ pub fn gather(pixels: &mut Vec<u8>, spare: &mut Vec<u8>, step: usize, count: usi
     }
 }
 
+/// Minimum and maximum over the squares around pixels. Keeps its storage.
+#[derive(Debug, Clone, Default)]
+pub struct Squares {
+    framed: Vec<u8>,
+    spare: Vec<u8>,
+}
+
+impl Squares {
+    /// Replaces each pixel of an image, whose rows have `width` pixels, by the lightest one of the square around it.
+    /// Pixels outside of the image do not count.
+    pub fn lightest(&mut self, pixels: &mut [u8], width: usize, radius: usize) {
+        self.extremes(pixels, (width, radius), 0, u8::max);
+    }
+
+    /// Replaces each pixel by the darkest one of the square around it.
+    pub fn darkest(&mut self, pixels: &mut [u8], width: usize, radius: usize) {
+        self.extremes(pixels, (width, radius), 255, u8::min);
+    }
+
+    /// Replaces each pixel by the winner of the square around it. Pixels outside have the value `loser`.
+    fn extremes(
+        &mut self,
+        pixels: &mut [u8],
+        (width, frame): (usize, usize),
+        loser: u8,
+        winner: impl Fn(u8, u8) -> u8,
+    ) {
+        if pixels.is_empty() {
+            return;
+        }
+        let (height, stride) = (pixels.len() / width, width + 2 * frame);
+        self.framed.clear();
+        self.framed.resize(stride * (height + 2 * frame), loser);
+        let inner = self.framed.chunks_exact_mut(stride).skip(frame);
+        inner.zip(pixels.chunks_exact(width)).for_each(|(to, from)| to[frame..][..width].copy_from_slice(from));
+        // Windows that cross the end of a row begin in the frame, which is not read.
+        gather(&mut self.framed, &mut self.spare, 1, 2 * frame + 1, &winner);
+        gather(&mut self.framed, &mut self.spare, stride, 2 * frame + 1, &winner);
+        let squares = self.framed.chunks_exact(stride);
+        pixels.chunks_exact_mut(width).zip(squares).for_each(|(to, from)| to.copy_from_slice(&from[..width]));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

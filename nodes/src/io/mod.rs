@@ -4,6 +4,8 @@
 //! Readers of tables and logs stream: they hold one line in memory. Invalid data gives an error with file and line, and
 //! reading continues with the next line.
 
+#[cfg(feature = "record")]
+mod bag;
 mod carmen;
 mod csv;
 #[cfg(feature = "dxf")]
@@ -24,6 +26,8 @@ mod scan_log;
 #[cfg(feature = "dxf")]
 mod spline;
 
+#[cfg(feature = "record")]
+pub use bag::{BagError, BagTopic};
 pub use csv::{CsvLog, CsvReader};
 pub use error::ReadError;
 #[cfg(feature = "figure")]

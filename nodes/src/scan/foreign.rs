@@ -1,35 +1,50 @@
 //! Messages of other programs that hold a pose: odometry, estimates, transforms.
 
-use super::{Pose2, message::heading};
+use super::Pose2;
 use apex_messages::{
     Foreign, Message, Others, Reason,
     cdr::Reader,
-    geometry_msgs::{self, Pose, PoseWithCovariance, PoseWithCovarianceStamped, TransformStamped},
+    geometry_msgs::{self, Point, Pose, PoseWithCovariance, PoseWithCovarianceStamped, TransformStamped},
     nav_msgs::Odometry,
     tf2_msgs::TFMessage,
 };
 
-/// Messages that hold a pose. A height, a tilt and a covariance are left out: poses are seen from above.
-pub(super) fn poses() -> Others<Pose2> {
+/// Pose that is read from those of messages.
+pub(crate) trait FromPose: Sized {
+    /// Converts a pose.
+    fn from_pose(pose: &Pose) -> Result<Self, Reason>;
+}
+
+/// A height and a tilt are left out: the pose is seen from above.
+impl FromPose for Pose2 {
+    fn from_pose(pose: &Pose) -> Result<Self, Reason> {
+        Ok(pose.into())
+    }
+}
+
+/// Messages that hold a pose. A covariance is left out.
+pub(crate) fn poses<T: FromPose>() -> Others<T> {
     /// Foreign message with the function that takes its pose.
     macro_rules! with_pose {
         ($message:ident, $pose:expr) => {
             Foreign::of::<$message>(|message, _| {
                 let pose: fn(&$message) -> &Pose = $pose;
-                Ok(Some(pose(&$message::read(message)?).into()))
+                T::from_pose(pose(&$message::read(message)?)).map(Some)
             })
         };
     }
     vec![
         with_pose!(Pose, |message| message),
         Foreign::of::<geometry_msgs::Pose2D>(|message, _| {
-            let pose = geometry_msgs::Pose2D::read(message)?;
-            Ok(Some(Pose2::new(pose.x as f32, pose.y as f32, pose.theta as f32)))
+            let geometry_msgs::Pose2D { x, y, theta } = geometry_msgs::Pose2D::read(message)?;
+            let (z, w) = libm::sincos(0.5 * theta);
+            let orientation = geometry_msgs::Quaternion { x: 0.0, y: 0.0, z, w };
+            T::from_pose(&Pose { position: Point { x, y, z: 0.0 }, orientation }).map(Some)
         }),
         with_pose!(PoseWithCovariance, |message| &message.pose),
         with_pose!(PoseWithCovarianceStamped, |message| &message.pose.pose),
         with_pose!(Odometry, |message| &message.pose.pose),
-        Foreign::of::<TransformStamped>(|message, _| Ok(Some(pose(&TransformStamped::read(message)?)))),
+        Foreign::of::<TransformStamped>(|message, _| pose(&TransformStamped::read(message)?).map(Some)),
         Foreign::of::<TFMessage>(one_of),
         // The name in old bags of ROS 1.
         Foreign { name: "tf/msg/tfMessage", ..Foreign::of::<TFMessage>(one_of) },
@@ -42,13 +57,13 @@ fn frame(name: &str) -> &str {
 }
 
 /// Pose of the second frame of a transform in the first one.
-fn pose(of: &TransformStamped) -> Pose2 {
-    let (position, rotation) = (&of.transform.translation, &of.transform.rotation);
-    Pose2::new(position.x as f32, position.y as f32, heading(rotation))
+fn pose<T: FromPose>(of: &TransformStamped) -> Result<T, Reason> {
+    let geometry_msgs::Vector3 { x, y, z } = of.transform.translation;
+    T::from_pose(&Pose { position: Point { x, y, z }, orientation: of.transform.rotation.clone() })
 }
 
 /// Reads the transform between the frames `part` (`odom -> base_link`).
-fn one_of(message: &mut Reader<'_>, part: &str) -> Result<Option<Pose2>, Reason> {
+fn one_of<T: FromPose>(message: &mut Reader<'_>, part: &str) -> Result<Option<T>, Reason> {
     let transforms = TFMessage::read(message)?.transforms;
     let name = |of: &TransformStamped| format!("{} -> {}", frame(&of.header.frame_id), frame(&of.child_frame_id));
     let names: Vec<String> = transforms.iter().map(name).collect();
@@ -59,7 +74,7 @@ fn one_of(message: &mut Reader<'_>, part: &str) -> Result<Option<Pose2>, Reason>
         }
         _ => {
             let wanted = part.split("->").map(frame).collect::<Vec<_>>().join(" -> ");
-            Ok(names.iter().rposition(|name| *name == wanted).map(|at| pose(&transforms[at])))
+            names.iter().rposition(|name| *name == wanted).map(|at| pose(&transforms[at])).transpose()
         }
     }
 }

@@ -1,6 +1,7 @@
 //! ROS 2 messages of scans, poses and points, which Foxglove and Python can show.
 
-use super::{Point2, Pose2, Ranges, Scan, foreign};
+pub(crate) use super::foreign::{FromPose, poses};
+use super::{Point2, Pose2, Ranges, Scan};
 use apex_messages::{
     Foreign, Reason, converted,
     geometry_msgs::{
@@ -75,11 +76,7 @@ impl TryFrom<PoseStamped> for Pose2 {
     }
 }
 
-converted!(
-    Pose2 as PoseStamped,
-    outside = |pose| PoseStamped { pose: seen(pose), ..pose.into() },
-    others = foreign::poses()
-);
+converted!(Pose2 as PoseStamped, outside = |pose| PoseStamped { pose: seen(pose), ..pose.into() }, others = poses());
 
 /// Pose with the orientation as a rotation, which is the same for a heading of a turn more.
 pub(crate) fn seen(pose: &Pose2) -> Pose {
@@ -113,7 +110,7 @@ impl From<&Pose> for Pose2 {
 }
 
 /// Heading of a quaternion, in rad: the direction in which the x axis points, seen from above.
-pub(super) fn heading(&Quaternion { x, y, z, w }: &Quaternion) -> f32 {
+fn heading(&Quaternion { x, y, z, w }: &Quaternion) -> f32 {
     // An angle that no quaternion can hold: x is NaN, or longer than that of a quaternion.
     if y == 0.0 && z == 0.0 && w == 0.0 && (x.is_nan() || x.abs() > 1.0) {
         return x as f32;

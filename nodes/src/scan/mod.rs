@@ -28,6 +28,7 @@ pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};
 pub use geometry::{FarFromOrigin, Point2, Pose2};
 pub use hide::HideBox;
 pub use laser::Scan;
+pub(crate) use mount::around;
 pub use mount::{MergeScans, MountScan, OtherBeams};
 pub use ranges::{MAX_BEAMS, Ranges, TooManyBeams};
 pub use remember::{Containers, RememberContainers};

@@ -1,4 +1,4 @@
-use super::{Pose2, Scan};
+use super::{Point2, Pose2, Scan};
 use apex_rt::{Out, node};
 use core::{
     f32::consts::{PI, TAU},
@@ -31,27 +31,36 @@ pub struct MountScan {
 #[node]
 impl MountScan {
     fn process(&mut self, scan: &Scan, mounted: &mut Out<Scan>) {
-        let mounted = mounted.get_mut();
-        mounted.angle_min = -PI;
-        mounted.angle_increment = TAU / BEAMS as f32;
-        mounted.range_min = f32::MIN_POSITIVE;
-        mounted.range_max = f32::MAX;
-        mounted.stamp = scan.stamp;
-        mounted.ranges.clear();
-        mounted.ranges.extend([f32::NAN; BEAMS]);
         let mount = Pose2::new(self.x, self.y, self.heading);
-        let towards = |angle: f32| libm::roundf((angle + PI) / (TAU / BEAMS as f32)) as usize % BEAMS;
-        for beam in (0..scan.ranges.len()).filter(|beam| scan.sight(*beam) == f32::INFINITY) {
-            // What is far away is in this direction from any place on the robot.
-            let direction = libm::remainderf(scan.angle(beam) + self.heading, TAU);
-            mounted.ranges[towards(direction)] = f32::INFINITY;
-        }
-        for (_, point) in scan.points() {
-            let point = mount.to_outer(point);
-            let range = &mut mounted.ranges[towards(point.angle())];
-            // `min` ignores the NaN of a beam without a point.
-            *range = range.min(point.norm());
-        }
+        let direction = |angle| libm::remainderf(angle + self.heading, TAU);
+        around(scan, |point| mount.to_outer(point), direction, mounted.get_mut());
+    }
+}
+
+/// Scan around the origin of an outer frame: `to_outer` transforms points into it, and `direction` angles, to [−π, π].
+pub(crate) fn around(
+    scan: &Scan,
+    to_outer: impl Fn(Point2) -> Point2,
+    direction: impl Fn(f32) -> f32,
+    mounted: &mut Scan,
+) {
+    mounted.angle_min = -PI;
+    mounted.angle_increment = TAU / BEAMS as f32;
+    mounted.range_min = f32::MIN_POSITIVE;
+    mounted.range_max = f32::MAX;
+    mounted.stamp = scan.stamp;
+    mounted.ranges.clear();
+    mounted.ranges.extend([f32::NAN; BEAMS]);
+    let towards = |angle: f32| libm::roundf((angle + PI) / (TAU / BEAMS as f32)) as usize % BEAMS;
+    for beam in (0..scan.ranges.len()).filter(|beam| scan.sight(*beam) == f32::INFINITY) {
+        // What is far away is in this direction from any place on the robot.
+        mounted.ranges[towards(direction(scan.angle(beam)))] = f32::INFINITY;
+    }
+    for (_, point) in scan.points() {
+        let point = to_outer(point);
+        let range = &mut mounted.ranges[towards(point.angle())];
+        // `min` ignores the NaN of a beam without a point.
+        *range = range.min(point.norm());
     }
 }
 
@@ -100,7 +109,6 @@ impl MergeScans {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scan::Point2;
     use apex_rt::{Construct, Time};
 
     fn mounted((x, y, heading): (f32, f32, f32), scan: &Scan) -> Scan {

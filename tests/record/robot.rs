@@ -1,0 +1,213 @@
+//! A robot whose devices are those of a recording of ROS 2.
+
+use crate::Folder;
+use apex_messages::{Message, nav_msgs::Odometry, sensor_msgs::LaserScan, std_msgs::Header};
+use apex_nodes::{
+    io::BagTopic,
+    nav::Twist,
+    scan::{Pose2, Scan},
+};
+use apex_rt::{Construct as _, SimClock, drive, prelude::*};
+use mcap::{WriteOptions, records::MessageHeader};
+use std::{collections::BTreeMap, fs, path::Path, sync::Mutex};
+
+/// Commands that the base of the recorded robot got, with their times.
+static COMMANDS: Mutex<Vec<(Time, Twist)>> = Mutex::new(vec![]);
+
+/// Scanner of the robot, which is not here.
+#[node]
+pub fn scanner() -> Result<Scan, &'static str> {
+    Err("there is no scanner")
+}
+
+/// Odometry of the robot, which is not here.
+#[node]
+pub fn wheels() -> Result<Pose2, &'static str> {
+    Err("there are no wheels")
+}
+
+/// Motors of the robot, which are not here.
+#[node]
+pub fn motors(_twist: &Twist) -> Result<(), &'static str> {
+    Err("there are no motors")
+}
+
+/// Takes commands in place of motors.
+#[node]
+pub fn listen(ctx: &Ctx, twist: &Twist) {
+    COMMANDS.lock().expect("no panic").push((ctx.now(), *twist));
+}
+
+apex_macros::graph! {
+    use apex_nodes::{
+        io::BagTopic,
+        nav::{MoveRobot, SafetyField, Twist},
+        scan::{Pose2, Scan},
+    };
+    use crate::robot::{listen, motors, scanner, wheels};
+
+    graph Laser {
+        out scan: Scan;
+
+        node device = scanner() every 100ms;
+        device -> scan;
+    }
+
+    graph Base {
+        slot twist: Twist;
+        out  odometry: Pose2;
+
+        node turned = wheels() every 20ms;
+        turned -> odometry;
+        twist  -> motors();
+    }
+
+    robot Real {
+        node laser = Laser();
+        node base  = Base();
+        node drive = MoveRobot(distance = 1m);
+        node field = SafetyField(radius = 20cm);
+
+        start         => drive.enable;
+        base.odometry -> drive.pose;
+        laser.scan    -> field.scan;
+        drive         -> field.twist;
+        field         -> base.twist;
+        drive.done    => exit;
+    }
+
+    graph RecordedLaser {
+        out scan: Scan;
+
+        node bag = BagTopic<Scan>(file = "drive.mcap", topic = "/scan") every 1ms;
+        bag -> scan;
+    }
+
+    graph RecordedBase {
+        slot  twist: Twist;
+        out   odometry: Pose2;
+        event done;
+
+        node bag = BagTopic<Pose2>(file = "drive.mcap", topic = "/odom") every 1ms;
+        bag      -> odometry;
+        bag.done -> done;
+        twist    -> listen();
+    }
+
+    robot Replayed = Real {
+        node laser = RecordedLaser();
+        node base  = RecordedBase();
+
+        base.done -> exit;
+    }
+}
+
+/// Time of the first message: since 1970, as ROS 2 has it, in ns.
+const BEGIN: u64 = 1_700_000_000_000_000_000;
+
+/// Writes a drive of 2 s at 0.4 m/s, with a wall 5 m ahead; at `last`, the scanner falls silent.
+fn write(path: &Path, last: u64) {
+    let mut writer = WriteOptions::new().create(fs::File::create(path).expect("a new file")).expect("a file");
+    let mut channel = |topic, name, definition: &str| {
+        let schema = writer.add_schema(name, "ros2msg", definition.as_bytes()).expect("room");
+        writer.add_channel(schema, topic, "cdr", &BTreeMap::new()).expect("room")
+    };
+    let odom = channel("/odom", Odometry::NAME, Odometry::DEFINITION);
+    let scan = channel("/scan", LaserScan::NAME, LaserScan::DEFINITION);
+    for millis in (0..=2000_u64).step_by(20) {
+        let time = BEGIN + millis * 1_000_000;
+        let mut put = |channel_id, bytes: &[u8]| {
+            let header = MessageHeader { channel_id, sequence: 0, log_time: time, publish_time: time };
+            writer.write_to_known_channel(&header, bytes).expect("room");
+        };
+        let stamp = Time::from_nanos(time as i64 - 3_000_000);
+        let x = 0.0004 * millis as f32;
+        put(odom, &Odometry { header: Header::new(stamp, "odom"), ..(&Pose2::new(x, 0.0, 0.0)).into() }.to_bytes());
+        if millis % 100 == 0 && millis <= last {
+            let scan_message = LaserScan {
+                header: Header::new(stamp, "laser"),
+                angle_min: -0.5,
+                angle_increment: 0.01,
+                range_min: 0.1,
+                range_max: 10.0,
+                ranges: vec![5.0 - x; 101],
+                ..LaserScan::default()
+            };
+            put(scan, &scan_message.to_bytes());
+        }
+    }
+    writer.finish().expect("room");
+}
+
+/// Runs the robot on a file; returns the commands by time in ms.
+fn run(path: &Path) -> Vec<(i64, f32)> {
+    let mut robot = Replayed::new();
+    for name in ["laser.bag.file", "base.bag.file"] {
+        robot.set_param(name, path.to_str().expect("a readable path").to_owned()).expect("a parameter");
+    }
+    COMMANDS.lock().expect("no panic").clear();
+    drive(robot, SimClock::until(Time::from_secs(10)));
+    let commands = COMMANDS.lock().expect("no panic");
+    commands.iter().map(|(time, twist)| (time.as_nanos() / 1_000_000, twist.velocity().norm())).collect()
+}
+
+#[test]
+fn a_variant_of_a_robot_drives_on_a_recording() {
+    let folder = Folder::new();
+    let path = folder.file("drive.mcap");
+    write(&path, 2000);
+    let commands = run(&path);
+    // It sees the wall in time, because stamps are times of the program, and ends with the recording.
+    let drives = commands.iter().filter(|(_, speed)| *speed > 0.1).count();
+    assert!(drives > 90, "{commands:?}");
+    assert!(commands.iter().all(|(millis, _)| *millis <= 2001), "{:?}", commands.last());
+    // The scanner of this one falls silent.
+    write(&path, 500);
+    let commands = run(&path);
+    let last = commands.iter().rfind(|(_, speed)| *speed > 0.1);
+    assert!(last.is_some_and(|(millis, _)| (900..=1000).contains(millis)), "{last:?}");
+}
+
+/// Answers of the first firings of a player, until it has sent nothing three times.
+fn play<T: Message>(file: &str, topic: &'static str) -> (Vec<Result<T, String>>, bool) {
+    let mut node = BagTopic::<T>::construct((file.to_owned(), topic, false));
+    let (mut sent, mut silent, mut ended) = (vec![], 0, None);
+    let mut now = Time::ZERO;
+    while silent < 3 {
+        let answer = node.process(&Ctx::new(now), apex_rt::event(&mut ended));
+        now = Time::from_secs(100);
+        match answer {
+            Ok(None) => silent += 1,
+            Ok(Some(token)) => sent.push(Ok(token)),
+            Err(error) => sent.push(Err(error.to_string())),
+        }
+    }
+    (sent, ended.is_some())
+}
+
+#[test]
+fn what_cannot_be_played_is_said_once() {
+    let folder = Folder::new();
+    let path = folder.file("drive.mcap");
+    write(&path, 500);
+    let file = path.to_str().expect("a readable path");
+    let (scans, ended) = play::<Scan>(file, "/scan");
+    let stamps: Vec<_> = scans.iter().map(|scan| scan.as_ref().expect("a scan").stamp.as_nanos() / 1_000_000).collect();
+    assert_eq!((stamps, ended), (vec![-3, 97, 197, 297, 397, 497], true));
+    let error = |topic, text: String| {
+        let (sent, _) = play::<Scan>(file, topic);
+        assert_eq!(sent, [Err(format!("{file}: {text}"))]);
+    };
+    error("/front", "it has no topic `/front`, but `/odom`, `/scan`".to_owned());
+    error(
+        "/odom",
+        "`/odom` is of type `nav_msgs/msg/Odometry`, and the port reads `sensor_msgs/msg/LaserScan`".to_owned(),
+    );
+    let (sent, ended) = play::<Scan>("/nowhere.mcap", "/scan");
+    assert!(sent.len() == 1 && sent[0].as_ref().is_err_and(|why| why.starts_with("/nowhere.mcap: ")) && !ended);
+    // Cut off: what is there is played.
+    let bytes = fs::read(&path).expect("the file");
+    fs::write(&path, &bytes[..bytes.len() / 2]).expect("a shorter file");
+    let (poses, ended) = play::<Pose2>(file, "/odom");
+    assert!(ended && poses.iter().all(Result::is_ok), "{poses:?}");
+}
