@@ -2,12 +2,12 @@
 
 use crate::{Library, cells::Cells, state::State};
 use apex_dsl::{
-    analyse::{Analysis, ClusterId},
+    analyse::ClusterId,
     catalog::Catalog,
     checked::CheckedProgram,
     graph::{ConnectionId, Graph, NodeId, NodeKind, PortId},
     index::IdVec,
-    program::{ClusterRow, Lower, Ops, Plan, Program, Reaction, Served},
+    program::{ClaimCheck, ClusterRow, Lower, Ops, Plan, Program, Reaction, Served},
     threads::{Origin, Part},
 };
 use std::collections::BTreeMap;
@@ -77,6 +77,8 @@ pub struct Code<'a> {
     pub reaction: Reaction,
     /// The clusters that the dispatcher looks at.
     pub rows: Vec<ClusterRow>,
+    /// Claims that are looked at.
+    pub claims: Vec<ClaimCheck>,
     /// Numbers for observers.
     pub numbers: Numbers,
     /// It is the part of a thread group, beside others.
@@ -87,8 +89,9 @@ pub struct Code<'a> {
 
 impl<'a> Code<'a> {
     /// Operations of a graph.
-    fn new(graph: &'a Graph, analysis: &'a Analysis, catalog: &'a Catalog, numbers: Numbers, is_part: bool) -> Self {
-        let program = Program::new(Lower::new(graph, analysis, catalog, None));
+    fn new(lower: Lower<'a>, numbers: Numbers, is_part: bool) -> Self {
+        let Lower { graph, analysis, catalog, .. } = lower;
+        let program = Program::new(lower);
         let plan = |cluster| Plan::new(graph, catalog, &analysis.links, analysis, cluster);
         let plans: IdVec<ClusterId, Plan> = analysis.clusters.ids().map(plan).collect();
         let clusters = analysis.clusters.ids().map(|cluster| program.ops_of(cluster, &plans)).collect();
@@ -96,7 +99,7 @@ impl<'a> Code<'a> {
         for (node, n) in graph.nodes.iter_enumerated() {
             if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node)) {
                 let inner = numbers.inner.get(&node).cloned().unwrap_or_default();
-                bodies.insert(node, Self::new(&each.body, body, catalog, inner, false));
+                bodies.insert(node, Self::new(Lower::new(&each.body, body, catalog, None), inner, false));
             }
         }
         Self {
@@ -108,6 +111,7 @@ impl<'a> Code<'a> {
             interrupts: program.interrupts().into_iter().collect(),
             reaction: program.reaction(),
             rows: program.wiring.bits.rows(graph, analysis, &analysis.links),
+            claims: program.claim_checks(),
             numbers,
             is_part,
             bodies,
@@ -145,10 +149,17 @@ impl<'a> Interpreter<'a> {
         let mut count = 0;
         let numbers = Numbers::new(&program.graph, &mut count);
         let (codes, cells): (Vec<Code<'a>>, _) = match &program.split {
-            None => (vec![Code::new(&program.graph, &program.analysis, catalog, numbers, false)], &[][..]),
+            None => {
+                let lower = Lower::new(&program.graph, &program.analysis, catalog, Some(&program.claims));
+                (vec![Code::new(lower, numbers, false)], &[][..])
+            }
             Some(split) => {
                 let part = |part: &'a Part| {
-                    Code::new(&part.graph, &part.analysis, catalog, numbers.of_part(part, count), true)
+                    Code::new(
+                        Lower::new(&part.graph, &part.analysis, catalog, None),
+                        numbers.of_part(part, count),
+                        true,
+                    )
                 };
                 (split.parts.iter().map(part).collect(), &split.cells[..])
             }

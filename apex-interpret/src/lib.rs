@@ -5,6 +5,7 @@
 
 mod call;
 mod cells;
+mod claims;
 mod cluster;
 mod code;
 mod conditions;

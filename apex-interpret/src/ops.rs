@@ -2,7 +2,7 @@
 
 use crate::{Library, Value, cells::Cells, cluster::Local, code::Code, state::State};
 use apex_dsl::{
-    graph::{NodeId, NodeKind, PortId},
+    graph::{NodeId, PortId},
     program::{Cancel, Carries, Flag, Op, Taken},
     syntax::tree::PortKind,
 };
@@ -93,8 +93,9 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                     node.turned(*active);
                 }
             }
-            // The interpreter has no claims, and no states of machines to show.
-            Op::CheckClaims | Op::ShowStates => {}
+            Op::CheckClaims => self.check_claims(),
+            // State machines are not made by any library yet.
+            Op::ShowStates | Op::Move { .. } => {}
             Op::Set(flag, value) => self.state.set(*flag, *value),
             Op::ForgetTokens => {
                 self.state.flags.retain(|flag| !matches!(flag, Flag::Gains(_) | Flag::Loses(_) | Flag::Carries(_)));
@@ -161,8 +162,6 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                     self.ops(then, ctx, place);
                 }
             }
-            // State machines are not made by any library yet.
-            Op::Move { .. } => {}
             Op::StartTimeout(timeout) => self.start_timeout(*timeout, ctx),
             Op::StopTimeout(timeout) => self.state.timeouts[*timeout].stop(),
             Op::Advance(timer) => self.state.timers[*timer].advance(),
@@ -348,10 +347,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         for Taken { node, on_the_way, remember, then } in takes {
             let mut found = false;
             on_the_way.iter().for_each(|flag| found |= self.state.take(*flag));
-            found |= match self.code.graph().nodes[*node].kind {
-                NodeKind::Delay(_) => self.state.held_activity.get(node).is_some_and(crate::delay::Delay::holds_any),
-                _ => self.state.flags.contains(&Flag::Active(*node)),
-            };
+            found |= self.has(self.code.program.lower.spot(*node));
             if found {
                 taken = true;
                 remembered.extend(remember.iter().copied());

@@ -46,6 +46,8 @@ pub struct State {
     pub told_ahead: BTreeMap<NodeId, i64>,
     /// Cells whose tokens are not done with.
     pub holding: BTreeSet<usize>,
+    /// Claims that are broken now.
+    pub broken: BTreeSet<usize>,
     /// Steps that are left in the reaction.
     pub steps: u32,
     /// `true` after `start`.
@@ -115,6 +117,7 @@ impl State {
             time: ProgramTime::new(),
             told_ahead: BTreeMap::new(),
             holding: BTreeSet::new(),
+            broken: BTreeSet::new(),
             steps: u32::MAX,
             started: false,
             exit: None,

@@ -2,7 +2,9 @@
 //!
 //! `APEX_INTERPRETED_GRAPHS` is the number of graphs (1,000), `APEX_ORACLE_SEED` the first seed.
 
+use apex_dsl::checked::CheckedProgram;
 use apex_tests::oracle::{Case, Checker, Record, generate, interpret, on_threads, paced, with_timeouts};
+use apex_tests::{SEED, cases, programs, text};
 use rayon::prelude::*;
 use std::env;
 
@@ -33,7 +35,7 @@ fn as_net(checker: &Checker, case: &Case) -> Tried {
     let text = case.text("Random");
     let Ok(checked) = checker.check(&text) else { return Tried::Illegal };
     let records = match interpret(&checker.catalog(), &checked, &millis(&IN_TIME)) {
-        Ok(records) => records,
+        Ok(interpreted) => interpreted.records,
         Err(why) => return Tried::Wrong(format!("seed {}: {why}\n{text}", case.seed)),
     };
     let Err((step, why)) = checker.judge(&checked, &records) else { return Tried::Right(calls(&records)) };
@@ -53,7 +55,7 @@ fn as_net(checker: &Checker, case: &Case) -> Tried {
 fn late_as_in_time(checker: &Checker, case: &Case) -> Tried {
     let Ok(checked) = checker.check(&case.text("Random")) else { return Tried::Illegal };
     let steps = |times: &[i64]| {
-        let records = interpret(&checker.catalog(), &checked, &millis(times)).unwrap_or_default();
+        let records = interpret(&checker.catalog(), &checked, &millis(times)).unwrap_or_default().records;
         let is_step = |record: &Record| !matches!(record, Record::Begin(_) | Record::PortId);
         records.into_iter().filter(is_step).collect::<Vec<_>>()
     };
@@ -97,6 +99,58 @@ fn try_all(share: u64, made: impl Fn(u64) -> Case + Sync, test: impl Fn(&Checker
     assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong[..wrong.len().min(3)].join("\n"));
     // Otherwise little was tested.
     assert!(right.len() as u64 * 2 > count && calls > right.len() * 5, "too few graphs are legal, or they do nothing");
+}
+
+/// Synchronous graphs, flat and with a nested graph, follow the rules R1 to R3.
+#[test]
+fn interpreted_synchronous_graphs_follow_the_rules() {
+    const ITERATIONS: usize = 25;
+    let count = (number("APEX_INTERPRETED_GRAPHS").unwrap_or(1000) / 5) as usize;
+    let first = number("APEX_ORACLE_SEED").unwrap_or(1);
+    let cases = cases(SEED ^ first, count);
+    let wrong: Vec<String> = cases
+        .par_chunks(40)
+        .flat_map_iter(|cases| {
+            let (programs, catalog) = programs(&text(cases));
+            let tried = cases.iter().enumerate().flat_map(move |(number, case)| {
+                let expected = case.run(ITERATIONS);
+                let names = [format!("Flat{number}"), format!("Nested{number}")];
+                let of_case: Vec<&CheckedProgram> = programs.iter().filter(|p| names.contains(&p.graph.name)).collect();
+                assert_eq!(of_case.len(), 2, "both are programs");
+                let wrong = of_case.into_iter().filter_map(|program| {
+                    let trace = case.interpret(program, &catalog, ITERATIONS).expect("all nodes are known");
+                    (trace != expected).then(|| format!("{}: {expected:?}\n{trace:?}\n{case:?}", program.graph.name))
+                });
+                wrong.collect::<Vec<_>>()
+            });
+            tried.collect::<Vec<_>>()
+        })
+        .collect();
+    println!("{} graphs, each twice", cases.len());
+    assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong[0]);
+}
+
+/// Claims that the compiler has not decided are looked at.
+#[test]
+fn interpreted_claims_are_reported_once() {
+    const TEXT: &str = "use apex_tests::nodes::{ScHandler, ScSourceE};
+        graph Random {
+            node go = ScSourceE(id = 0, script = [1, 1, 3]) every 1ms;
+            node a = ScHandler(id = 1, script = [1, 1, 9]);
+            node b = ScHandler(id = 2, script = [1, 1, 9]);
+            node c = ScHandler(id = 3, script = [1, 1, 0]);
+            start => a;
+            start => b;
+            go.e -> a.s;
+            a.e => c.s;
+            claim exclusive(b, c);
+            claim exclusive(a, go);
+        }";
+    let checker = Checker::new();
+    let checked = checker.check_within(TEXT, 1).expect("a legal text");
+    let run = interpret(&checker.catalog(), &checked, &millis(&[0, 1, 2])).expect("known nodes");
+    // `b` is active from the start; then the activity of `a` goes on to `c`.
+    assert_eq!(run.broken, [0]);
 }
 
 #[test]

@@ -92,7 +92,7 @@ fn differs_interpreted(checker: &Checker, checked: &Checked, records: &[Record])
     let times = records.iter().filter_map(|r| if let Record::Begin(now) = r { Some(*now as i64) } else { None });
     let times: Vec<i64> = times.collect();
     let interpreted = match interpret(&checker.catalog(), checked, &times) {
-        Ok(interpreted) => interpreted,
+        Ok(interpreted) => interpreted.records,
         Err(why) => return Some(format!("it is not interpreted: {why}")),
     };
     let same = records.iter().zip(&interpreted).take_while(|(compiled, interpreted)| compiled == interpreted).count();

@@ -2,6 +2,7 @@
 
 use apex_dsl::{
     catalog::Catalog,
+    checked::CheckedProgram,
     passes,
     report::{Diagnostic, Diagnostics, Severity},
     source::{Sources, Span},
@@ -54,6 +55,23 @@ impl Found {
 /// All errors of `text`, which can use the nodes of this package, in the order of the text.
 pub fn check(text: &str) -> Vec<Found> {
     compile(text).0
+}
+
+/// The programs of a correct `text`, which can use the nodes of this package, with the catalog.
+///
+/// # Panics
+/// Panics if it has errors.
+pub fn programs(text: &str) -> (Vec<CheckedProgram>, Catalog) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let workspace = Workspace::load(folder).expect("this package has a workspace");
+    let mut disk = Disk::new(Some(&workspace.cache_folder()));
+    let mut catalog = Catalog::load(workspace.crates(&Seen::Crate("behaviour", false)), &mut disk);
+    let mut sources = Sources::default();
+    let root = sources.add(folder.join("text.afg"), text);
+    let mut diagnostics = Diagnostics::default();
+    let checked = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
+    assert!(!diagnostics.has_errors(), "{:?}", diagnostics.sorted());
+    (checked.programs, catalog)
 }
 
 fn compile(text: &str) -> (Vec<Found>, String) {

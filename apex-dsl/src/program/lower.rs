@@ -22,13 +22,16 @@ pub struct Lower<'a> {
     /// The node types.
     pub catalog: &'a Catalog,
     /// Verdicts on its claims; none in a part of a program and in the body of an `each`.
-    pub claims: Option<&'a Decided>,
+    claims: Option<&'a Decided>,
+    /// The program checks claims about activity.
+    checks_claims: bool,
 }
 
 impl<'a> Lower<'a> {
     /// The input of a graph with its analysis.
     pub fn new(graph: &'a Graph, analysis: &'a Analysis, catalog: &'a Catalog, claims: Option<&'a Decided>) -> Self {
-        Self { graph, analysis, links: &analysis.links, catalog, claims }
+        let checks_claims = claims.is_some_and(|claims| !claims.undecided().is_empty());
+        Self { graph, analysis, links: &analysis.links, catalog, claims, checks_claims }
     }
 
     /// Returns `true` if activity can reach a node.
@@ -51,7 +54,7 @@ impl<'a> Lower<'a> {
 
     /// Returns `true` if the program checks claims about activity.
     pub fn checks_claims(self) -> bool {
-        !self.undecided().is_empty()
+        self.checks_claims
     }
 
     /// The `timeout` of a node, if it can come.

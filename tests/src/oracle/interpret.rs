@@ -123,18 +123,33 @@ impl Library for Scripts {
     }
 }
 
+/// A run of the interpreter.
+#[derive(Debug, Default)]
+pub struct Interpreted {
+    /// Its records.
+    pub records: Vec<Record>,
+    /// Claims that were broken, in the order in which they were.
+    pub broken: Vec<usize>,
+}
+
 /// Observer that writes records.
-struct Notes(Records);
+struct Notes {
+    records: Records,
+    broken: Vec<usize>,
+}
 
 impl Observer for Notes {
     fn fired(&mut self, node: usize) {
-        self.0.borrow_mut().push(Record::Fired(NodeId::from(node)));
+        self.records.borrow_mut().push(Record::Fired(NodeId::from(node)));
     }
     fn handled(&mut self, connection: usize) {
-        self.0.borrow_mut().push(Record::Handled(ConnectionId::from(connection)));
+        self.records.borrow_mut().push(Record::Handled(ConnectionId::from(connection)));
     }
     fn activity(&mut self, node: usize, active: bool) {
-        self.0.borrow_mut().push(Record::Activity(NodeId::from(node), active));
+        self.records.borrow_mut().push(Record::Activity(NodeId::from(node), active));
+    }
+    fn claim_failed(&mut self, claim: usize) {
+        self.broken.push(claim);
     }
 }
 
@@ -142,15 +157,15 @@ impl Observer for Notes {
 ///
 /// # Errors
 /// Returns what the interpreter does not know.
-pub fn interpret(catalog: &Catalog, checked: &Checked, times: &[i64]) -> Result<Vec<Record>, String> {
+pub fn interpret(catalog: &Catalog, checked: &Checked, times: &[i64]) -> Result<Interpreted, String> {
     let records = Records::default();
     let library = Scripts { records: records.clone() };
     let mut program = Interpreter::new(&checked.program, catalog, &library)?;
+    let mut notes = Notes { records: records.clone(), broken: vec![] };
     for now in times {
         records.borrow_mut().push(Record::Begin(*now as u64));
-        program.react(Time::from_nanos(*now), &mut Notes(records.clone()));
+        program.react(Time::from_nanos(*now), &mut notes);
         records.borrow_mut().push(Record::PortId);
     }
-    let found = records.take();
-    Ok(found)
+    Ok(Interpreted { records: records.take(), broken: notes.broken })
 }

@@ -4,6 +4,7 @@ use super::script;
 use apex_dsl::{
     catalog::{Catalog, Signature},
     checked::CheckedProgram,
+    claims::MAX_STATES,
     graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Value},
     passes,
     report::{Diagnostics, Severity},
@@ -86,12 +87,25 @@ impl Checker {
     }
 
     /// The last program of `text` with its net, or the errors of the text. Nested graphs are written before it.
+    ///
+    /// # Errors
+    /// Returns the errors of the text.
     pub fn check(&self, text: &str) -> Result<Checked, String> {
+        self.check_within(text, MAX_STATES)
+    }
+
+    /// The same with claims that are decided by at most `states` states.
+    ///
+    /// # Errors
+    /// Returns the errors of the text.
+    pub fn check_within(&self, text: &str, states: usize) -> Result<Checked, String> {
         let mut sources = Sources::default();
         let root = sources.add(Path::new(env!("CARGO_MANIFEST_DIR")).join("text.afg"), text);
         let mut diagnostics = Diagnostics::default();
         let mut disk = Disk::new(None);
-        let checked = passes::check(root, &mut self.catalog.borrow_mut(), &mut sources, &mut disk, &mut diagnostics);
+        let mut catalog = self.catalog.borrow_mut();
+        let checked = passes::check_all(root, &mut catalog, &mut sources, &mut disk, states, &mut diagnostics);
+        drop(catalog);
         let errors: Vec<String> = diagnostics
             .sorted()
             .into_iter()

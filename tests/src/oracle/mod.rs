@@ -10,7 +10,7 @@ mod walk;
 
 pub use case::{Case, NODE_TYPES};
 pub use generate::{generate, on_threads, paced, with_timeouts};
-pub use interpret::interpret;
+pub use interpret::{Interpreted, interpret};
 pub use judge::{Checked, Checker, Failure, Record, judge, read, script_of};
 pub use script::{ALWAYS, Now, Parameters, call, note, origin, run_unevenly, sends, take_notes, value};
 pub use walk::walk;

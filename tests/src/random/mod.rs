@@ -2,6 +2,7 @@
 //!
 //! Every graph is written twice, flat and with some neighbouring nodes in a nested graph; both must behave identically.
 
+mod interpret;
 mod kinds;
 mod run;
 mod text;
