@@ -194,7 +194,10 @@ impl HazardMap {
     /// Marks the floor around an axle that stands on it, and that the robot sees no longer.
     fn stand(&mut self, axle: Point2, radius: f32) {
         for place in disc(axle, radius, self.resolution) {
-            self.mark(place, place, Ground::Unknown);
+            let Some(cell) = self.floor.index(place).map(|index| self.floor.get_mut(index)) else { continue };
+            if *cell != Ground::Missing {
+                *cell = Ground::Floor;
+            }
         }
     }
 
