@@ -17,10 +17,10 @@ pub struct Placed {
     #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
     distance: f32,
     /// Largest angle between the load and its destination; its ends are alike.
-    #[param(unit = "rad", default = 0.09, range = 0.0..=1.6)]
+    #[param(unit = "rad", default = 0.12, range = 0.0..=1.6)]
     turn: f32,
     /// Largest angle between tractor and trailer.
-    #[param(unit = "rad", default = 0.1, range = 0.0..=1.6)]
+    #[param(unit = "rad", default = 0.06, range = 0.0..=1.6)]
     bend: f32,
     destination: Option<Pose2>,
     /// Pose of the load on the plan, and the angle between tractor and trailer.
