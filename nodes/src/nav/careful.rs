@@ -150,17 +150,16 @@ impl PersonCaution {
         }
         // Who stands behind or beside a vehicle that backs up may take a step, too.
         let halt = if stands { fminf(self.beside, self.halt) } else { self.halt };
-        // The trunk of a person is above a low vehicle, but not above its load.
-        let touch = if self.load_width > 0.0 { fmaxf(self.beside, TOUCH) } else { TOUCH };
         let counts = !stands || twist.x < 0.0;
-        if counts && distance < if is_left { fminf(touch, halt) } else { halt } {
+        if counts && distance < if is_left { fminf(TOUCH, halt) } else { halt } {
             return 0.0;
         }
         let foreseen = || self.foreseen(twist, outline, now, person);
         let predicted = match distance < self.beside {
             false => foreseen(),
             true if is_left => foreseen(),
-            true if stands && self.load_width <= 0.0 && distance >= touch => fminf(foreseen(), self.standing_speed),
+            // The trunk of a person is above a low vehicle, but not above its load.
+            true if stands && self.load_width <= 0.0 && distance >= TOUCH => fminf(foreseen(), self.standing_speed),
             true => 0.0,
         };
         fmaxf(self.speed_at(distance, person), predicted)

@@ -20,7 +20,7 @@ pub struct Placed {
     #[param(unit = "rad", default = 0.12, range = 0.0..=1.6)]
     turn: f32,
     /// Largest angle between tractor and trailer.
-    #[param(unit = "rad", default = 0.06, range = 0.0..=1.6)]
+    #[param(unit = "rad", default = 0.1, range = 0.0..=1.6)]
     bend: f32,
     destination: Option<Pose2>,
     /// Pose of the load on the plan, and the angle between tractor and trailer.
