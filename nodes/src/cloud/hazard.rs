@@ -194,7 +194,10 @@ impl HazardMap {
     /// Marks the floor around an axle that stands on it, and that the robot sees no longer.
     fn stand(&mut self, axle: Point2, radius: f32) {
         for place in disc(axle, radius, self.resolution) {
-            self.mark(place, place, Ground::Unknown);
+            let Some(cell) = self.floor.index(place).map(|index| self.floor.get_mut(index)) else { continue };
+            if *cell != Ground::Missing {
+                *cell = Ground::Floor;
+            }
         }
     }
 
@@ -528,6 +531,22 @@ mod tests {
         };
         assert_eq!(at(0.05, [-1.0, -0.3, 0.35, 0.55]), [true, true, true, false]);
         assert_eq!(at(0.55, [-1.0, 0.35, 0.65, 0.85]), [true, true, true, false]);
+    }
+
+    /// One cloud that was wrong held the vehicle where it stood.
+    #[test]
+    fn where_the_vehicle_stands_one_cloud_is_not_believed() {
+        let mut node = node();
+        node.floor.follow(Point2::default(), node.size, node.resolution);
+        let mut at_feet = |ground: Ground| {
+            let place = Point2::new(0.1, 0.1);
+            let index = node.floor.index(place).expect("inside");
+            *node.floor.get_mut(index) = ground;
+            node.stand(Point2::default(), 0.25);
+            node.floor.get(index)
+        };
+        assert_eq!(at_feet(Ground::Doubtful(1)), Ground::Floor);
+        assert_eq!(at_feet(Ground::Missing), Ground::Missing);
     }
 
     #[test]

@@ -20,6 +20,10 @@ const SAME: f32 = 0.5;
 const STEP: f32 = 0.1;
 /// Number of times within the horizon at which places are compared.
 const TIMES: u8 = 10;
+/// Distance by which a person who is too near may come nearer, in m: less than the error of a prediction.
+const GRAZE: f32 = 0.01;
+/// Distance within which legs may touch the vehicle, also if it drives away, in m.
+const TOUCH: f32 = 0.19;
 /// Share of this distance by which persons are farther away then, if the robot drives away from them.
 const LEFT: f32 = 0.5;
 
@@ -57,10 +61,12 @@ pub struct PersonCaution {
     /// stands.
     #[param(unit = "m/s", default = 0.15, range = 0.0..=10.0)]
     standing_speed: f32,
-    /// Distance up to which the speed is `min_speed` whether the person stands or walks: who stands may take a step.
+    /// Distance up to which the speed is `min_speed` whether the person stands or walks: who stands may take a step. With
+    /// a horizon, a robot without a load that only comes past who stands does so at the speed for persons who stand.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     beside: f32,
-    /// Distance within which the robot stops for who walks, unless it drives away: a touch is then none of its own.
+    /// Distance within which the robot stops for who walks, and backward also for who stands, unless it drives away: a
+    /// touch is then none of its own.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     halt: f32,
     /// Time for which a person within `beside` still counts after the last detection: the robot or its load often hides
@@ -121,24 +127,42 @@ impl PersonCaution {
         let next = self.vehicle.places(&now, twist, STEP).next().unwrap_or(now);
         let is_left = |place| outline.distance(&next, place) > outline.distance(&now, place) + LEFT * STEP;
         self.forget(time, persons);
-        let mut hidden = self.kept.iter().map(|kept| kept.place);
-        let meets_hidden = hidden.any(|place| outline.distance(&now, place) < self.beside && !is_left(place));
-        let mut speed = if meets_hidden { self.min_speed } else { f32::INFINITY };
-        for person in persons.iter() {
-            let distance = outline.distance(&now, person.position);
-            if distance < self.beside {
-                // Does not matter if it is full: the robot is slow already.
-                let _ = self.kept.push(Kept { place: person.position, seen: time });
-            }
-            if distance < self.halt && !self.stands(person) && !is_left(person.position) {
-                speed = 0.0;
-            }
-            if !(self.stands(person) && is_left(person.position)) {
-                let predicted = if distance < self.beside { 0.0 } else { self.foreseen(twist, &outline, &now, person) };
-                speed = fminf(speed, fmaxf(self.speed_at(distance, person), predicted));
-            }
+        let hidden = self.kept.iter().map(|kept| Person { position: kept.place, ..Person::default() });
+        let speed = |person: &Person| self.speed_beside(twist, &outline, &now, person, is_left(person.position));
+        let beside = |person: &Person| outline.distance(&now, person.position) < self.beside;
+        let least = persons
+            .iter()
+            .map(speed)
+            .chain(hidden.filter(beside).map(|person| speed(&person)))
+            .fold(f32::INFINITY, fminf);
+        for person in persons.iter().filter(|person| beside(person)) {
+            // Does not matter if it is full: the robot is slow already.
+            let _ = self.kept.push(Kept { place: person.position, seen: time });
         }
-        speed
+        least
+    }
+
+    /// Highest speed because of a person, from whom the robot drives away or not.
+    fn speed_beside(&self, twist: &Twist, outline: &Outline, now: &Axes, person: &Person, is_left: bool) -> f32 {
+        let (distance, stands) = (outline.distance(now, person.position), self.stands(person));
+        if stands && is_left {
+            return f32::INFINITY;
+        }
+        // Who stands behind or beside a vehicle that backs up may take a step, too.
+        let halt = if stands { fminf(self.beside, self.halt) } else { self.halt };
+        let counts = !stands || twist.x < 0.0;
+        if counts && distance < if is_left { fminf(TOUCH, halt) } else { halt } {
+            return 0.0;
+        }
+        let foreseen = || self.foreseen(twist, outline, now, person);
+        let predicted = match distance < self.beside {
+            false => foreseen(),
+            true if is_left => foreseen(),
+            // The trunk of a person is above a low vehicle, but not above its load.
+            true if stands && self.load_width <= 0.0 && distance >= TOUCH => fminf(foreseen(), self.standing_speed),
+            true => 0.0,
+        };
+        fmaxf(self.speed_at(distance, person), predicted)
     }
 
     /// Highest speed up to that of a twist at which a person is not too near within the horizon; 0 if there is none.
@@ -150,7 +174,7 @@ impl PersonCaution {
             let places = self.vehicle.places(now, twist, share * speed * time);
             times.zip(places).all(|(t, axes)| {
                 let distance = outline.distance(&axes, person.position + person.velocity.scaled(t));
-                distance >= fminf(self.keep + self.spread * t, before)
+                distance >= fminf(self.keep + self.spread * t, before - GRAZE)
             })
         };
         let shares = [1.0, 0.75, 0.5, 0.25].into_iter().filter(|_| self.horizon > 0.0);
@@ -279,6 +303,32 @@ mod tests {
         };
         assert_eq!([speed(1.0, 0.5, 1.0), speed(1.0, 0.5, 0.1), speed(1.0, 0.6, 1.0)], [0.0, 0.3, 0.1]);
         assert_eq!([speed(-1.0, 0.5, 1.0), speed(1.0, -1.0, 1.0), speed(-1.0, -1.0, 1.0)], [-0.1, 0.1, 0.0]);
+    }
+
+    /// A vehicle that backs up beside a person who stands was touched when the person took a step.
+    #[test]
+    fn a_vehicle_that_backs_up_halts_for_who_stands_beside_it() {
+        let speed = |twist: f32, place: (f32, f32), velocity: f32| {
+            let mut node = PersonCaution { halt: 0.4, beside: 0.3, ..node([0.0; 2]) };
+            fire(&mut node, 0, Twist::new(twist, 0.0, 0.0), &[(place.0, place.1, velocity)]).x
+        };
+        assert_eq!([speed(-0.3, (-0.3, 0.47), 0.0), speed(-0.3, (-1.05, 0.0), 0.0)], [0.0; 2]);
+        assert_eq!([speed(0.3, (-0.3, 0.47), 0.0), speed(-0.3, (-0.3, 0.55), 0.0)], [0.1, -0.3]);
+        // The robot drives away from it.
+        assert_eq!(speed(-0.3, (0.5, 0.0), 0.0), -0.3);
+        // Who walks may touch it then, too.
+        assert_eq!([speed(0.3, (-0.95, 0.0), 1.0), speed(0.3, (-1.05, 0.0), 1.0)], [0.0, 0.1]);
+    }
+
+    /// Creeping past a person who stands takes longer than a step.
+    #[test]
+    fn who_stands_beside_its_way_is_passed() {
+        let speed = |place: (f32, f32), velocity: f32, horizon: f32| {
+            let mut node = PersonCaution { horizon, beside: 0.3, ..node([0.0; 2]) };
+            fire(&mut node, 0, Twist::new(0.8, 0.0, 0.0), &[(place.0, place.1, velocity)]).x
+        };
+        assert_eq!([speed((0.1, 0.45), 0.0, 2.5), speed((0.1, 0.45), 0.0, 0.0)], [0.3, 0.1]);
+        assert_eq!([speed((0.1, 0.45), -0.5, 2.5), speed((0.5, 0.0), 0.0, 2.5)], [0.1, 0.1]);
     }
 
     #[test]

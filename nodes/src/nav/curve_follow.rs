@@ -1,17 +1,18 @@
 use super::{
-    Articulated, Path, Projection, Twist,
+    Articulated, Clearance, Path, Projection, Twist,
     latest::{Latest, any_far, fresh},
+    near::{GRAZE, Near, Zone, seen},
     outline::{Axes, Outline},
     progress::{End, Progress, RESUMES},
     twist::Halt,
 };
 use crate::{
+    map::{Grid, Occupancy},
     math::normalize_angle,
-    scan::{FarFromOrigin, Point2, Pose2, Scan},
+    scan::{FarFromOrigin, Pose2, Scan},
 };
 use apex_rt::{Ctx, Event, Time, node};
 use libm::{atanf, fabsf, fmaxf, fminf, sqrtf};
-use std::vec::Vec;
 
 /// Distance between predicted places, in m.
 const STEP: f32 = 0.1;
@@ -19,22 +20,19 @@ const STEP: f32 = 0.1;
 const CHORD: f32 = 0.15;
 /// Distance from the end up to which the last points are passed one by one, in m.
 const CORNER: f32 = 0.01;
-/// Greatest distance that a corner of the vehicle moves on a metre of the curve, in m.
-const SWING: f32 = 2.0;
-/// Distance by which a point that is within the margin already may come nearer, in m.
-const GRAZE: f32 = 0.01;
 
 /// Follows a path of [`CurvePlanner`](super::CurvePlanner) forward with a tractor and its trailer.
 ///
 /// The vehicle steers with the curvature of the path, and back to it: its direction is that of the path less
 /// atan(`convergence` · offset). Where it will be on the next `look_ahead` m, with its trailer and its load, is
-/// predicted with the same law. It slows down for the curves on this way, before its end, and before points of the
-/// scans that its outline would come within `margin` of.
+/// predicted with the same law. It slows down for the curves on this way, before its end, before points of the scans
+/// that its outline would come within `margin` of, and before hazards on `ground`, to which it keeps the `clearance`:
+/// such a map is that of `HazardMap`, in the frame of `odometry`.
 ///
 /// `pose` is that of the tractor in the frame of the path, `trailer` the pose of the trailer's axis in the frame of the
 /// tractor; while one of them is missing or older than `max_age`, the vehicle stands still. `ahead` and `behind` are
-/// scans in the frames of the tractor and of the trailer, without the load; before the first ones, no obstacle is
-/// known. That the vehicle stops before obstacles, and without scans, is the task of a
+/// scans in the frames of the tractor and of the trailer, without the load; before the first ones, and the first
+/// `ground`, no obstacle is known. That the vehicle stops before obstacles, and without scans, is the task of a
 /// [`TrailerField`](super::TrailerField). A new path replaces the current one. The node sends twists while it has a
 /// path, and drops it when the vehicle
 /// * has `reached` its end up to `tolerance`, where it stops,
@@ -86,6 +84,9 @@ pub struct CurveFollower {
     /// Distance of the outline from points of the scans at which nothing is on the way.
     #[param(unit = "m", default = 0.02, range = 0.0..=10.0)]
     margin: f32,
+    /// Distances kept from hazards.
+    #[param(default = Clearance::PATSY)]
+    clearance: Clearance,
     /// Remaining length of the path at which the end is reached.
     #[param(unit = "m", default = 0.05, range = 0.001..=10.0)]
     tolerance: f32,
@@ -106,8 +107,11 @@ pub struct CurveFollower {
     /// Time and speed of the last command.
     last: Option<(Time, f32)>,
     scans: [Latest<Scan>; 2],
-    /// Points near the way in the frame of the path, and their distances from the vehicle.
-    near: Vec<(Point2, f32)>,
+    ground: Latest<Grid<Occupancy>>,
+    /// Points of the scans near the way.
+    near: Near,
+    /// Hazards near the way.
+    hazards: Near,
     halt: Halt,
 }
 
@@ -133,6 +137,8 @@ impl CurveFollower {
         path: Option<&Path>,
         ahead: Option<&Scan>,
         behind: Option<&Scan>,
+        ground: Option<&Grid<Occupancy>>,
+        odometry: Option<&Pose2>,
         reached: Event<()>,
         #[failure] blocked: Event<()>,
         #[failure] off_path: Event<()>,
@@ -149,23 +155,31 @@ impl CurveFollower {
         for (last, scan) in self.scans.iter_mut().zip([ahead, behind]) {
             last.update(ctx, scan, self.max_age);
         }
-        let places = fresh(ctx, pose, self.max_age).zip(fresh(ctx, trailer, self.max_age));
-        Ok(self.step(ctx, places, [reached, blocked, off_path]))
+        self.ground.update(ctx, ground, self.max_age);
+        let [pose, trailer, odometry] = [pose, trailer, odometry].map(|pose| fresh(ctx, pose, self.max_age));
+        Ok(self.step(ctx, pose.zip(trailer), odometry, [reached, blocked, off_path]))
     }
 
-    fn step(&mut self, ctx: &Ctx, places: Option<(&Pose2, &Pose2)>, ends: [Event<()>; 3]) -> Option<Twist> {
+    fn step(
+        &mut self,
+        ctx: &Ctx,
+        places: Option<(&Pose2, &Pose2)>,
+        odometry: Option<&Pose2>,
+        ends: [Event<()>; 3],
+    ) -> Option<Twist> {
         let Some((pose, hitch)) = places else {
             self.last = None;
             self.progress.pause();
             return self.halt.drive(Twist::ZERO);
         };
-        let axes = [*pose, self.vehicle.trailer(pose, pose.theta + hitch.theta)];
+        let axes = self.axes(pose, hitch);
         let Some(projection) = self.path.project(pose.position(), self.progress.segment, CORNER) else {
             // The path is not finite.
             return self.give_up_with(End::Blocked, ends);
         };
         self.progress.segment = projection.segment;
         self.find_near(ctx, &axes);
+        self.find_hazards(ctx, &axes, odometry.map(|odometry| self.axes(odometry, hitch)));
         let outlook = self.predict(axes, projection);
         match self.end(&projection, &outlook, ctx.now()) {
             None => {
@@ -195,17 +209,28 @@ impl CurveFollower {
         self.progress = Progress::default();
     }
 
+    /// Poses of the axes of the vehicle.
+    fn axes(&self, pose: &Pose2, hitch: &Pose2) -> Axes {
+        [*pose, self.vehicle.trailer(pose, pose.theta + hitch.theta)]
+    }
+
     /// Finds the points of the scans that may be on the way.
     fn find_near(&mut self, ctx: &Ctx, axes: &Axes) {
-        let (outline, reach) = (self.outline(), self.margin + SWING * self.look_ahead);
-        self.near.clear();
-        for (scan, axis) in self.scans.iter().zip(axes) {
-            let points = scan.young(ctx, self.max_age).into_iter().flat_map(Scan::points);
-            let places = points.map(|(_, point)| axis.to_outer(point));
-            self.near.extend(
-                places.map(|place| (place, outline.distance(axes, place))).filter(|(_, distance)| *distance < reach),
-            );
-        }
+        let (zone, margin) = (self.zone(), self.margin);
+        let scans = self.scans.iter().zip(axes).filter_map(|(scan, axis)| Some((scan.young(ctx, self.max_age)?, axis)));
+        self.near.find(&zone, axes, self.look_ahead, scans.flat_map(|(scan, axis)| seen(scan, axis, margin)));
+    }
+
+    /// Finds the hazards that may be on the way. `there` are the axes in the frame of the ground.
+    fn find_hazards(&mut self, ctx: &Ctx, axes: &Axes, there: Option<Axes>) {
+        let Self { vehicle, clearance, look_ahead, .. } = *self;
+        let ground = self.ground.young(ctx, self.max_age).zip(there.as_ref());
+        let here = axes[0];
+        let hazards = ground.into_iter().flat_map(|(map, there)| {
+            let hazards = clearance.hazards(map, vehicle, there, false);
+            hazards.map(move |(place, margin)| (here.to_outer(there[0].to_inner(place)), margin))
+        });
+        self.hazards.find(&clearance.zone(vehicle, false), axes, look_ahead, hazards);
     }
 
     /// Predicts the way of the vehicle.
@@ -214,14 +239,15 @@ impl CurveFollower {
         let most = |distance: f32, speed: f32| sqrtf(speed * speed + 2.0 * self.acceleration * fmaxf(distance, 0.0));
         let mut outlook =
             Outlook { curvature, speed: fminf(self.speed, self.in_curve(curvature)), is_obstructed: false };
-        let (outline, mut driven, mut turn) = (self.outline(), 0.0, curvature);
+        let zones = [(&self.near, self.zone()), (&self.hazards, self.clearance.zone(self.vehicle, false))];
+        let (mut driven, mut turn) = (0.0, curvature);
         let way = fminf(self.look_ahead, projection.remaining - self.tolerance);
         while driven < way {
             let twist = Twist::new(1.0, 0.0, turn);
             let now = axes;
             axes = self.vehicle.places(&now, &twist, STEP).next().unwrap_or(now);
             driven += STEP;
-            if self.near.iter().any(|near| self.is_met(&outline, &axes, driven, near)) {
+            if zones.iter().any(|(near, zone)| near.is_met(zone, &axes, driven, GRAZE)) {
                 outlook.speed = fminf(outlook.speed, most(driven - STEP, 0.0));
                 outlook.is_obstructed = true;
                 break;
@@ -233,15 +259,6 @@ impl CurveFollower {
         }
         outlook.speed = fminf(outlook.speed, most(way, 0.0));
         outlook
-    }
-
-    fn is_met(&self, outline: &Outline, axes: &Axes, driven: f32, &(point, before): &(Point2, f32)) -> bool {
-        if before > self.margin + SWING * driven {
-            return false;
-        }
-        let distance = outline.distance(axes, point);
-        let is_grazed = before < self.margin && before - distance <= GRAZE;
-        distance < self.margin && !is_grazed
     }
 
     /// Curvature with which the vehicle keeps to the path, in 1/m.
@@ -281,14 +298,15 @@ impl CurveFollower {
         Twist::new(speed, 0.0, outlook.curvature * speed)
     }
 
-    fn outline(&self) -> Outline {
-        Outline::new(self.vehicle, [self.load_length, self.load_width])
+    fn zone(&self) -> Zone {
+        Zone::new(Outline::new(self.vehicle, [self.load_length, self.load_width]), 0.0)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{map::Raster, scan::Point2};
     use apex_rt::Construct;
     use core::f32::consts::{FRAC_PI_2, PI, TAU};
 
@@ -297,8 +315,25 @@ mod tests {
     fn node() -> CurveFollower {
         let limits = (0.6, 0.7, 0.05, 0.6, 0.5);
         CurveFollower::construct((
-            VEHICLE, 0.0, 0.0, limits.0, limits.1, limits.2, limits.3, limits.4, 1.5, 3.5, 0.15, 2.5, 0.02, 0.1, 1.0,
-            0.5, 2.0, 0.5,
+            VEHICLE,
+            0.0,
+            0.0,
+            limits.0,
+            limits.1,
+            limits.2,
+            limits.3,
+            limits.4,
+            1.5,
+            3.5,
+            0.15,
+            2.5,
+            0.02,
+            Clearance::PATSY,
+            0.1,
+            1.0,
+            0.5,
+            2.0,
+            0.5,
         ))
     }
 
@@ -332,11 +367,13 @@ mod tests {
         trailer: f32,
         twist: Twist,
         ms: i64,
+        /// Map in the frame of odometry, which began at (7, 7).
+        ground: Option<Grid<Occupancy>>,
     }
 
     impl Robot {
         fn new(node: CurveFollower, pose: Pose2) -> Self {
-            Self { node, pose, trailer: pose.theta, twist: Twist::ZERO, ms: 0 }
+            Self { node, pose, trailer: pose.theta, twist: Twist::ZERO, ms: 0, ground: None }
         }
 
         fn react(&mut self, path: Option<&Path>, obstacles: &[Point2]) -> (Option<Twist>, Option<End>) {
@@ -347,12 +384,13 @@ mod tests {
                 Scan { stamp: ctx.now(), ..scan(&places) }
             };
             let (ahead, back, hitch) = (see(&self.pose), see(&behind), behind.relative_to(&self.pose));
+            let odometry = Pose2::new(7.0, 7.0, 0.0).compose(&self.pose);
             let (mut reached, mut blocked, mut off) = (None, None, None);
             let (a, b, c) = (apex_rt::event(&mut reached), apex_rt::event(&mut blocked), apex_rt::event(&mut off));
-            let twist = self
-                .node
-                .process(&ctx, Some(&self.pose), Some(&hitch), path, Some(&ahead), Some(&back), a, b, c)
-                .expect("near the origin");
+            let (pose, hitch, ahead, back) = (Some(&self.pose), Some(&hitch), Some(&ahead), Some(&back));
+            let (ground, odometry) = (self.ground.as_ref(), Some(&odometry));
+            let twist = self.node.process(&ctx, pose, hitch, path, ahead, back, ground, odometry, a, b, c);
+            let twist = twist.expect("near the origin");
             let ends = [(reached, End::Reached), (blocked, End::Blocked), (off, End::OffPath)];
             (twist, ends.into_iter().find_map(|(event, end)| event.map(|()| end)))
         }
@@ -436,6 +474,25 @@ mod tests {
     }
 
     #[test]
+    fn it_stops_before_a_hazard_on_the_ground() {
+        let raster = Raster { corner: Point2::new(4.0, 4.0), resolution: 0.05, width: 160, height: 120 };
+        let end = |y: f32, kind: Occupancy| {
+            let mut ground = Grid::new(raster, Occupancy::Free).expect("small");
+            let cell = raster.cell(Point2::new(10.02, 7.02 + y)).expect("inside");
+            *ground.get_mut(cell).expect("inside") = kind;
+            let mut robot = Robot::new(node(), Pose2::default());
+            robot.ground = Some(ground);
+            let end = robot.follow(&path(Pose2::default(), &[(0.0, 4.5)]), &[], |_, _| ());
+            (end, robot.pose.x)
+        };
+        for kind in [Occupancy::Occupied, Occupancy::Unknown] {
+            let (outcome, x) = end(0.0, kind);
+            assert!(outcome == End::Blocked && (1.8..2.6).contains(&x), "{outcome:?} at {x} m");
+        }
+        assert_eq!(end(0.4, Occupancy::Occupied).0, End::Reached);
+    }
+
+    #[test]
     fn a_new_path_does_not_stop_it() {
         let way = path(Pose2::default(), &[(0.0, 20.0)]);
         let mut robot = Robot::new(node(), Pose2::default());
@@ -473,7 +530,7 @@ mod tests {
         let none = Event::unconnected;
         let mut fire = |ms: i64, pose: Option<&Pose2>, path: Option<&Path>| {
             let ctx = Ctx::new(Time::from_millis(ms));
-            node.process(&ctx, pose, Some(&hitch), path, None, None, none(), none(), none())
+            node.process(&ctx, pose, Some(&hitch), path, None, None, None, None, none(), none(), none())
         };
         let (here, far) = (Pose2::default(), Pose2::new(2e5, 0.0, 0.0));
         assert!(fire(0, Some(&here), Some(&way)).is_ok_and(|twist| twist.is_some()));

@@ -10,6 +10,8 @@
 #[cfg(feature = "std")]
 mod careful;
 #[cfg(feature = "std")]
+mod clearance;
+#[cfg(feature = "std")]
 mod costs;
 #[cfg(feature = "std")]
 mod curve_follow;
@@ -26,6 +28,8 @@ mod law;
 #[cfg(feature = "record")]
 mod message;
 mod motion;
+#[cfg(feature = "std")]
+mod near;
 #[cfg(feature = "std")]
 mod outline;
 #[cfg(feature = "std")]
@@ -52,6 +56,8 @@ mod twist;
 
 #[cfg(feature = "std")]
 pub use careful::PersonCaution;
+#[cfg(feature = "std")]
+pub use clearance::Clearance;
 #[cfg(feature = "std")]
 pub use costs::{CostMap, write_costs};
 #[cfg(feature = "std")]

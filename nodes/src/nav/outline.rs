@@ -3,7 +3,7 @@ use crate::{
     math::normalize_angle,
     scan::{Point2, Pose2},
 };
-use libm::{fabsf, fmaxf, fminf, hypotf};
+use libm::{fabsf, fmaxf, fminf, hypotf, sincosf};
 
 /// Largest angle between tractor and trailer that is predicted, in rad.
 const JACKKNIFE: f32 = 1.4;
@@ -20,16 +20,8 @@ pub(super) struct Part {
 }
 
 impl Part {
-    pub fn widened(self, by: f32) -> Self {
-        Self { half: self.half + by, ..self }
-    }
-
     pub fn grown(self, by: f32) -> Self {
         Self { from: self.from - by, to: self.to + by, half: self.half + by }
-    }
-
-    pub fn covers(&self, point: Point2) -> bool {
-        self.from <= point.x && point.x <= self.to && fabsf(point.y) <= self.half
     }
 
     /// Points of the part, about a step apart.
@@ -81,6 +73,11 @@ impl Outline {
         Self { vehicle, load: (width > 0.0).then_some(load) }
     }
 
+    /// The outline with a tractor whose front is `by` m longer.
+    pub fn with_front(self, by: f32) -> Self {
+        Self { vehicle: Articulated { front: self.vehicle.front + by, ..self.vehicle }, ..self }
+    }
+
     /// Parts of the vehicle at a place, each with its axis: tractor, trailer with drawbar, and load.
     pub fn parts<'a>(&self, axes: &'a Axes) -> impl Iterator<Item = (Part, &'a Pose2)> + use<'a> {
         let [tractor, trailer] = self.vehicle.whole();
@@ -88,12 +85,36 @@ impl Outline {
         [(tractor, &axes[0]), (trailer, &axes[1])].into_iter().chain(load)
     }
 
+    /// The outline at a place.
+    pub fn at(&self, axes: &Axes) -> Stance {
+        let turned = |axis: &Pose2| (axis.position(), sincosf(axis.theta));
+        Stance { parts: self.vehicle.whole(), load: self.load, axes: [turned(&axes[0]), turned(&axes[1])] }
+    }
+
     /// Distance of a point from the vehicle at a place, in m: negative inside. The drawbar belongs to the vehicle.
     pub fn distance(&self, axes: &Axes, point: Point2) -> f32 {
-        let [base, behind] = [axes[0].to_inner(point), axes[1].to_inner(point)];
-        let [tractor, trailer] = self.vehicle.whole();
+        self.at(axes).distance(point)
+    }
+}
+
+/// Outline of a vehicle at a place, for many points.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stance {
+    parts: [Part; 2],
+    load: Option<Part>,
+    /// Positions of the axes, and sines and cosines of their headings.
+    axes: [(Point2, (f32, f32)); 2],
+}
+
+impl Stance {
+    /// Distance of a point from the vehicle, in m: negative inside.
+    pub fn distance(&self, point: Point2) -> f32 {
+        let [base, behind] = self.axes.map(|(axis, (sin, cos))| {
+            let d = point - axis;
+            Point2::new(cos * d.x + sin * d.y, cos * d.y - sin * d.x)
+        });
         let load = self.load.map_or(f32::INFINITY, |load| load.distance(behind));
-        fminf(fminf(tractor.distance(base), trailer.distance(behind)), load)
+        fminf(fminf(self.parts[0].distance(base), self.parts[1].distance(behind)), load)
     }
 }
 

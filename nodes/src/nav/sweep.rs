@@ -1,25 +1,27 @@
 use super::{
-    Articulated, Twist,
+    Articulated, Clearance, Twist,
     latest::{Latest, Measured, both_fresh},
-    outline::{Axes, Part},
+    near::Near,
+    outline::Axes,
     twist::Command,
 };
 use crate::{
     map::{Grid, Occupancy},
-    scan::{Point2, Pose2},
+    scan::Pose2,
 };
 use apex_rt::{Ctx, node};
-use libm::{fmaxf, fminf};
 
-/// Distance between predicted places, and between checked points of a part of the vehicle, in m.
-const STEP: f32 = 0.05;
+/// Distance between predicted places, in m.
+const STEP: f32 = 0.04;
 
 /// Stops a tractor with a trailer before it drives over an obstacle, missing floor, or floor that was not seen.
 ///
-/// `map` is that of `HazardMap`. The areas that both parts of the vehicle sweep, as long as it keeps to its curve, have
-/// to be free in it. Backward, unknown cells are not free: the vehicle only backs up over floor that was seen before.
-/// Forward, an unknown cell counts if the camera should see it, and the vehicle stops while the camera still sees it:
-/// nearer to the front it would no longer count. What is beneath the vehicle already does not count.
+/// `map` is that of `HazardMap`. On the curve of the twist the vehicle keeps the `clearance` from what is not free in
+/// it. Backward, that are also unknown cells: the vehicle only backs up over floor that was seen before. Forward, an
+/// unknown cell counts if the camera should see it, and the vehicle stops while the camera still sees it: nearer to the
+/// front it would no longer count. What is too near already must not come nearer, and what is beneath the vehicle does
+/// not count. [`CurvePlanner`](super::CurvePlanner) and [`CurveFollower`](super::CurveFollower) keep the same
+/// clearance.
 ///
 /// `base` and `trailer` are the poses of the two axes in the frame of the map, such as that of odometry. `map` may be
 /// ⊥, as clouds come less often than twists: the last map counts for `max_age`. The vehicle stops without such a map,
@@ -30,29 +32,22 @@ pub struct SweepStop {
     /// Shape of the vehicle.
     #[param(default = Articulated::PATSY)]
     vehicle: Articulated,
-    /// Distance kept from hazards at the sides and behind, and from floor ahead that is not known.
-    #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
-    margin: f32,
-    /// Distance kept from obstacles ahead at a stop. Of a long thing only the thicker end may be on the map.
-    #[param(unit = "m", default = 0.05, range = 0.0..=10.0)]
-    ahead: f32,
+    /// Distances kept from hazards.
+    #[param(default = Clearance::PATSY)]
+    clearance: Clearance,
     /// Deceleration of the vehicle.
     #[param(unit = "m/s^2", default = 0.6, range = 0.01..=100.0)]
     deceleration: f32,
     /// Length of the curve that is predicted.
     #[param(unit = "m", default = 1.0, range = 0.0..=10.0)]
     look_ahead: f32,
-    /// Distance ahead from which on the camera sees the floor.
-    #[param(unit = "m", default = 0.4, range = 0.0..=10.0)]
-    near: f32,
-    /// Angle of the camera's view across, about the x axis of the tractor.
-    #[param(unit = "rad", default = 1.0, range = 0.0..=3.2)]
-    view_angle: f32,
     /// Maximum age of a map and of a twist.
     #[param(unit = "s", default = 0.6, range = 0.01..=60.0, silence)]
     max_age: f32,
     last: Latest<Grid<Occupancy>>,
     command: Command,
+    /// Hazards near the vehicle.
+    near: Near,
 }
 
 /// A map without cells says nothing.
@@ -74,96 +69,41 @@ impl SweepStop {
     ) -> Option<Twist> {
         self.last.update(ctx, map, self.max_age);
         let twist = self.command.update(ctx, twist, self.max_age);
-        let axes = both_fresh(ctx, [base, trailer], self.max_age);
-        let limited = match self.last.young(ctx, self.max_age).zip(axes) {
-            Some((map, (base, trailer))) => {
-                twist.stoppable(self.gap(map, &twist, [*base, *trailer]), self.deceleration, 0.0)
-            }
-            None => Twist::ZERO,
-        };
+        let axes = both_fresh(ctx, [base, trailer], self.max_age).map(|(base, trailer)| [*base, *trailer]);
+        let gap = axes.and_then(|now| self.gap(ctx, &twist, &now));
+        let limited = gap.map_or(Twist::ZERO, |gap| twist.stoppable(gap, self.deceleration, 0.0));
         self.command.send(limited)
     }
 
-    /// Distance that the vehicle can drive before it is too near to something that is not free, in m.
-    fn gap(&self, map: &Grid<Occupancy>, twist: &Twist, now: Axes) -> f32 {
+    /// Distance that the vehicle can drive before it is too near to a hazard, in m; `None` without a map.
+    fn gap(&mut self, ctx: &Ctx, twist: &Twist, now: &Axes) -> Option<f32> {
+        let map = self.last.young(ctx, self.max_age)?;
         if twist.x == 0.0 {
-            return f32::INFINITY;
+            return Some(f32::INFINITY);
         }
-        let count = (self.look_ahead / STEP) as u16;
-        let kept = if twist.x > 0.0 { self.ahead } else { self.margin };
-        let mut unseen = f32::INFINITY;
-        for (k, axes) in (0..count).zip(self.vehicle.places(&now, twist, STEP)) {
-            let free = f32::from(k) * STEP;
-            if self.meets(map, &axes, &now, twist.x < 0.0) {
-                return fminf(free - kept, unseen);
-            }
-            if unseen.is_infinite() && twist.x > 0.0 && self.is_unseen(map, &axes, &now) {
-                unseen = fmaxf(free - (self.near - self.vehicle.front), 0.0) - self.margin;
-            }
-        }
-        unseen
+        let Self { vehicle, clearance, look_ahead, .. } = *self;
+        let is_backward = twist.x < 0.0;
+        let zone = clearance.zone(vehicle, is_backward);
+        let hazards = clearance.hazards(map, vehicle, now, is_backward);
+        self.near.find(&zone, now, look_ahead, hazards);
+        Some(self.near.gap(&zone, vehicle.places(now, twist, STEP), STEP, look_ahead))
     }
-
-    /// Returns `true` if a part of the vehicle is on something that is not free, or an obstacle is within the margin at
-    /// its sides.
-    fn meets(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes, is_backward: bool) -> bool {
-        let is_hazard = |point| match map.at(point) {
-            Some(Occupancy::Free) => false,
-            Some(Occupancy::Occupied) => true,
-            _ => is_backward,
-        };
-        let beneath = self.vehicle.whole().map(|part| part.widened(0.5 * map.raster().resolution));
-        self.any_point(axes, 0.0, |point| is_hazard(point) && !covers(&beneath, now, point))
-            || self.comes_near(map, axes, now)
-    }
-
-    /// Returns `true` if a part of the vehicle is where the camera sees no floor, though it should, or a cell beside
-    /// that: a wheel at the edge of a pit falls into it.
-    fn is_unseen(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes) -> bool {
-        let is_known = |point| matches!(map.at(point), Some(Occupancy::Free | Occupancy::Occupied));
-        self.any_point(axes, map.raster().resolution, |point| {
-            !is_known(point) && self.is_in_view(now[0].to_inner(point))
-        })
-    }
-
-    /// Returns `true` if an obstacle is within the margin at the sides that is not near already: else the vehicle could
-    /// not get away from it in either direction.
-    fn comes_near(&self, map: &Grid<Occupancy>, axes: &Axes, now: &Axes) -> bool {
-        let near = self.vehicle.whole().map(|part| part.grown(2.0 * self.margin));
-        self.any_point(axes, self.margin, |point| {
-            map.at(point) == Some(&Occupancy::Occupied) && !covers(&near, now, point)
-        })
-    }
-
-    /// Returns `true` if `is` holds for a point of the parts, which are wider by `margin` on both sides.
-    fn any_point(&self, axes: &Axes, margin: f32, is: impl Fn(Point2) -> bool) -> bool {
-        self.vehicle
-            .parts()
-            .iter()
-            .zip(axes)
-            .any(|(part, axis)| part.widened(margin).points(STEP).any(|p| is(axis.to_outer(p))))
-    }
-
-    /// Returns `true` if the camera sees a place in the frame of the tractor.
-    fn is_in_view(&self, place: Point2) -> bool {
-        place.x >= self.near && place.angle().abs() <= 0.5 * self.view_angle
-    }
-}
-
-/// Returns `true` if one of the parts of a vehicle covers a point.
-fn covers(parts: &[Part; 2], axes: &Axes, point: Point2) -> bool {
-    parts.iter().zip(axes).any(|(part, axis)| part.covers(axis.to_inner(point)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::{Cell, Raster};
+    use crate::{
+        map::{Cell, Raster},
+        scan::Point2,
+    };
     use apex_rt::{Construct, Time};
     use core::f32::consts::FRAC_PI_2;
 
+    const CLEARANCE: Clearance = Clearance { side: 0.05, ahead: 0.2, unknown: 0.03, near: 0.4, view_angle: 1.0 };
+
     fn node() -> SweepStop {
-        SweepStop::construct((Articulated::PATSY, 0.05, 0.05, 0.5, 1.0, 0.4, 1.0, 0.6))
+        SweepStop::construct((Articulated::PATSY, CLEARANCE, 0.5, 1.0, 0.6))
     }
 
     /// Floor of 6 m × 6 m about the origin with one cell that is not free.
@@ -224,7 +164,10 @@ mod tests {
     #[test]
     fn it_keeps_more_distance_from_what_is_ahead() {
         let map = floor(Point2::new(1.0, 0.0), Occupancy::Occupied);
-        let stop = |ahead| drive_until_it_stops(SweepStop { ahead, ..node() }, &map).0;
+        let stop = |ahead| {
+            let clearance = Clearance { ahead, ..CLEARANCE };
+            drive_until_it_stops(SweepStop { clearance, ..node() }, &map).0
+        };
         let [near, far] = [stop(0.05), stop(0.25)];
         assert!((0.6..=0.75).contains(&near) && (near - far - 0.2).abs() < 0.06, "{near} m, {far} m");
     }

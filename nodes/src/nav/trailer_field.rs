@@ -1,22 +1,17 @@
 use super::{
     Articulated, Twist,
     latest::{Latest, both_fresh},
+    near::{Near, Zone, seen},
     outline::{Axes, Outline},
     twist::Command,
 };
-use crate::scan::{Point2, Pose2, Scan};
+use crate::scan::{Pose2, Scan};
 use apex_rt::{Ctx, node};
-use std::vec::Vec;
 
 /// Distance between predicted places, in m.
 const STEP: f32 = 0.02;
 /// Length of the curve that is predicted, in m.
 const LOOK_AHEAD: f32 = 0.8;
-/// Greatest distance that a corner of the vehicle moves on a metre of the curve, in m.
-const SWING: f32 = 2.0;
-/// Distance by which a point that is within the margin already may come nearer, in m: what is beside the vehicle would
-/// else hold it in both directions.
-const GRAZE: f32 = 0.01;
 
 /// Slows a tractor with a trailer down before obstacles on its curve, and stops it before it touches one: a
 /// [`SafetyField`](super::SafetyField) of the shape of the vehicle with its load, whose corners swing out in curves.
@@ -51,8 +46,8 @@ pub struct TrailerField {
     max_age: f32,
     last: [Latest<Scan>; 2],
     command: Command,
-    /// Points near the vehicle, and their distances from it.
-    near: Vec<(Point2, f32)>,
+    /// Points near the vehicle.
+    near: Near,
 }
 
 #[node]
@@ -82,44 +77,30 @@ impl TrailerField {
 
     /// Finds the points near the vehicle. Returns `false` without young scans.
     fn find_near(&mut self, ctx: &Ctx, now: &Axes) -> bool {
-        self.near.clear();
-        let outline = self.outline();
-        for (last, axis) in self.last.iter().zip(now) {
-            let Some(scan) = last.young(ctx, self.max_age) else { return false };
-            let points = scan.points().map(|(_, point)| axis.to_outer(point));
-            let near = points.map(|point| (point, outline.distance(now, point)));
-            self.near.extend(near.filter(|(_, distance)| *distance < self.margin + SWING * LOOK_AHEAD));
-        }
+        let (zone, [ahead, behind]) = (self.zone(), [0, 1].map(|i| self.last[i].young(ctx, self.max_age)));
+        let Some((ahead, behind)) = ahead.zip(behind) else { return false };
+        let places = seen(ahead, &now[0], self.margin).chain(seen(behind, &now[1], self.margin));
+        self.near.find(&zone, now, LOOK_AHEAD, places);
         true
     }
 
     /// Distance that the vehicle can drive before an obstacle is within its margin, in m.
     fn gap(&self, twist: &Twist, now: &Axes) -> f32 {
-        if twist.x == 0.0 || self.near.is_empty() {
+        if twist.x == 0.0 {
             return f32::INFINITY;
         }
-        let (outline, count) = (self.outline(), (LOOK_AHEAD / STEP) as u16);
-        let is_met = |axes: &Axes, driven: f32, &(point, before): &(Point2, f32)| {
-            if before > self.margin + SWING * driven {
-                return false;
-            }
-            let distance = outline.distance(axes, point);
-            let is_grazed = before < self.margin && before - distance <= GRAZE;
-            distance < self.margin && !is_grazed
-        };
-        let places = (0..count).map(|k| f32::from(k) * STEP).zip(self.vehicle.places(now, twist, STEP));
-        let mut met = places.filter(|(free, axes)| self.near.iter().any(|point| is_met(axes, free + STEP, point)));
-        met.next().map_or(f32::INFINITY, |(free, _)| free)
+        self.near.gap(&self.zone(), self.vehicle.places(now, twist, STEP), STEP, LOOK_AHEAD)
     }
 
-    fn outline(&self) -> Outline {
-        Outline::new(self.vehicle, [self.load_length, self.load_width])
+    fn zone(&self) -> Zone {
+        Zone::new(Outline::new(self.vehicle, [self.load_length, self.load_width]), 0.0)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scan::Point2;
     use apex_rt::{Construct, Time};
     use core::f32::consts::{PI, TAU};
 

@@ -3,9 +3,9 @@
 use super::token::Token;
 use apex_nodes::{
     nav::{
-        Articulated, BackFollower, BackUp, CurveFollower, HazardStop, MoveRobot, MoveToObstacle, OdometryGuard,
-        PathFollower, PersonCaution, PlannedApproach, PositionToTarget, ReactiveApproach, SafetyField, Steer,
-        SweepStop, TrailerField, Twist,
+        Articulated, BackFollower, BackUp, Clearance, CurveFollower, HazardStop, MoveRobot, MoveToObstacle,
+        OdometryGuard, PathFollower, PersonCaution, PlannedApproach, PositionToTarget, ReactiveApproach, SafetyField,
+        Steer, SweepStop, TrailerField, Twist,
     },
     scan::FarFromOrigin,
 };
@@ -107,13 +107,32 @@ pub const ROWS: &[Row] = &[
         max_age: 0.5,
         make: || {
             let mut node = CurveFollower::construct((
-                PATSY, 0.0, 0.0, 0.7, 0.5, 0.05, 0.5, 0.5, 1.5, 3.5, 0.15, 2.5, 0.02, 0.05, 1.0, 2.0, 2.0, 0.5,
+                PATSY,
+                0.0,
+                0.0,
+                0.7,
+                0.5,
+                0.05,
+                0.5,
+                0.5,
+                1.5,
+                3.5,
+                0.15,
+                2.5,
+                0.02,
+                Clearance::PATSY,
+                0.05,
+                1.0,
+                2.0,
+                2.0,
+                0.5,
             ));
             Box::new(move |ctx, i| {
                 let [pose, trailer] = ["pose", "trailer"].map(|name| get(i, name));
                 let [ahead, behind] = ["ahead", "behind"].map(|name| get(i, name));
+                let (ground, odometry) = (get(i, "ground"), get(i, "odometry"));
                 fire(["reached", "blocked", "off_path"], |[a, b, c]| {
-                    node.process(ctx, pose, trailer, get(i, "path"), ahead, behind, a, b, c)
+                    node.process(ctx, pose, trailer, get(i, "path"), ahead, behind, ground, odometry, a, b, c)
                 })
             })
         },
@@ -213,7 +232,7 @@ pub const ROWS: &[Row] = &[
         needs: &["twist", "map", "base", "trailer"],
         max_age: 0.6,
         make: || {
-            let mut node = SweepStop::construct((PATSY, 0.05, 0.05, 0.6, 1.0, 0.4, 1.0, 0.6));
+            let mut node = SweepStop::construct((PATSY, Clearance::PATSY, 0.6, 1.0, 0.6));
             Box::new(move |ctx, i| {
                 fire([], |[]| Ok(node.process(ctx, get(i, "twist"), get(i, "map"), get(i, "base"), get(i, "trailer"))))
             })

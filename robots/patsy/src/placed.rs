@@ -17,7 +17,7 @@ pub struct Placed {
     #[param(unit = "m", default = 0.25, range = 0.0..=10.0)]
     distance: f32,
     /// Largest angle between the load and its destination; its ends are alike.
-    #[param(unit = "rad", default = 0.09, range = 0.0..=1.6)]
+    #[param(unit = "rad", default = 0.12, range = 0.0..=1.6)]
     turn: f32,
     /// Largest angle between tractor and trailer.
     #[param(unit = "rad", default = 0.1, range = 0.0..=1.6)]

@@ -1,12 +1,13 @@
 use super::{
     super::{
-        Terrain,
+        Clearance, Terrain,
         outline::{Axes, Outline},
         payload::{
             Articulated,
             dubins::{Curve, advanced},
         },
     },
+    footing::Footing,
     room::Room,
 };
 use crate::{
@@ -14,15 +15,12 @@ use crate::{
     scan::{Point2, Pose2},
 };
 use core::f32::consts::TAU;
-use libm::remainderf;
+use libm::{fmaxf, fminf, remainderf, sinf};
 
 /// Distance between places that are checked on a step, in m.
 pub(super) const CHECK: f32 = 0.1;
 /// Maximum angle between the vehicle and its trailer, in rad.
 const MAX_BEND: f32 = 1.2;
-/// Distance from floor that is not known, on ways backward, in m: the tractor swings out when it straightens the
-/// trailer.
-const EDGE: f32 = 0.15;
 
 /// Vehicle that drives in curves: a tractor with a trailer and a load on it, if there is one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +48,14 @@ impl CurveDrive {
         self.backing_gain > 0.0
     }
 
+    /// Distance in m that the vehicle, or its load, reaches from the axis of the tractor to all sides, however it is bent.
+    pub(super) fn girth(&self) -> f32 {
+        let Articulated { hitch, drawbar, width, .. } = self.shape;
+        let [length, across] = self.load.map(|size| 0.5 * size);
+        let beneath = fminf(across - hitch * sinf(MAX_BEND), self.shape.lift() + length - drawbar - hitch);
+        fmaxf(0.5 * width, beneath)
+    }
+
     pub(super) fn outline(&self) -> Outline {
         Outline::new(self.shape, self.load)
     }
@@ -60,20 +66,15 @@ impl CurveDrive {
     }
 }
 
-/// Floor that was seen or driven on. Backward the vehicle drives only there, as no camera looks behind.
+/// Floor that a camera has seen.
 #[derive(Debug, Clone, Copy)]
 pub struct Floor<'a> {
-    /// Free and other places.
+    /// Map such as that of `HazardMap`. Backward the vehicle drives only where it is free, as no camera looks behind.
     pub map: &'a Grid<Occupancy>,
     /// Pose of the vehicle at the start, in the frame of the terrain and in that of the floor.
     pub start: [Pose2; 2],
-}
-
-impl Floor<'_> {
-    fn is_known(&self, point: Point2) -> bool {
-        let [here, there] = &self.start;
-        self.map.at(there.to_outer(here.to_inner(point))) == Some(&Occupancy::Free)
-    }
+    /// Distances that `SweepStop` keeps from hazards.
+    pub clearance: Clearance,
 }
 
 /// Ground on which a vehicle may drive.
@@ -81,7 +82,7 @@ impl Floor<'_> {
 pub struct Ground<'a> {
     /// Map with costs.
     pub terrain: Terrain<'a>,
-    /// Floor for driving backward; `None` if it need not be known.
+    /// Floor with its hazards; `None` if it need not be known.
     pub floor: Option<Floor<'a>>,
 }
 
@@ -90,61 +91,54 @@ pub(super) struct Drive<'a> {
     pub ground: &'a Ground<'a>,
     pub vehicle: &'a CurveDrive,
     pub room: &'a Room,
+    /// What of the floor the vehicle may drive over, if it has to be known.
+    pub footing: Option<&'a Footing>,
 }
 
 impl Drive<'_> {
     /// Length of an arc with costs, and the heading of the trailer at its end, or `None` if something is touched on it.
     pub fn arc(&self, from: &Pose2, trailer: f32, curvature: f32, length: f32) -> Option<(f32, f32)> {
         let step = |pose: &Pose2, trailer: f32, step: f32| {
-            Some((advanced(pose, curvature, step), self.towed(pose, trailer, curvature, step)))
+            (advanced(pose, curvature, step), self.towed(pose, trailer, curvature, step))
         };
-        self.along(from, trailer, length, step).map(|(cost, _, trailer)| (cost, trailer))
+        self.along(from, trailer, length, false, step).map(|(cost, _, trailer)| (cost, trailer))
     }
 
     /// Length of a step backward with costs, and the pose and the heading of the trailer at its end, or `None` if
     /// something is touched on it. The angle to the trailer approaches `wanted`, in rad.
     pub fn back(&self, from: &Pose2, trailer: f32, wanted: f32, length: f32) -> Option<(f32, Pose2, f32)> {
         let CurveDrive { shape, backing_gain, .. } = *self.vehicle;
-        self.along(from, trailer, length, |pose, trailer, step| {
+        self.along(from, trailer, length, true, |pose, trailer, step| {
             let angle = remainderf(pose.theta - trailer, TAU);
             let turn = shape.backing_rotation(1.0, angle, -backing_gain * (angle - wanted));
             let trailer = trailer + step * shape.trailer_rotation(-1.0, turn, angle);
-            let pose = advanced(pose, -turn, -step);
-            self.is_on_floor(&pose, trailer).then_some((pose, trailer))
+            (advanced(pose, -turn, -step), trailer)
         })
     }
 
     /// Length of a way with costs, and the pose and the heading of the trailer at its end, or `None` if something is
-    /// touched on it. `step` returns both after a distance in m; `None` if the vehicle must not go there.
+    /// touched on it. `step` returns both after a distance in m.
     fn along(
         &self,
         from: &Pose2,
         mut trailer: f32,
         length: f32,
-        step: impl Fn(&Pose2, f32, f32) -> Option<(Pose2, f32)>,
+        is_backward: bool,
+        step: impl Fn(&Pose2, f32, f32) -> (Pose2, f32),
     ) -> Option<(f32, Pose2, f32)> {
         let count = libm::ceilf(length / CHECK);
         let distance = length / count;
         let (mut cost, mut pose) = (0.0, *from);
         for _ in 0..count as u32 {
             let before = bend(&pose, trailer);
-            (pose, trailer) = step(&pose, trailer, distance)?;
+            (pose, trailer) = step(&pose, trailer, distance);
             // A trailer that is bent too far at the start may come into line.
             if bend(&pose, trailer) > MAX_BEND.max(before) {
                 return None;
             }
-            cost += distance * (1.0 + self.fits(&pose, trailer)?);
+            cost += distance * (1.0 + self.fits(&pose, trailer, is_backward)?);
         }
         Some((cost, pose, trailer))
-    }
-
-    /// Returns `true` if floor is known at and around the corners that come to new floor on a way backward.
-    fn is_on_floor(&self, pose: &Pose2, trailer: f32) -> bool {
-        let shape = self.vehicle.shape;
-        let (trailer, half) = (shape.trailer(pose, trailer), 0.5 * shape.width + EDGE);
-        let corners = [(&trailer, -shape.rear - EDGE), (pose, shape.front), (pose, -shape.hitch)];
-        let mut points = corners.iter().flat_map(|(axis, x)| [half, -half].map(|y| axis.to_outer(Point2::new(*x, y))));
-        self.ground.floor.is_none_or(|floor| points.all(|point| floor.is_known(point)))
     }
 
     /// Heading of the trailer at the end of a curve, or `None` if something is touched on it.
@@ -163,10 +157,11 @@ impl Drive<'_> {
     }
 
     /// Highest cost of the axes of the vehicle and of the middle of its load, or `None` if something is touched there.
-    fn fits(&self, pose: &Pose2, trailer: f32) -> Option<f32> {
-        let Self { ground: Ground { terrain, .. }, vehicle, room } = self;
+    fn fits(&self, pose: &Pose2, trailer: f32, is_backward: bool) -> Option<f32> {
+        let Self { ground: Ground { terrain, .. }, vehicle, room, footing } = self;
         let axes = vehicle.axes(pose, trailer);
-        if !room.fits(vehicle, &axes) {
+        let is_safe = || footing.is_none_or(|footing| footing.fits(vehicle, &axes, is_backward));
+        if !(room.fits(vehicle, &axes) && is_safe()) {
             return None;
         }
         let cost = |point: Point2| terrain.map.raster().cell(point).map_or(0.0, |cell| terrain.cost(cell));

@@ -2,6 +2,7 @@
 
 mod drive;
 mod estimate;
+mod footing;
 mod planner;
 mod room;
 mod states;
@@ -15,10 +16,11 @@ use super::{
     NoPath, Terrain,
     payload::dubins::{Curve, advanced, curves},
 };
-use crate::scan::Pose2;
+use crate::scan::{Point2, Pose2};
 use core::cmp::Ordering;
 use drive::{CHECK, Drive, bend};
 use estimate::Estimates;
+use footing::Footing;
 use room::Room;
 use states::States;
 use std::collections::BinaryHeap;
@@ -46,8 +48,12 @@ const TRIES: usize = 8;
 const LINES: u8 = 4;
 /// Largest angle between the vehicle and its trailer at a goal with a straight line before it, in rad.
 const IN_LINE: f32 = 0.03;
-/// Maximum number of expanded states.
+/// Maximum number of expanded states, and part of it after a search that reached it at about the same place: what
+/// blocks the way may be gone, but then the way is mostly found soon.
 const MOST: usize = 60_000;
+const RETRY: usize = 4;
+/// Distance up to which a start is at the same place, in m.
+const SAME: f32 = 0.3;
 /// Weight of the estimate in a second search, after one that was too long: it finds longer ways, sooner.
 const GREEDY: f32 = 2.0;
 /// Distance between places that are tried before a goal at which something stands, in m, and cost of such a place.
@@ -64,7 +70,8 @@ const NONE: u32 = u32::MAX;
 /// steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A passively steered trailer is predicted on the
 /// way. Vehicles that may back up do so with a constant angle to the trailer in each step, as `BackFollower` does. The
 /// heuristic is the length of the shortest way on the map without regard to the heading. The outline of the vehicle
-/// with its load keeps a margin from obstacles; on the first 0.8 m it may be as near to them as it is at the start. If
+/// with its load keeps a margin from obstacles; on the first 0.8 m it may be as near to them as it is at the start. From
+/// hazards on the floor it keeps the clearance that `SweepStop` keeps, and 4 cm more. If
 /// a vehicle that backs up does not get away from a narrow place, a second search has shorter steps and smaller states
 /// near the start. If the first search is too long, the second one trusts the heuristic more. A way to a goal at which
 /// something stands ends before it. Keeps its buffers.
@@ -75,9 +82,12 @@ pub struct CurveSearch {
     endings: Vec<Ending>,
     open: BinaryHeap<Open>,
     room: Room,
+    footing: Footing,
     states: States,
     /// Weight of the estimates.
     weight: f32,
+    /// Start of the last search, if it expanded all states that it may.
+    exhausted: Option<Point2>,
 }
 
 /// State on a way.
@@ -160,21 +170,29 @@ impl CurveSearch {
     ) -> Result<Way, NoPath> {
         check(&ground.terrain, &start.pose, goals)?;
         self.room.measure(&ground.terrain, vehicle, start);
+        if let Some(floor) = &ground.floor {
+            self.footing.measure(floor, vehicle, start);
+        }
         let places = goals.iter().filter_map(|goal| self.place(vehicle, &start.pose, goal)).collect::<Vec<_>>();
         if places.is_empty() {
             return Err(NoPath::GoalBlocked);
         }
         let core = Terrain { map: self.room.core(), ..ground.terrain };
         self.estimates.run(&core, &places);
-        match self.search(ground, vehicle, start, &places, Effort::Normal) {
-            Err(expanded) if expanded > MOST => self.search(ground, vehicle, start, &places, Effort::Greedy),
+        let is_same = |at: Point2| (at - start.pose.position()).norm() <= SAME;
+        let most = if self.exhausted.take().is_some_and(is_same) { MOST / RETRY } else { MOST };
+        let way = match self.search(ground, vehicle, start, &places, (Effort::Normal, most)) {
+            Err(expanded) if expanded > most => self.search(ground, vehicle, start, &places, (Effort::Greedy, most)),
             Err(_) if vehicle.backs_up() => {
                 let squeezed = CurveDrive { margin: SQUEEZED * vehicle.margin, ..*vehicle };
-                self.search(ground, &squeezed, start, &places, Effort::Fine)
+                self.search(ground, &squeezed, start, &places, (Effort::Fine, most))
             }
             way => way,
-        }
-        .map_err(|_| NoPath::Unreachable)
+        };
+        way.map_err(|expanded| {
+            self.exhausted = (expanded > most).then_some(start.pose.position());
+            NoPath::Unreachable
+        })
     }
 
     /// Place nearest to a goal where the straight vehicle fits: at the goal, or on a line to it; `None` if there is
@@ -197,7 +215,7 @@ impl CurveSearch {
         vehicle: &CurveDrive,
         start: &Start,
         goals: &[Place],
-        effort: Effort,
+        (effort, most): (Effort, usize),
     ) -> Result<Way, usize> {
         self.begin(start, effort);
         let mut expanded = 0;
@@ -211,7 +229,7 @@ impl CurveSearch {
             };
             *best = node.cost;
             expanded += 1;
-            if expanded > MOST {
+            if expanded > most {
                 break;
             }
             let step = self.states.step(&node.pose);
@@ -244,7 +262,7 @@ impl CurveSearch {
 
     fn step(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, curvature: f32, length: f32) {
         let node = self.nodes[before as usize];
-        let drive = Drive { ground, vehicle, room: &self.room };
+        let drive = self.drive(ground, vehicle);
         let Some((way, trailer)) = drive.arc(&node.pose, node.trailer, curvature, length) else { return };
         let bend = [curvature.abs(), (curvature - node.curvature).abs()].map(|c| c * vehicle.radius);
         let cost = node.cost + way + BENDING[0] * length * bend[0] + BENDING[1] * bend[1] + node.turn(false);
@@ -254,12 +272,16 @@ impl CurveSearch {
 
     fn step_back(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, bend: f32, length: f32) {
         let node = self.nodes[before as usize];
-        let drive = Drive { ground, vehicle, room: &self.room };
+        let drive = self.drive(ground, vehicle);
         let Some((way, pose, trailer)) = drive.back(&node.pose, node.trailer, bend, length) else { return };
         let angles = [bend.abs(), (bend - node.back.unwrap_or(0.0)).abs()];
         let angled = ANGLED[0] * length * angles[0] + ANGLED[1] * angles[1];
         let cost = node.cost + BACKWARD[0] * way + angled + node.turn(true);
         self.add(Node { pose, trailer, cost, length, curvature: 0.0, back: Some(bend), before, ending: None });
+    }
+
+    fn drive<'a>(&'a self, ground: &'a Ground<'a>, vehicle: &'a CurveDrive) -> Drive<'a> {
+        Drive { ground, vehicle, room: &self.room, footing: ground.floor.is_some().then_some(&self.footing) }
     }
 
     /// Adds a node, unless its state was reached at a lower cost.
@@ -276,7 +298,7 @@ impl CurveSearch {
     /// asks for that. Only its length counts: with costs, most ways to a goal would be searched before one is found.
     fn try_to_end(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, goal: &Place) {
         let node = self.nodes[before as usize];
-        let drive = Drive { ground, vehicle, room: &self.room };
+        let drive = self.drive(ground, vehicle);
         let mut best: Option<Curve> = None;
         let lines = if vehicle.straight > 0.0 { LINES } else { 1 };
         for straight in (0..lines).map(|i| vehicle.straight * f32::from(i) / f32::from(LINES - 1)) {
@@ -325,8 +347,8 @@ fn check(terrain: &Terrain<'_>, start: &Pose2, goals: &[Goal]) -> Result<(), NoP
     if start.is_far() || goals.iter().any(|goal| goal.pose.is_far()) {
         return Err(NoPath::FarFromOrigin);
     }
-    let from = raster.cell(start.position()).ok_or(NoPath::StartOutside)?;
-    if !(terrain.is_open(from) && start.theta.is_finite()) {
+    raster.cell(start.position()).ok_or(NoPath::StartOutside)?;
+    if !start.theta.is_finite() {
         return Err(NoPath::StartBlocked);
     }
     let is_inside = goals.iter().any(|goal| raster.cell(goal.pose.position()).is_some());
@@ -338,8 +360,7 @@ mod tests {
     use super::*;
     use crate::{
         map::{Cell, Grid, Occupancy, Raster},
-        nav::{Articulated, BackPath, Path, payload::Backing},
-        scan::Point2,
+        nav::{Articulated, BackPath, Clearance, Path, payload::Backing},
     };
     use core::f32::consts::{FRAC_PI_2, PI, TAU};
 
@@ -442,7 +463,7 @@ mod tests {
             let last = way.nodes[way.nodes.len() - 1];
             let mut room = Room::default();
             room.measure(&ground.terrain, &vehicle, &at(start, heading));
-            let drive = Drive { ground: &ground, vehicle: &vehicle, room: &room };
+            let drive = Drive { ground: &ground, vehicle: &vehicle, room: &room, footing: None };
             bend(&goals[0].pose, drive.at_end(&way.end, last.trailer).expect("it is free"))
         };
         let from_the_side = Pose2::new(5.0, 2.5, FRAC_PI_2);
@@ -517,7 +538,8 @@ mod tests {
         let known = Grid::new(*map.raster(), Occupancy::Free).expect("small");
         let unknown = Grid::new(*map.raster(), Occupancy::Unknown).expect("small");
         let over = |floor: &Grid<Occupancy>| {
-            let floor = Some(Floor { map: floor, start: [start.pose, Pose2::new(6.0, 4.0, 2.0)] });
+            let start_poses = [start.pose, Pose2::new(6.0, 4.0, 2.0)];
+            let floor = Some(Floor { map: floor, start: start_poses, clearance: Clearance::PATSY });
             let ground = Ground { terrain, floor };
             CurveSearch::default().plan(&ground, &vehicle, &Start { is_back: true, ..start }, &goals).is_ok()
         };
@@ -574,6 +596,65 @@ mod tests {
         assert!((3.9..4.4).contains(&end.x) && (end.y - 2.05).abs() < 1e-3, "{end:?}");
         // There it still stands.
         assert_eq!(from(Pose2::new(end.x, end.y, 0.0), 2.0), Err(NoPath::GoalBlocked));
+    }
+
+    /// The stop and the planner had other ideas of the floor behind a corner of the trailer, and the vehicle stood there.
+    #[test]
+    fn what_the_planner_plans_backward_the_stop_lets_drive() {
+        let map = room();
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let vehicle = CurveDrive { backing_gain: 2.5, ..VEHICLE };
+        let start = Start { is_back: true, ..at(Pose2::new(3.0, 3.0, 0.0), 0.0) };
+        let goals = [free(Pose2::new(5.0, 3.5, 0.0))];
+        let mut floor = Grid::new(*map.raster(), Occupancy::Free).expect("small");
+        let way = |floor: &Grid<Occupancy>| {
+            let floor = Floor { map: floor, start: [start.pose; 2], clearance: Clearance::PATSY };
+            CurveSearch::default().plan(&Ground { terrain, floor: Some(floor) }, &vehicle, &start, &goals).is_ok()
+        };
+        assert!(way(&floor));
+        // Between the corners of the trailer and behind it.
+        *floor.get_mut(floor.raster().cell(Point2::new(2.05, 3.05)).expect("inside")).expect("inside") =
+            Occupancy::Unknown;
+        assert!(!way(&floor));
+    }
+
+    #[test]
+    fn it_does_not_drive_over_a_hazard_that_is_only_on_the_floor() {
+        let map = room();
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let (start, goals) = (at(Pose2::new(2.0, 3.0, 0.0), 0.0), [free(Pose2::new(5.0, 3.0, 0.0))]);
+        let mut floor = Grid::new(*map.raster(), Occupancy::Free).expect("small");
+        let thing = Point2::new(3.15, 3.15);
+        *floor.get_mut(floor.raster().cell(thing).expect("inside")).expect("inside") = Occupancy::Occupied;
+        let floor = Floor { map: &floor, start: [start.pose; 2], clearance: Clearance::PATSY };
+        let ground = Ground { terrain, floor: Some(floor) };
+        let way = CurveSearch::default().plan(&ground, &VEHICLE, &start, &goals).expect("a way around it");
+        let (mut path, mut back) = (Path::default(), BackPath::default());
+        way.first_section(&mut path, &mut back);
+        let nearest = path.points.iter().map(|point| (*point - thing).norm()).fold(9.0, f32::min);
+        assert!(nearest > 0.3, "{nearest} m");
+    }
+
+    #[test]
+    fn a_search_that_was_too_long_is_shorter_when_it_is_tried_again() {
+        // A large hall, and a goal in a room with an entrance that is too narrow for the load, but not for the tractor.
+        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 300, height: 300 };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+        for i in (0..60).filter(|i| !(20..28).contains(i)) {
+            *map.get_mut(Cell::new(i, 60)).expect("inside") = Occupancy::Occupied;
+        }
+        (0..61).for_each(|j| *map.get_mut(Cell::new(60, j)).expect("inside") = Occupancy::Occupied);
+        let ground = Ground { terrain: Terrain { map: &map, costs: None, unknown_is_open: false }, floor: None };
+        let vehicle = CurveDrive { load: LOAD, margin: 0.15, ..VEHICLE };
+        let goals = [free(Pose2::new(2.4, 2.0, -FRAC_PI_2))];
+        let mut search = CurveSearch::default();
+        let mut expanded = |x: f32| {
+            let way = search.plan(&ground, &vehicle, &at(Pose2::new(x, 20.0, 0.0), 0.0), &goals);
+            assert_eq!(way, Err(NoPath::Unreachable));
+            search.nodes.len()
+        };
+        let [first, again, elsewhere] = [20.0, 20.1, 22.0].map(&mut expanded);
+        assert!(again < first / 2 && elsewhere > again, "{first}, {again}, {elsewhere}");
     }
 
     #[test]

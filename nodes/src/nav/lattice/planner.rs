@@ -1,7 +1,7 @@
 use super::{CurveDrive, CurveSearch, Floor, Goal, Ground, Section, Start};
 use crate::{
     map::{Grid, Occupancy},
-    nav::{Articulated, BackPath, NoPath, Path, Terrain},
+    nav::{Articulated, BackPath, Clearance, NoPath, Path, Terrain},
     scan::Pose2,
 };
 use apex_rt::{Event, Out, node};
@@ -18,8 +18,9 @@ use apex_rt::{Event, Out, node};
 ///
 /// With a `backing_gain` a vehicle with a trailer also backs up where that is shorter. The output is then the first
 /// section of the way: `turn` leads forward to a place where the direction changes, and `back` is for `BackFollower`.
-/// At the end of such a section the rest of the way has to be planned. The vehicle backs up only over places that are
-/// free on `floor`, such as the map of `HazardMap` in the frame of `odometry`; without it, floor is everywhere.
+/// At the end of such a section the rest of the way has to be planned. `floor` is a map such as that of `HazardMap` in
+/// the frame of `odometry`: the vehicle keeps the `clearance` from its hazards as `SweepStop` does, which then lets it
+/// drive, and backs up only over places that are free on it. Without it, floor is everywhere.
 ///
 /// After `stay_forward` the next way leads only forward, and after `begin_back` it begins backward, if there is such a
 /// way: for example because something that is not on the map holds the vehicle in the other direction. If something
@@ -43,6 +44,9 @@ pub struct CurvePlanner {
     /// Distance of the outline from the middles of cells that are not free.
     #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
     margin: f32,
+    /// Distances kept from hazards on the floor.
+    #[param(default = Clearance::PATSY)]
+    clearance: Clearance,
     /// Rate at which the angle between the vehicle and its trailer approaches the wanted one when it backs up; 0 if it
     /// only drives forward.
     #[param(unit = "1/m", default = 0.0, range = 0.0..=100.0)]
@@ -90,7 +94,8 @@ impl CurvePlanner {
         #[failure] no_path: Event<NoPath>,
     ) {
         let terrain = Terrain { map, costs, unknown_is_open: false };
-        let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry] });
+        let clearance = self.clearance;
+        let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry], clearance });
         let Self { radius, vehicle: shape, margin, straight, short, .. } = *self;
         let limit = core::mem::take(&mut self.next);
         let load = [self.load_length, self.load_width];
@@ -137,15 +142,19 @@ impl CurvePlanner {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::Raster;
+    use crate::map::{Cell, Raster};
     use crate::scan::Point2;
     use apex_rt::{Construct, event};
 
-    /// Returns whether there is a way forward, one backward, and none, on floor that is known or not.
-    fn plan(node: &mut CurvePlanner, floor: Occupancy) -> (bool, bool, bool) {
+    /// Returns whether there is a way forward, one backward, and none, on floor that is known or not behind.
+    fn plan(node: &mut CurvePlanner, behind: Occupancy) -> (bool, bool, bool) {
         let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 100, height: 60 };
         let map = Grid::new(raster, Occupancy::Free).expect("small");
-        let floor = Grid::new(raster, floor).expect("small");
+        let mut floor = Grid::new(raster, Occupancy::Free).expect("small");
+        for number in 0..60 * 100 {
+            let cell = Cell::new(number % 100, number / 100);
+            *floor.get_mut(cell).expect("inside") = if cell.x < 30 { behind } else { Occupancy::Free };
+        }
         let (start, goal) = (Pose2::new(3.0, 3.0, 0.0), Pose2::new(7.0, 3.0, 0.0));
         let (mut path, mut turn, mut back, mut none) = (Out::new(), Out::new(), Out::new(), None);
         let (floor, here) = (Some(&floor), Some(&start));
@@ -169,7 +178,8 @@ mod tests {
 
     #[test]
     fn a_limit_that_leaves_no_way_is_dropped() {
-        let mut node = CurvePlanner::construct((0.7, Articulated::PATSY, 0.0, 0.0, 0.1, 2.5, 0.0, 0.0, 0.0));
+        let mut node =
+            CurvePlanner::construct((0.7, Articulated::PATSY, 0.0, 0.0, 0.1, Clearance::PATSY, 2.5, 0.0, 0.0, 0.0));
         assert_eq!(plan(&mut node, Occupancy::Free), (true, false, false));
         node.begin_back();
         assert_eq!(plan(&mut node, Occupancy::Free), (false, true, false));

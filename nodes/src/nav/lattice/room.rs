@@ -1,4 +1,4 @@
-use super::{CurveDrive, Start};
+use super::{CurveDrive, SQUEEZED, Start};
 use crate::{
     map::{Cell, DistanceTransform, Grid, Occupancy, Raster},
     nav::{
@@ -49,9 +49,10 @@ impl Room {
         self.transform.run(&self.open, |cell| !is_open(cell), &mut self.distances);
         self.start = start.pose.position();
         self.crowded = self.crowding(vehicle, &axes);
-        self.draw_core(&raster, 0.5 * vehicle.shape.width);
+        self.draw_core(&raster, vehicle.girth() + SQUEEZED * vehicle.margin - ROUNDING);
     }
 
+    /// Draws where the middle of the tractor may be, if the vehicle reaches `half` m from it to all sides.
     fn draw_core(&mut self, raster: &Raster, half: f32) {
         self.core.clone_from(&self.open);
         for (number, (core, distance)) in self.core.cells_mut().iter_mut().zip(self.distances.cells()).enumerate() {
@@ -83,6 +84,10 @@ impl Room {
         self.fits(vehicle, axes) && vehicle.outline().parts(axes).all(is_bare)
     }
 
+    fn crowded_by(&self, part: &Part, axis: &Pose2, margin: f32) -> f32 {
+        lacking(&self.distances, part, axis, margin, 0.0)
+    }
+
     fn crowding(&self, vehicle: &CurveDrive, axes: &Axes) -> [f32; 3] {
         let mut crowded = [0.0; 3];
         for (sum, (part, axis)) in crowded.iter_mut().zip(vehicle.outline().parts(axes)) {
@@ -90,21 +95,22 @@ impl Room {
         }
         crowded
     }
+}
 
-    /// Sum of what points of the border of a part lack of the margin, in m.
-    fn crowded_by(&self, part: &Part, axis: &Pose2, margin: f32) -> f32 {
-        let (sin, cos) = sincosf(axis.theta);
-        let distance = |p: Point2| {
-            let place = Point2::new(axis.x + cos * p.x - sin * p.y, axis.y + sin * p.x + cos * p.y);
-            self.distances.at(place).copied().unwrap_or(0.0)
-        };
-        let (middle, half) = (0.5 * (part.from + part.to), 0.5 * (part.to - part.from));
-        let reach = hypotf(half, part.half) + self.distances.raster().resolution;
-        if distance(Point2::new(middle, 0.0)) >= reach + margin {
-            return 0.0;
-        }
-        part.border(STEP).map(|point| fmaxf(margin - distance(point), 0.0)).sum()
+/// Sum of what points of the border of a part of a vehicle lack of a margin, in m. `beyond` is the distance of points
+/// outside of the grid.
+pub(super) fn lacking(distances: &Grid<f32>, part: &Part, axis: &Pose2, margin: f32, beyond: f32) -> f32 {
+    let (sin, cos) = sincosf(axis.theta);
+    let distance = |p: Point2| {
+        let place = Point2::new(axis.x + cos * p.x - sin * p.y, axis.y + sin * p.x + cos * p.y);
+        distances.at(place).copied().unwrap_or(beyond)
+    };
+    let (middle, half) = (0.5 * (part.from + part.to), 0.5 * (part.to - part.from));
+    let reach = hypotf(half, part.half) + distances.raster().resolution;
+    if distance(Point2::new(middle, 0.0)) >= reach + margin {
+        return 0.0;
     }
+    part.border(STEP).map(|point| fmaxf(margin - distance(point), 0.0)).sum()
 }
 
 /// Cells whose middles are in a part of a vehicle.
