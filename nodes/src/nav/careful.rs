@@ -61,8 +61,7 @@ pub struct PersonCaution {
     /// stands.
     #[param(unit = "m/s", default = 0.15, range = 0.0..=10.0)]
     standing_speed: f32,
-    /// Distance up to which the speed is `min_speed` whether the person stands or walks: who stands may take a step. With
-    /// a horizon, a robot without a load that only comes past who stands does so at the speed for persons who stand.
+    /// Distance up to which the speed is `min_speed` whether the person stands or walks: who stands may take a step.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     beside: f32,
     /// Distance within which the robot stops for who walks, and backward also for who stands, unless it drives away: a
@@ -154,14 +153,7 @@ impl PersonCaution {
         if counts && distance < if is_left { fminf(TOUCH, halt) } else { halt } {
             return 0.0;
         }
-        let foreseen = || self.foreseen(twist, outline, now, person);
-        let predicted = match distance < self.beside {
-            false => foreseen(),
-            true if is_left => foreseen(),
-            // The trunk of a person is above a low vehicle, but not above its load.
-            true if stands && self.load_width <= 0.0 && distance >= TOUCH => fminf(foreseen(), self.standing_speed),
-            true => 0.0,
-        };
+        let predicted = if distance < self.beside { 0.0 } else { self.foreseen(twist, outline, now, person) };
         fmaxf(self.speed_at(distance, person), predicted)
     }
 
@@ -318,17 +310,6 @@ mod tests {
         assert_eq!(speed(-0.3, (0.5, 0.0), 0.0), -0.3);
         // Who walks may touch it then, too.
         assert_eq!([speed(0.3, (-0.95, 0.0), 1.0), speed(0.3, (-1.05, 0.0), 1.0)], [0.0, 0.1]);
-    }
-
-    /// Creeping past a person who stands takes longer than a step.
-    #[test]
-    fn who_stands_beside_its_way_is_passed() {
-        let speed = |place: (f32, f32), velocity: f32, horizon: f32| {
-            let mut node = PersonCaution { horizon, beside: 0.3, ..node([0.0; 2]) };
-            fire(&mut node, 0, Twist::new(0.8, 0.0, 0.0), &[(place.0, place.1, velocity)]).x
-        };
-        assert_eq!([speed((0.1, 0.45), 0.0, 2.5), speed((0.1, 0.45), 0.0, 0.0)], [0.3, 0.1]);
-        assert_eq!([speed((0.1, 0.45), -0.5, 2.5), speed((0.5, 0.0), 0.0, 2.5)], [0.1, 0.1]);
     }
 
     #[test]
