@@ -4,7 +4,7 @@ use crate::{Args, Value, cluster::Local, ops::Run};
 use apex_dsl::{
     analyse::silence_parameter,
     graph::{NodeId, PortId},
-    program::{Arg, Call, Deadline, Failing, Fire, Flag, SlotCall},
+    program::{Arg, Call, Deadline, Failing, Fire, Flag, ParamOutput, SlotCall},
 };
 use apex_rt::{Ctx, Failure, Observer, contain};
 use std::time::Duration;
@@ -40,24 +40,21 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     }
 
     fn call(&mut self, node: NodeId, call: &Call, ctx: &Ctx, local: &mut Local<'r>) {
+        let Some(args) = &call.args else { return self.set_params(node, call, local) };
         if call.is_gated && !self.state.flags.contains(&Flag::Enabled(node)) {
             return self.nothing(call, local);
         }
-        let sets = call.sets.iter().filter_map(|(param, input)| Some((*param, local.arriving(self.state, *input)?)));
-        let sets: Vec<(usize, Value)> = sets.collect();
-        if let Some(node) = self.state.nodes.get_mut(&node) {
-            sets.iter().for_each(|(param, value)| node.set_param(*param, value));
-        }
-        let Some(args) = &call.args else { return };
         let number = self.number(node);
         self.observer.fired(number);
+        self.set_params(node, call, local);
         let is_missing = |input: &PortId| local.arriving(self.state, *input).is_none();
         if call.mandatory.iter().flatten().any(is_missing) {
             self.nothing(call, local);
-            if let Some(node) = self.state.nodes.get_mut(&node) {
-                node.absent();
-            }
-        } else {
+            self.called(node, call.failing, |boxed| {
+                boxed.absent();
+                Ok(())
+            });
+        } else if self.accepts(node, call, local) {
             let mut args = self.args(node, args, None, ctx, Some(local));
             if let Some(event) = call.processed {
                 self.state.tokens.insert(event, std::rc::Rc::new(()));
@@ -68,13 +65,36 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             for (port, token) in result.into_iter().flatten() {
                 local.write(self.state, PortId { node, port }, token);
             }
+        } else {
+            self.nothing(call, local);
         }
-        for (param, output) in &call.param_outputs {
-            let value = self.state.nodes.get(&node).and_then(|node| node.param(*param));
+        for ParamOutput { param, arrived, output } in &call.param_outputs {
+            let value = match arrived {
+                Some(input) => local.arriving(self.state, *input),
+                None => self.state.nodes.get(&node).and_then(|node| node.param(*param)),
+            };
             local.write(self.state, *output, value);
         }
         self.late(node, call.deadline, ctx);
         self.observer.finished(number);
+    }
+
+    /// Puts tokens at parameter ports into the fields of a node.
+    fn set_params(&mut self, node: NodeId, call: &Call, local: &Local<'r>) {
+        let sets = call.sets.iter().filter_map(|(param, input)| Some((*param, local.arriving(self.state, *input)?)));
+        let sets: Vec<(usize, Value)> = sets.collect();
+        if let Some(node) = self.state.nodes.get_mut(&node) {
+            sets.iter().for_each(|(param, value)| node.set_param(*param, value));
+        }
+    }
+
+    /// Returns `true` if the parameters of a function that have arrived are in their ranges. What is refused is not
+    /// reported.
+    fn accepts(&self, node: NodeId, call: &Call, local: &Local<'r>) -> bool {
+        let Some(boxed) = self.state.nodes.get(&node) else { return false };
+        call.checks
+            .iter()
+            .all(|(param, input)| local.arriving(self.state, *input).is_some_and(|value| boxed.accepts(*param, &value)))
     }
 
     /// A node sends ⊥.

@@ -61,10 +61,9 @@ impl<'a> Local<'a> {
 
     /// Puts a token at an output.
     pub fn write(&mut self, state: &mut State, port: PortId, token: Option<Value>) {
-        let is_body_input = matches!(self.plan.storage(port), Storage::Argument | Storage::MaybeArgument);
         match self.plan.storage(port) {
             Storage::Array => self.spread(port, token),
-            Storage::Buffer if !is_body_input => put(&mut state.tokens, port, token),
+            Storage::Buffer => put(&mut state.tokens, port, token),
             _ => put(&mut self.tokens, port, token),
         }
     }
@@ -121,8 +120,9 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 local.write(self.state, PortId { node: *node, port: 1 }, token);
             }
             Op::Declare(port) => self.declare(*port, local),
-            Op::Block { tokens, body, .. } if tokens.iter().all(|port| local.read(self.state, *port).is_some()) => {
-                self.ops(body, ctx, place);
+            Op::Block { tokens, body, .. } => {
+                let is_open = tokens.iter().all(|port| local.read(self.state, *port).is_some());
+                self.ops(if is_open { body } else { &[] }, ctx, place);
             }
             Op::Iteration { runs, firings } => {
                 for Firings { node, from, to } in runs {
@@ -137,10 +137,9 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                     local.firing = 0;
                 }
             }
-            Op::IfArrived { inputs, body }
-                if inputs.iter().all(|input| local.arriving(self.state, *input).is_some()) =>
-            {
-                self.ops(body, ctx, place);
+            Op::IfArrived { inputs, body } => {
+                let is_open = inputs.iter().all(|input| local.arriving(self.state, *input).is_some());
+                self.ops(if is_open { body } else { &[] }, ctx, place);
             }
             Op::Fire { node, fire } => self.fire(*node, fire, ctx, local),
             Op::Store(port) => {
@@ -155,6 +154,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 }
                 local.firing = 0;
             }
+            // All others belong to no cluster.
             _ => {}
         }
     }

@@ -7,6 +7,7 @@ use apex_dsl::{
     checked::CheckedProgram,
     graph::{ConnectionId, Graph, NodeId, NodeKind, PortId},
     index::IdVec,
+    machine::machines,
     program::{ClaimCheck, ClusterRow, Lower, Ops, Plan, Program, Reaction, Served},
     threads::{Origin, Part},
 };
@@ -94,7 +95,7 @@ impl<'a> Code<'a> {
         let program = Program::new(lower);
         let plan = |cluster| Plan::new(graph, catalog, &analysis.links, analysis, cluster);
         let plans: IdVec<ClusterId, Plan> = analysis.clusters.ids().map(plan).collect();
-        let clusters = analysis.clusters.ids().map(|cluster| program.ops_of(cluster, &plans)).collect();
+        let clusters = analysis.clusters.ids().map(|cluster| program.ops_of(cluster, &plans[cluster])).collect();
         let mut bodies = BTreeMap::new();
         for (node, n) in graph.nodes.iter_enumerated() {
             if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node)) {
@@ -166,6 +167,9 @@ impl<'a> Interpreter<'a> {
         };
         let mut parts = vec![];
         for code in codes {
+            if let Some((node, _)) = machines(code.graph(), catalog).next() {
+                return Err(format!("`{}` is a state machine, which is not interpreted yet", code.graph().path(node)));
+            }
             if let Some(fault) = code.verify().into_iter().next() {
                 return Err(format!("internal error of the compiler: {fault}"));
             }

@@ -42,23 +42,17 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                     given.insert(PortId { node: inside, port: 0 }, token);
                 }
             }
-            let mut run = Run {
-                code: body,
-                state: &mut inner,
-                cells: &mut *self.cells,
-                library: self.library,
-                observer: &mut *self.observer,
+            let outputs: Vec<(usize, NodeId)> =
+                results.keys().filter_map(|port| Some((*port, boundary(*port, PortKind::Output)?))).collect();
+            let (state, cells, library) = (&mut inner, &mut *self.cells, self.library);
+            // What happens on other threads cannot be watched.
+            let sent = match each.parallel {
+                true => Run { code: body, state, cells, library, observer: &mut () }.element(&given, &outputs, ctx),
+                false => Run { code: body, state, cells, library, observer: &mut *self.observer }
+                    .element(&given, &outputs, ctx),
             };
-            for cluster in body.clusters.ids() {
-                let mut local = Local::new(body.program.lower, &body.plans[cluster]);
-                given.iter().for_each(|(port, token)| local.write(run.state, *port, Some(token.clone())));
-                run.ops(&body.clusters[cluster], ctx, &mut Place { local: Some(&mut local), taken: None });
-                for (port, collected) in &mut results {
-                    let Some(output) = boundary(*port, PortKind::Output) else { continue };
-                    if body.program.lower.analysis.clusters[cluster].nodes.contains(&output) {
-                        collected.extend(local.arriving(run.state, PortId { node: output, port: 0 }));
-                    }
-                }
+            for (port, token) in sent {
+                results.entry(port).or_default().push(token);
             }
         }
         for (port, items) in results {
@@ -68,5 +62,27 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         }
         self.state.bodies.insert(node, inner);
         self.observer.finished(number);
+    }
+
+    /// Runs the body for one element. Returns the tokens at `outputs`, by the ports of the node.
+    fn element(
+        &mut self,
+        given: &BTreeMap<PortId, Value>,
+        outputs: &[(usize, NodeId)],
+        ctx: &Ctx,
+    ) -> Vec<(usize, Value)> {
+        let code = self.code;
+        let mut sent = vec![];
+        for cluster in code.clusters.ids() {
+            let mut local = Local::new(code.program.lower, &code.plans[cluster]);
+            given.iter().for_each(|(port, token)| local.write(self.state, *port, Some(token.clone())));
+            self.ops(&code.clusters[cluster], ctx, &mut Place { local: Some(&mut local), taken: None });
+            let nodes = &code.program.lower.analysis.clusters[cluster].nodes;
+            for (port, node) in outputs.iter().filter(|(_, node)| nodes.contains(node)) {
+                let token = local.arriving(self.state, PortId { node: *node, port: 0 });
+                sent.extend(token.map(|token| (*port, token)));
+            }
+        }
+        sent
     }
 }

@@ -7,7 +7,7 @@ use apex_dsl::{
 use apex_rt::{Ctx, Failure};
 use std::{any::Any, rc::Rc, time::Duration};
 
-/// A token. Copies share it.
+/// A token. Copies share it. The tokens of a firing at a port with a rate are a `Vec<Value>`.
 pub type Value = Rc<dyn Any>;
 
 /// Result of a call: the tokens at the outputs, by the numbers of their ports in the signature.
@@ -38,6 +38,11 @@ pub trait Node {
 
     /// Returns the value of a parameter.
     fn param(&self, param: usize) -> Option<Value>;
+
+    /// Returns `true` if a value of a parameter is in its range.
+    fn accepts(&self, _param: usize, _value: &Value) -> bool {
+        true
+    }
 
     /// Sets a parameter, unless the value is out of range.
     fn set_param(&mut self, param: usize, value: &Value);

@@ -150,6 +150,9 @@ impl<O: Observer> Run<'_, '_, O> {
             self.outside(&code.first, ctx);
             self.after(served, ctx);
         }
+        if let Some(code) = self.state.exit {
+            return ControlFlow::Break(Next::Exit(code));
+        }
         if begins {
             reaction.once.iter().for_each(|bit| self.state.conditions.set(*bit, true));
             for firing in &reaction.before {

@@ -87,8 +87,11 @@ impl State {
                 }
                 NodeKind::Delay(initial) => {
                     let ty = &graph.port(PortId { node, port: 1 }).ty;
-                    let tokens = initial.iter().map(|value| library.token(value.as_ref(), ty)).collect();
-                    held.insert(node, Delay::new(tokens));
+                    let first = |value: &Option<_>| {
+                        let token = library.token(value.as_ref(), ty);
+                        token.map(Some).ok_or_else(|| format!("the first token of `{}` is not known", graph.path(node)))
+                    };
+                    held.insert(node, Delay::new(initial.iter().map(first).collect::<Result<_, _>>()?));
                     held_activity.insert(node, Delay::new(vec![None; initial.len()]));
                 }
                 _ => {}

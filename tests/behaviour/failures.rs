@@ -230,3 +230,14 @@ fn restart_keeps_the_parameters() {
     assert_eq!(program.nodes().k.seen, [1, 1, 2, 3]);
     assert!(apex_rt::params::save(&mut program).contains("at = 1"), "{}", apex_rt::params::save(&mut program));
 }
+
+#[test]
+fn a_program_ends_before_anything_fires() {
+    let mut program = EndsAtOnce::new();
+    assert_eq!(program.react(Time::ZERO), Next::Exit(0));
+    assert!(program.nodes().k.seen.is_empty());
+    let mut program = EndsFromOutside::new();
+    program.inputs().stop.put(()).expect("room");
+    assert_eq!(program.react(Time::ZERO), Next::Exit(0));
+    assert!(program.nodes().k.seen.is_empty());
+}

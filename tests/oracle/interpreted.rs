@@ -55,12 +55,15 @@ fn as_net(checker: &Checker, case: &Case) -> Tried {
 fn late_as_in_time(checker: &Checker, case: &Case) -> Tried {
     let Ok(checked) = checker.check(&case.text("Random")) else { return Tried::Illegal };
     let steps = |times: &[i64]| {
-        let records = interpret(&checker.catalog(), &checked, &millis(times)).unwrap_or_default().records;
-        let is_step = |record: &Record| !matches!(record, Record::Begin(_) | Record::PortId);
-        records.into_iter().filter(is_step).collect::<Vec<_>>()
+        let records = interpret(&checker.catalog(), &checked, &millis(times))?.records;
+        let is_step = |record: &Record| !matches!(record, Record::Begin(_) | Record::End);
+        Ok::<_, String>(records.into_iter().filter(is_step).collect::<Vec<_>>())
     };
-    let in_time = steps(&IN_TIME);
-    let differs = [&[0, 9][..], &[0, 2, 3, 7, 9]].into_iter().any(|late| steps(late) != in_time);
+    let in_time = match steps(&IN_TIME) {
+        Ok(steps) => steps,
+        Err(why) => return Tried::Wrong(format!("seed {}: {why}", case.seed)),
+    };
+    let differs = [&[0, 9][..], &[0, 2, 3, 7, 9]].into_iter().any(|late| steps(late).as_ref() != Ok(&in_time));
     match differs {
         true => Tried::Wrong(format!("seed {}: a late run differs", case.seed)),
         false => Tried::Right(calls(&in_time)),

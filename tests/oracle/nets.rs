@@ -88,7 +88,7 @@ fn spoiled(run: &[Record], way: usize, dice: &mut Dice) -> Option<Vec<Record>> {
         // A reaction that ends too early.
         _ => {
             let at = pick(&calls, dice)?;
-            run.insert(at, Record::PortId);
+            run.insert(at, Record::End);
         }
     }
     Some(run)

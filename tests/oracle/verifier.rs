@@ -24,7 +24,7 @@ impl<'a> Case<'a> {
         let program = Program::new(Lower::new(graph, analysis, catalog, None));
         let plan = |cluster| Plan::new(graph, catalog, &analysis.links, analysis, cluster);
         let plans: IdVec<ClusterId, Plan> = analysis.clusters.ids().map(plan).collect();
-        let clusters = analysis.clusters.ids().map(|cluster| program.ops_of(cluster, &plans)).collect();
+        let clusters = analysis.clusters.ids().map(|cluster| program.ops_of(cluster, &plans[cluster])).collect();
         Self { program, plans, clusters }
     }
 
@@ -46,7 +46,7 @@ impl<'a> Case<'a> {
 /// Ways to falsify a program. Each returns `false` if it has nothing of that kind.
 const WAYS: [(&str, fn(&mut Case<'_>, &mut Dice) -> bool); 5] = [
     ("a firing is missing", |case, dice| {
-        let places = case.places(|op| matches!(op, Op::Fire { fire: Fire::Call(_) | Fire::Relay, .. }));
+        let places = case.places(|op| matches!(op, Op::Fire { fire: Fire::Call(_) | Fire::Relay | Fire::Hold, .. }));
         remove(case, &places, dice)
     }),
     ("a node fires twice", |case, dice| {

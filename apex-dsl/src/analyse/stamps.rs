@@ -18,8 +18,15 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Stamps {
     /// Clusters with a node that uses stamps, and all from which its tokens come.
     pub clusters: BTreeSet<ClusterId>,
-    /// Asynchronous connections whose tokens have stamps.
-    pub connections: BTreeSet<ConnectionId>,
+    /// Asynchronous connections whose tokens have stamps, in order.
+    pub connections: Vec<ConnectionId>,
+}
+
+impl Stamps {
+    /// The number of a connection's stamp, if it is kept.
+    pub fn number(&self, connection: ConnectionId) -> Option<usize> {
+        self.connections.binary_search(&connection).ok()
+    }
 }
 
 /// Part of the graph that needs the stamps of its tokens.
@@ -36,7 +43,7 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
     }
     let first = |node: &NodeId| graph.nodes[*node].modifiers.deadline.is_some() || asks(graph, catalog, *node);
     let mut open: Vec<Asks> = graph.nodes.ids().filter(first).map(Asks::Node).collect();
-    let mut found = Stamps::default();
+    let (mut found, mut connections) = (Stamps::default(), BTreeSet::new());
     while let Some(next) = open.pop() {
         let mut sent_on: Vec<ConnectionId> = vec![];
         match next {
@@ -60,9 +67,10 @@ pub fn stamps(graph: &Graph, catalog: &Catalog, analysis: &Analysis) -> Stamps {
             Asks::Cluster(_) => {}
         }
         // The sender may have sent in a firing or in a slot call: both need a stamp.
-        sent_on.retain(|connection| found.connections.insert(*connection));
+        sent_on.retain(|connection| connections.insert(*connection));
         open.extend(sent_on.into_iter().map(|connection| Asks::Node(graph.connections[connection].from.node)));
     }
+    found.connections = connections.into_iter().collect();
     found
 }
 

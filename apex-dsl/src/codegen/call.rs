@@ -7,7 +7,7 @@ use super::{
 use crate::{
     catalog::Signature,
     graph::{Library, NodeId, PortId},
-    program::{Arg, BlockId, Call, CallResult, Failing, Flag, Op, Storage},
+    program::{Arg, BlockId, Call, CallResult, Failing, Flag, Op, ParamOutput, Storage},
 };
 use proc_macro2::TokenStream;
 use quote::{ToTokens as _, format_ident, quote};
@@ -212,23 +212,23 @@ impl<'a> Calling<'a> {
     /// Connected outputs of parameters: the value of this firing.
     fn param_outputs(&self) -> TokenStream {
         let emitter = self.emitter;
-        let binds = self.call.param_outputs.iter().map(|(param, end)| {
-            let value = self.param(*param);
-            let maybe = emitter.plan.storage(*end) == Storage::Maybe;
+        let binds = self.call.param_outputs.iter().map(|ParamOutput { param, arrived, output }| {
+            let value = self.param(*param, *arrived);
+            let maybe = emitter.plan.storage(*output) == Storage::Maybe;
             let value = if maybe { quote!(Some(#value)) } else { value };
-            emitter.bind(*end, value, maybe)
+            emitter.bind(*output, value, maybe)
         });
         binds.collect()
     }
 
     /// The value of a parameter in this firing.
-    fn param(&self, param: usize) -> TokenStream {
+    fn param(&self, param: usize, arrived: Option<PortId>) -> TokenStream {
         let (emitter, generator) = (self.emitter, self.emitter.generator);
         if !self.signature.is_function {
             let place = self.place();
             return quote!(::core::clone::Clone::clone(::apex_rt::ParamField::<#param>::field(&mut #place)));
         }
-        match emitter.view.program.lower.param_source(self.node, param) {
+        match arrived {
             Some(to) => emitter.clone_of_arrived(to, self.block),
             None => {
                 let ty = to_rust(&self.signature.params[param].ty, generator.catalog);

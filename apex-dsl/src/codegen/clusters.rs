@@ -89,8 +89,7 @@ impl Generator<'_> {
     }
 
     fn cluster(&self, view: ProgramView<'_>, cluster: ClusterId) -> TokenStream {
-        let emitter = Emitter::new(self, view, cluster);
-        emitter.ops(&view.program.cluster(cluster, &emitter.plan))
+        Emitter::new(self, view, cluster).code()
     }
 }
 

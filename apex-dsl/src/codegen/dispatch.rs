@@ -161,6 +161,8 @@ impl Generator<'_> {
             let ready = (!bits.dispatched().is_empty()).then(|| quote! { self.core.dispatcher.look_again(); });
             quote! { self.state.steps.begin(); #ready #serve }
         });
+        // What was served before the clusters may have ended the program.
+        let ended = exit.clone().filter(|_| start.is_some() || endless);
         let used_up = endless.then(|| self.used_up(view));
         let leave = if has_exit {
             quote!(if quiet || self.state.exit.is_some() {
@@ -176,6 +178,7 @@ impl Generator<'_> {
         let serve_first = program.has_queue().then(|| {
             quote! { if !self.core.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } }
         });
+        let over = has_exit.then(|| quote! { if self.state.exit.is_some() { break; } });
         let has_instants = program.has_instants();
         // Sources without a period fire when the reaction has made up for all that is late.
         let begins = match (self.part.is_some(), has_instants) {
@@ -191,6 +194,7 @@ impl Generator<'_> {
                     let mut quiet = true;
                     #raises
                     #serve_first
+                    #over
                     #inside
                     first = false;
                     #stop
@@ -208,6 +212,7 @@ impl Generator<'_> {
             let ctx = &::apex_rt::Ctx::at(at, now);
             #begin_steps
             #start
+            #ended
             #begin
             #body
             #exit

@@ -26,7 +26,7 @@ impl Emitter<'_> {
             .ids()
             .map(|cluster| Emitter::new(&generator, ProgramView::new(body, analysis, &lowered), cluster))
             .collect();
-        let code: TokenStream = clusters.iter().map(Emitter::body).collect();
+        let code: TokenStream = clusters.iter().map(Emitter::code).collect();
         let (mut item, mut bindings) = (format_ident!("_item"), quote!());
         for (port, p) in self.graph.nodes[node].ports.iter().enumerate().filter(|(_, p)| p.kind == PortKind::Input) {
             let inside = generator.name(PortId { node: boundary(body, &p.name, PortKind::Input), port: 0 });

@@ -29,19 +29,14 @@ impl<'a> Emitter<'a> {
         Self { generator, view, graph, analysis, plan, cluster }
     }
 
-    /// All operations of the cluster.
-    pub fn ops(&self, ops: &[Op]) -> TokenStream {
-        self.ops_in(ops, BlockId::OUTERMOST)
-    }
-
     /// Operations in a block.
     fn ops_in(&self, ops: &[Op], block: BlockId) -> TokenStream {
         Writer { generator: self.generator, view: self.view, inside: Some((self, block)) }.ops(ops)
     }
 
-    /// Everything that the cluster does in the body of an `each`.
-    pub fn body(&self) -> TokenStream {
-        self.ops(&self.view.program.inside(self.cluster, &self.plan))
+    /// Code of the cluster.
+    pub fn code(&self) -> TokenStream {
+        self.ops_in(&self.view.program.ops_of(self.cluster, &self.plan), BlockId::OUTERMOST)
     }
 
     /// An operation that belongs to a cluster.

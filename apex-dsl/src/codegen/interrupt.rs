@@ -14,9 +14,13 @@ impl Generator<'_> {
 
     /// The functions of `cancel` and `resume`.
     pub fn interrupts(&self, view: ProgramView<'_>) -> TokenStream {
-        let functions = view.program.interrupts().into_iter().map(|(end, ops)| {
+        let interrupts = view.program.interrupts();
+        if interrupts.is_empty() {
+            return quote!();
+        }
+        let (place, [state, core]) = (self.nodes_type(view), self.state_types(view));
+        let functions = interrupts.into_iter().map(|(end, ops)| {
             let (name, docs) = (self.interrupt_function(view, end), format!(" `{}`", view.graph.end_name(end)));
-            let (place, [state, core]) = (self.nodes_type(view), self.state_types(view));
             let body = self.ops(view, &ops);
             quote! {
                 #[doc = #docs]

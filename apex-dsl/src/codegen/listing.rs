@@ -65,7 +65,7 @@ impl Generator<'_> {
 
     fn cluster_ops(&self, view: ProgramView<'_>, cluster: ClusterId) -> Vec<Op> {
         let plan = Plan::new(view.graph, self.catalog, view.links, view.analysis, cluster);
-        view.program.cluster(cluster, &plan)
+        view.program.ops_of(cluster, &plan)
     }
 }
 

@@ -8,7 +8,7 @@ use super::{
     types::ident,
 };
 use crate::{
-    graph::{NodeId, PortId, Standard},
+    graph::{NodeId, PortId},
     machine::Move,
     program::{BlockId, Cancel, Flag, Op, Taken},
     syntax::tree::PortKind,
@@ -233,13 +233,5 @@ impl Writer<'_> {
         let events = events.map(|event| generator.event(event, self.view.program.is_sent_event(event)));
         let (place, method) = (generator.node_place(graph, node), ident(how.method()));
         generator.states_told(graph, node, quote! { #place.#method(#(#events),*); })
-    }
-}
-
-impl Generator<'_> {
-    /// Triggers an event that every node has, if it is connected.
-    pub fn trigger(&self, view: ProgramView<'_>, node: NodeId, standard: Standard) -> TokenStream {
-        let port = view.graph.nodes[node].standard(standard);
-        port.map(|port| self.ops(view, &[Op::Trigger(PortId { node, port })])).unwrap_or_default()
     }
 }

@@ -7,9 +7,17 @@ use crate::{
     syntax::tree::PortKind,
 };
 impl Program<'_> {
+    /// Operations of a cluster of a program, or of the body of an `each`.
+    pub fn ops_of(&self, cluster: ClusterId, plan: &Plan) -> Vec<Op> {
+        match self.lower.graph.is_body {
+            true => self.inside(cluster, plan),
+            false => self.cluster(cluster, plan),
+        }
+    }
+
     /// Operations of a cluster of a program. The timers of its sources advance with it, and the silences of its inputs
     /// begin again. Events are emptied before and sent when all is done.
-    pub fn cluster(&self, cluster: ClusterId, plan: &Plan) -> Ops {
+    fn cluster(&self, cluster: ClusterId, plan: &Plan) -> Ops {
         let c = &self.lower.analysis.clusters[cluster];
         let timers = c.own_guards.iter().filter_map(|guard| match self.lower.analysis.guards[*guard] {
             Guard::Timer(node) => self.wiring.timer(node),
@@ -32,7 +40,7 @@ impl Program<'_> {
 
     /// Operations of a cluster without those that surround them in a program: tokens that wait are taken, nodes fire,
     /// and tokens for other clusters are left.
-    pub fn inside(&self, cluster: ClusterId, plan: &Plan) -> Ops {
+    fn inside(&self, cluster: ClusterId, plan: &Plan) -> Ops {
         let c = &self.lower.analysis.clusters[cluster];
         let mut ops: Ops = c.nodes.iter().flat_map(|node| self.read_first(*node, plan)).collect();
         ops.extend(self.block(&c.block, plan, &mut 0));

@@ -44,8 +44,8 @@ pub struct Call {
     pub mandatory: Option<Vec<PortId>>,
     /// Results, with the outputs that they go to.
     pub results: Vec<CallResult>,
-    /// Outputs of parameters, with these.
-    pub param_outputs: Vec<(usize, PortId)>,
+    /// Outputs of parameters.
+    pub param_outputs: Vec<ParamOutput>,
     /// Outputs that the node writes in place.
     pub buffers: Vec<PortId>,
     /// The event `processed`, if it is connected.
@@ -89,6 +89,17 @@ pub enum Arg {
     Arrived { param: usize, input: PortId },
     /// The value of a parameter that was checked before.
     Checked(usize),
+}
+
+/// Output of a parameter: its value in this firing.
+#[derive(Debug)]
+pub struct ParamOutput {
+    /// The parameter.
+    pub param: usize,
+    /// The input at which the value of a function's parameter has arrived.
+    pub arrived: Option<PortId>,
+    /// The output.
+    pub output: PortId,
 }
 
 /// Result of a call.
@@ -156,6 +167,11 @@ impl Program<'_> {
         let args = signature.process.as_deref();
         let ends = || (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port });
         let param_outputs = ends().filter(|end| graph.port(*end).kind == PortKind::Output && plan.is_used(*end));
+        let param_output = |output: PortId| {
+            let param = graph.port(output).parameter?;
+            let arrived = lower.param_source(node, param).filter(|_| signature.is_function);
+            Some(ParamOutput { param, arrived, output })
+        };
         Call {
             is_gated: graph.nodes[node].can_be_disabled(),
             sets: if signature.is_function { vec![] } else { sources.clone() },
@@ -163,7 +179,7 @@ impl Program<'_> {
             checks: checks.collect(),
             mandatory: handles_absence(graph, lower.catalog, node).then(|| self.mandatory(node, signature)),
             results: results(node, signature, plan),
-            param_outputs: param_outputs.filter_map(|end| Some((graph.port(end).parameter?, end))).collect(),
+            param_outputs: param_outputs.filter_map(param_output).collect(),
             buffers: ends().filter(|end| is_buffer(graph, lower.catalog, *end)).collect(),
             processed: graph.nodes[node].standard(Standard::Processed).map(|port| PortId { node, port }),
             failing: self.failing(node, signature.returns.fallible),
@@ -186,7 +202,14 @@ impl Program<'_> {
             false => Failing::Never,
             true => {
                 let event = n.standard(Standard::Failed).map(|port| PortId { node, port });
-                Failing::Contained { fallible, event, restart: n.modifiers.restart }
+                // What Rust has made is not made again, and functions are not made.
+                let is_made = match &n.kind {
+                    NodeKind::Library(library) => {
+                        !library.handed_in && !self.lower.catalog.signatures[library.signature].is_function
+                    }
+                    _ => false,
+                };
+                Failing::Contained { fallible, event, restart: n.modifiers.restart && is_made }
             }
         }
     }

@@ -5,6 +5,7 @@ use crate::{
     graph::{ConnectionId, Interrupt, NodeId, PortId, Standard},
     machine::Move,
 };
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Lower<'_> {
     /// Returns `true` if a node interrupts, and has to remember for its `resume` what it took.
@@ -45,6 +46,11 @@ impl Program<'_> {
 
     /// Takes the activity of nodes and of tokens on their way to them. It goes along with the event `cancelled`.
     fn cancel(&self, interrupt: NodeId, nodes: &[NodeId]) -> Ops {
+        let among: BTreeSet<NodeId> = nodes.iter().copied().collect();
+        let mut carrying: BTreeMap<NodeId, Vec<Flag>> = BTreeMap::new();
+        for (number, slot) in self.wiring.slots.iter().enumerate().filter(|(_, s)| s.carries == Carries::Sometimes) {
+            carrying.entry(slot.node).or_default().push(Flag::Carries(number));
+        }
         let is_reached = self.lower.is_active(interrupt);
         let remembers = self.lower.remembers(interrupt);
         let takes = nodes.iter().map(|&node| {
@@ -52,14 +58,12 @@ impl Program<'_> {
             if self.lower.inputs_carry(node, &[Carries::Always, Carries::Sometimes]) {
                 on_the_way.push(Flag::Gains(node));
             }
-            let slots = self.wiring.slots.iter().enumerate();
-            let to_it = slots.filter(|(_, slot)| slot.node == node && slot.carries == Carries::Sometimes);
-            on_the_way.extend(to_it.map(|(number, _)| Flag::Carries(number)));
+            on_the_way.extend(carrying.get(&node).into_iter().flatten());
             if self.lower.graph.nodes[node].is_delay() {
                 return Taken { node, on_the_way, remember: vec![], then: vec![Op::ClearHeld(node)] };
             }
             let receivers = self.lower.graph.receivers(node).into_iter();
-            let remember = receivers.filter(|node| remembers && nodes.contains(node)).collect();
+            let remember = receivers.filter(|node| remembers && among.contains(node)).collect();
             let mut then = self.clear_told(node);
             then.push(self.deactivate(node));
             then.extend(self.tell(node));

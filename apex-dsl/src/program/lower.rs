@@ -72,7 +72,7 @@ impl<'a> Lower<'a> {
 
     /// The number of a connection's stamp, if it is kept.
     pub fn stamp(self, connection: ConnectionId) -> Option<usize> {
-        self.analysis.stamps.connections.iter().position(|c| *c == connection)
+        self.analysis.stamps.number(connection)
     }
 
     /// Returns `true` if clusters downstream need the time at which a cluster's source fired.

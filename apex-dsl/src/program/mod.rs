@@ -23,7 +23,7 @@ mod wiring;
 pub use bits::{Bits, ClusterRow, MissingRow};
 pub use carries::Carries;
 pub use claims::{Broken, ClaimCheck, Spot};
-pub use fire::{Arg, Call, CallResult, Deadline, Failing, Fire, SlotCall};
+pub use fire::{Arg, Call, CallResult, Deadline, Failing, Fire, ParamOutput, SlotCall};
 pub use lower::Lower;
 pub use op::{Cancel, Op, Ops, Served, Taken};
 pub use plan::{BlockId, Plan, Storage, is_buffer, storage};

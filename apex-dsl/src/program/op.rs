@@ -172,7 +172,7 @@ pub struct Taken {
     pub then: Ops,
 }
 
-/// Code of the connection to a slot, after it was entered.
+/// Operations of the connection to a slot, after it was entered.
 #[derive(Debug, Default)]
 pub struct Served {
     /// Events that it may trigger, emptied.
@@ -183,11 +183,4 @@ pub struct Served {
     pub call: Ops,
     /// Operations after the call.
     pub after: Ops,
-}
-
-impl Served {
-    /// Returns `true` if nothing happens.
-    pub fn is_empty(&self) -> bool {
-        self.clear.is_empty() && self.turned.is_empty() && self.call.is_empty() && self.after.is_empty()
-    }
 }

@@ -224,7 +224,7 @@ impl<'p> Lines<'p> {
         let args = call.args.iter().flatten();
         let args: Vec<String> = args.map(|arg| self.arg(arg)).collect();
         let results: Vec<PortId> = call.results.iter().map(|result| result.output).collect();
-        let params = call.param_outputs.iter().map(|(_, output)| *output);
+        let params = call.param_outputs.iter().map(|param| param.output);
         let results: Vec<PortId> = results.into_iter().chain(call.buffers.iter().copied()).chain(params).collect();
         let sends = if results.is_empty() { String::new() } else { format!(" -> {}", self.ends(&results)) };
         let gate = if call.is_gated { " if enabled" } else { "" };

@@ -15,18 +15,10 @@ impl Program<'_> {
     /// Faults of the program, each a fault of the compiler.
     pub fn faults(&self) -> Vec<String> {
         let Lower { graph, analysis, links, catalog, .. } = self.lower;
-        let plans =
+        let plans: IdVec<ClusterId, Plan> =
             analysis.clusters.ids().map(|cluster| Plan::new(graph, catalog, links, analysis, cluster)).collect();
-        let clusters = analysis.clusters.ids().map(|cluster| self.ops_of(cluster, &plans)).collect();
+        let clusters = analysis.clusters.ids().map(|cluster| self.ops_of(cluster, &plans[cluster])).collect();
         self.verify(&plans, &clusters)
-    }
-
-    /// Operations of a cluster.
-    pub fn ops_of(&self, cluster: ClusterId, plans: &IdVec<ClusterId, Plan>) -> Vec<Op> {
-        match self.lower.graph.is_body {
-            true => self.inside(cluster, &plans[cluster]),
-            false => self.cluster(cluster, &plans[cluster]),
-        }
     }
 
     /// Faults of a program whose clusters have these plans and operations. Each is a fault of the compiler.
@@ -43,7 +35,8 @@ impl Program<'_> {
             let mut tokens = Tokens { lower, plan, nodes, fired: BTreeSet::new(), faults: vec![] };
             tokens.ops(ops, &mut BTreeSet::new());
             let missing = self.lower.analysis.clusters[cluster].schedule().into_iter();
-            let missing = missing.filter(|node| !tokens.fired.contains(node) && !self.is_taken_first(*node));
+            let missing = missing
+                .filter(|node| !tokens.fired.contains(node) && !(plan.is_multirate && self.is_taken_first(*node)));
             let missing: Vec<String> = missing.map(|node| format!("{} does not fire", self.path(node))).collect();
             faults.extend(tokens.faults.into_iter().chain(missing));
         }
@@ -195,6 +188,9 @@ impl Effects {
         polls.iter().for_each(|poll| effects.poll(program, poll));
         (0..program.wiring.timeouts.len()).for_each(|timeout| effects.ops(program, &program.expired(timeout)));
         effects.ops(program, &program.first());
+        if program.has_reset() {
+            effects.ops(program, &program.reset());
+        }
         // A slot is called only if there may be a token for it, and may then cause others.
         let interrupts: BTreeMap<PortId, Vec<Op>> = program.interrupts().into_iter().collect();
         let mut slots: BTreeMap<PortId, Vec<usize>> = BTreeMap::new();
@@ -269,7 +265,7 @@ impl Effects {
         };
         self.called(call.args.as_deref().unwrap_or_default(), call.failing, call.deadline);
         self.written.extend(call.results.iter().map(|result| result.output).chain(call.buffers.iter().copied()));
-        self.written.extend(call.param_outputs.iter().map(|(_, output)| *output).chain(call.processed));
+        self.written.extend(call.param_outputs.iter().map(|param| param.output).chain(call.processed));
     }
 
     /// Events that a call may trigger.
@@ -349,7 +345,7 @@ impl Tokens<'_> {
                 let all: Vec<PortId> = tokens.chain(params).chain(call.mandatory.iter().flatten().copied()).collect();
                 all.into_iter().for_each(|input| self.arrives(input, known));
                 known.extend(call.results.iter().map(|result| result.output));
-                known.extend(call.param_outputs.iter().map(|(_, output)| *output));
+                known.extend(call.param_outputs.iter().map(|param| param.output));
                 known.extend(&call.buffers);
             }
             Fire::Each(_) => {

@@ -219,7 +219,7 @@ impl Splitter<'_> {
     /// Returns `true` if a node at the end of a connection, or downstream of it, needs stamps.
     fn is_stamped(&self, connection: ConnectionId) -> bool {
         let (stamps, to) = (&self.analysis.stamps, self.whole.connections[connection].to.node);
-        stamps.connections.contains(&connection)
+        stamps.number(connection).is_some()
             || self.whole.is_synchronous(&self.whole.connections[connection])
                 && stamps.clusters.contains(&self.analysis.cluster_of[to])
     }

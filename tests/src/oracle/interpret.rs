@@ -165,7 +165,7 @@ pub fn interpret(catalog: &Catalog, checked: &Checked, times: &[i64]) -> Result<
     for now in times {
         records.borrow_mut().push(Record::Begin(*now as u64));
         program.react(Time::from_nanos(*now), &mut notes);
-        records.borrow_mut().push(Record::PortId);
+        records.borrow_mut().push(Record::End);
     }
     Ok(Interpreted { records: records.take(), broken: notes.broken })
 }

@@ -47,7 +47,7 @@ pub enum Record {
     /// `T`: tokens of the previous call; `None` is ⊥.
     Took(Vec<Option<i64>>),
     /// `E`: the reaction ends.
-    PortId,
+    End,
 }
 
 /// Failure of a run: the number of the record, counted from 0, and the reason.
@@ -69,7 +69,7 @@ impl Record {
             }
             Self::Activity(node, active) => format!("{} {}active", name(*node), if *active { "" } else { "in" }),
             Self::Took(tokens) => format!("  took {tokens:?}"),
-            Self::PortId => "reaction ends".to_owned(),
+            Self::End => "reaction ends".to_owned(),
         }
     }
 }
@@ -147,7 +147,7 @@ fn record(line: &str) -> Option<Record> {
         "H" => Record::Handled(ConnectionId::from(first as usize)),
         "A" => Record::Activity(NodeId::from(first as usize), numbers.get(1) == Some(&Some(1))),
         "T" => Record::Took(numbers),
-        "E" => Record::PortId,
+        "E" => Record::End,
         _ => return None,
     })
 }
@@ -248,7 +248,7 @@ fn replay(
                     found.iter().enumerate().filter(|(i, f)| f.is_some() || !is_open(*i)).map(|(_, f)| *f).collect();
                 replay.took(&found)
             }
-            Record::PortId => replay.end(),
+            Record::End => replay.end(),
         };
         result.map_err(|wrong| (step, wrong.to_string()))?;
     }

@@ -66,7 +66,7 @@ pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u6
             }
             occur(graph, &mut state, transition, kind, net, &mut records);
         }
-        records.push(Record::PortId);
+        records.push(Record::End);
     }
     records
 }
