@@ -233,7 +233,7 @@ fn restart_keeps_the_parameters() {
 
 #[test]
 fn a_program_ends_before_anything_fires() {
-    let mut program = EndsAtOnce::new();
+    let mut program = EndsAtStart::new();
     assert_eq!(program.react(Time::ZERO), Next::Exit(0));
     assert!(program.nodes().k.seen.is_empty());
     let mut program = EndsFromOutside::new();

@@ -36,7 +36,7 @@ impl Program<'_> {
             tokens.ops(ops, &mut BTreeSet::new());
             let missing = self.lower.analysis.clusters[cluster].schedule().into_iter();
             let missing = missing
-                .filter(|node| !tokens.fired.contains(node) && !(plan.is_multirate && self.is_taken_first(*node)));
+                .filter(|node| !(tokens.fired.contains(node) || plan.is_multirate && self.is_taken_first(*node)));
             let missing: Vec<String> = missing.map(|node| format!("{} does not fire", self.path(node))).collect();
             faults.extend(tokens.faults.into_iter().chain(missing));
         }
