@@ -88,8 +88,8 @@ for name, how in [('none', None), ('bz2', Bag.CompressionFormat.BZ2), ('lz4', Ba
 
 /// Tokens of a channel, or the message of the error.
 fn read<T: Clone>(file: &Path, channel: &str, codec: Option<Codec<T>>) -> Result<Vec<(Duration, T)>, String> {
-    let tokens = tokens("", file.to_str().expect("text"), channel, codec);
-    let read = panic::catch_unwind(panic::AssertUnwindSafe(|| tokens.begun_at(Time::ZERO).to_vec()));
+    let file = file.to_str().expect("text");
+    let read = panic::catch_unwind(|| tokens("", file, channel, codec).begun_at(Time::ZERO).to_vec());
     read.map_err(|error| error.downcast::<String>().map_or_else(|_| "?".to_owned(), |text| *text))
 }
 

@@ -32,8 +32,8 @@ const CDR: [u8; 4] = [0, 1, 0, 0];
 
 /// The tokens of a file, or the message of the error.
 fn read(path: &Path, channel: &str) -> Result<Vec<(Duration, f64)>, String> {
-    let tokens = tokens("", path.to_str().expect("text"), channel, apex_rt::__codec!(f64));
-    let read = panic::catch_unwind(panic::AssertUnwindSafe(|| tokens.begun_at(Time::ZERO).to_vec()));
+    let (file, codec) = (path.to_str().expect("text"), apex_rt::__codec!(f64));
+    let read = panic::catch_unwind(|| tokens("", file, channel, codec).begun_at(Time::ZERO).to_vec());
     read.map_err(|error| error.downcast::<String>().map_or_else(|_| "?".to_owned(), |text| *text))
 }
 

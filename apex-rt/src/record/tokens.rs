@@ -18,6 +18,8 @@ use std::{
 
 /// Tokens of one channel of a recording, with their times.
 type Timed<T> = Rc<[(Duration, T)]>;
+/// Tokens that were read, and the time of the program at which the recording starts with their stamps.
+type Known<T> = Option<(Time, Timed<T>)>;
 
 /// Tokens of one channel of a recording, which are read when it is known at which time of the program it starts. A clone
 /// does not read them again for the same time.
@@ -26,8 +28,8 @@ pub struct Tokens<T> {
     /// Channel, and behind a colon the part of its messages.
     wanted: String,
     codec: Option<Codec<T>>,
-    /// Tokens that were read last, and the start of the recording for which they were read.
-    known: Rc<RefCell<Option<(Time, Timed<T>)>>>,
+    /// Tokens that were read last.
+    known: Rc<RefCell<Known<T>>>,
 }
 
 impl<T> Clone for Tokens<T> {
