@@ -120,9 +120,9 @@ impl Recording {
         }
     }
 
-    /// Returns the time in ns from which times and the stamps of headers count. That is the time of the first message,
-    /// `first`, in the recordings of other programs, which may begin in 1970, and in a later file of a recording that is
-    /// divided; and zero otherwise.
+    /// Returns the time in ns from which times and the stamps of headers count. That is `first`, the time of the first
+    /// message, in the recordings of other programs, which may begin in 1970, and in a later file of a recording that
+    /// is divided; and zero otherwise.
     pub fn zero(&self, first: u64) -> u64 {
         match self {
             Self::Mcap(file) if file.program.is_some() && !matches!(file.files, Some((2.., _))) => 0,

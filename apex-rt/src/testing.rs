@@ -221,8 +221,8 @@ impl<P: Program + Parameters + 'static> Test<P> {
         self.add(if repeats && period.is_some() { feed.open() } else { feed });
     }
 
-    /// Feeds the tokens of a recording, which starts now, to `port` at their times. A token that finds no room is put in
-    /// as soon as there is some.
+    /// Feeds the tokens of a recording, which starts now, to `port` at their times. A token that finds no room is put
+    /// in as soon as there is some.
     #[cfg(feature = "record")]
     pub fn feed_at<T: Clone + 'static>(
         &mut self,

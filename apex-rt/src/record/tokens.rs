@@ -21,8 +21,8 @@ type Timed<T> = Rc<[(Duration, T)]>;
 /// Tokens that were read, and the time of the program at which the recording starts with their stamps.
 type Known<T> = Option<(Time, Timed<T>)>;
 
-/// Tokens of one channel of a recording, which are read when it is known at which time of the program it starts. A clone
-/// does not read them again for the same time.
+/// Tokens of one channel of a recording, which are read when it is known at which time of the program it starts. A
+/// clone does not read them again for the same time.
 pub struct Tokens<T> {
     path: PathBuf,
     /// Channel, and behind a colon the part of its messages.
