@@ -25,8 +25,11 @@ fn places(program: &Program<'_>, is_meant: impl Fn(&Op) -> bool) -> Vec<(Cluster
         .collect()
 }
 
-/// Ways to falsify a program. Each returns `false` if it has nothing of that kind.
-const WAYS: [(&str, fn(&mut Program<'_>, &mut Dice) -> bool); 5] = [
+/// Falsifies a program. Returns `false` if it has nothing of that kind.
+type Falsify = fn(&mut Program<'_>, &mut Dice) -> bool;
+
+/// Ways to falsify a program.
+const WAYS: [(&str, Falsify); 5] = [
     ("a firing is missing", |program, dice| {
         let places =
             places(program, |op| matches!(op, Op::Fire { fire: Fire::Call(_) | Fire::Relay | Fire::Hold, .. }));
