@@ -120,12 +120,13 @@ impl Recording {
         }
     }
 
-    /// Returns `true` if times are counted from the first message: in the recordings of other programs, which may begin
-    /// in 1970, and in a later file of a recording that is divided.
-    pub fn begins_late(&self) -> bool {
+    /// Returns the time in ns from which times and the stamps of headers count. That is `first`, the time of the first
+    /// message, in the recordings of other programs, which may begin in 1970, and in a later file of a recording that
+    /// is divided; and zero otherwise.
+    pub fn zero(&self, first: u64) -> u64 {
         match self {
-            Self::Mcap(file) => file.program.is_none() || matches!(file.files, Some((2.., _))),
-            Self::Ros1(_) => true,
+            Self::Mcap(file) if file.program.is_some() && !matches!(file.files, Some((2.., _))) => 0,
+            Self::Mcap(_) | Self::Ros1(_) => first,
         }
     }
 }

@@ -66,8 +66,9 @@ impl Made<'_> {
         })
     }
 
-    /// Manifest of the package. It depends on all crates that a source file can name, and is a workspace of its own
-    /// with the settings of the original one. `crates` are the crates that it needs, if they are known.
+    /// Manifest of the package. It depends on all crates that a source file or the code made of it can name, and is a
+    /// workspace of its own with the settings of the original one. `crates` are the crates that it needs, if they are
+    /// known.
     fn manifest(&self, crates: Option<&BTreeSet<String>>) -> Result<String, String> {
         let mut package = Table::new();
         for (key, value) in [("name", self.name().as_str()), ("version", "0.0.0"), ("edition", "2024")] {
@@ -75,10 +76,14 @@ impl Made<'_> {
         }
         let (own, _) = self.workspace.binary();
         let libraries = self.workspace.libraries();
-        // The package of the source file selects the features of the others; without a library it is not among them.
+        // The library of the source file's package selects the features of the others, if it has one.
         let has_own = libraries.iter().any(|(name, _)| *name == own);
-        let mut dependencies = Table::new();
+        let mut dependencies = self.declared()?;
+        // Cargo refuses a crate under two names.
+        let is_library = |package: &Value| libraries.iter().any(|(name, _)| package.as_str() == Some(name));
+        dependencies.retain(|_, declared| !declared.get("package").is_some_and(is_library));
         for (name, path) in libraries {
+            let declared = dependencies.remove(name);
             let mut dependency = Table::from_iter([("path".to_owned(), Value::from(utf8(path)?))]);
             let mut features: Vec<&str> = match name {
                 RUNTIME => self.features.to_vec(),
@@ -90,6 +95,9 @@ impl Made<'_> {
                 features.extend((name == RUNTIME).then_some("std"));
             }
             dependency.insert("features".to_owned(), features.into());
+            if let Some(Value::Table(mut declared)) = declared.filter(|_| !has_own) {
+                add_features(&mut dependency, declared.remove("features"));
+            }
             dependencies.insert(name.to_owned(), dependency.into());
         }
         let mut manifest = Table::from_iter([
@@ -99,6 +107,35 @@ impl Made<'_> {
         ]);
         self.inherit(&mut manifest, crates)?;
         toml::to_string(&manifest).map_err(|e| format!("the manifest of `{}` cannot be written: {e}", self.name()))
+    }
+
+    /// Returns the dependencies of the source file's package, with absolute paths: the types of tokens may be of any of
+    /// these crates, as the pixels of images are of `image`. Optional ones are left out.
+    fn declared(&self) -> Result<Table, String> {
+        let (own, root) = (self.workspace.manifest(), &self.workspace.root);
+        let all = table(read_table(own)?.remove("dependencies"));
+        let mut workspace = table(read_table(&root.join("Cargo.toml"))?.remove("workspace"));
+        let shared = table(workspace.remove("dependencies"));
+        let folder = own.parent().unwrap_or(root);
+        let mut declared = Table::new();
+        for (name, value) in all {
+            let mut value = with_table(value);
+            if value.remove("optional").is_some_and(|optional| optional == Value::Boolean(true)) {
+                continue;
+            }
+            let base = if value.remove("workspace").is_some() {
+                let more = value.remove("features");
+                value = with_table(shared.get(&name).cloned().unwrap_or("*".into()));
+                add_features(&mut value, more);
+                root
+            } else {
+                folder
+            };
+            let mut value = Value::Table(value);
+            make_absolute(&mut value, base);
+            declared.insert(name, value);
+        }
+        Ok(declared)
     }
 
     /// Copies from the workspace all settings that affect the builds of its crates. With other profiles, cargo would
@@ -150,6 +187,27 @@ fn read_table(path: &Path) -> Result<Table, String> {
     let wrong = |e: &dyn Display| format!("cannot read `{}`: {e}", path.display());
     let text = fs::read_to_string(path).map_err(|e| wrong(&e))?;
     text.parse().map_err(|e: toml::de::Error| wrong(&e.message()))
+}
+
+/// The table `value`; an empty one for another value.
+fn table(value: Option<Value>) -> Table {
+    value.and_then(|value| value.try_into().ok()).unwrap_or_default()
+}
+
+/// A dependency as a table: it may be a version alone.
+fn with_table(dependency: Value) -> Table {
+    match dependency {
+        Value::Table(table) => table,
+        version => Table::from_iter([("version".to_owned(), version)]),
+    }
+}
+
+/// Adds the features in the list `more` to a dependency.
+fn add_features(dependency: &mut Table, more: Option<Value>) {
+    let features = dependency.entry("features").or_insert_with(|| Value::Array(vec![]));
+    if let (Some(features), Some(Value::Array(more))) = (features.as_array_mut(), more) {
+        features.extend(more);
+    }
 }
 
 /// `true` if the entry `spec` of a profile (`*`, `name` or `name@version`) applies to one of these crates.

@@ -251,7 +251,13 @@ impl Workspace {
         self.packages[self.here].targets.iter().map(|t| (t.kind.as_str(), t.name.as_str(), t.root.as_path()))
     }
 
-    /// Returns the crates that a program outside of the package needs for a graph in it: name and folder.
+    /// Returns the manifest of the package.
+    pub fn manifest(&self) -> &Path {
+        &self.packages[self.here].manifest
+    }
+
+    /// Returns the crates with nodes or graphs that a program outside of the package needs for a graph in it, and those
+    /// that every program needs: name and folder.
     pub fn libraries(&self) -> Vec<(&str, &Path)> {
         let libraries = self.packages.iter().filter(|p| p.targets.iter().any(|t| is_library(&t.kind)));
         let apex = self.apex.iter().map(|(name, manifest)| (name.as_str(), manifest));

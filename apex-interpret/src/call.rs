@@ -121,7 +121,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     fn triggered(&mut self, node: NodeId, args: Args) {
         for (port, token) in args.events {
             let event = PortId { node, port };
-            if self.code.program.is_sent_event(event) {
+            if self.code.program.lower.is_sent_event(event) {
                 self.state.tokens.insert(event, token);
             }
         }

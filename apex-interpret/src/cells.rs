@@ -68,7 +68,7 @@ impl<O: Observer> Run<'_, '_, O> {
         if !self.state.conditions.has(sender.token) {
             self.state.conditions.set(sender.free, true);
             if let Some(row) = sender.settles {
-                self.state.conditions.settle(&self.code.rows, row);
+                self.state.conditions.settle(&self.code.program.rows, row);
             }
             if sender.carries {
                 self.state.set(Flag::Active(sender.node), false);

@@ -7,7 +7,7 @@ use apex_rt::Observer;
 impl<O: Observer> Run<'_, '_, O> {
     /// Looks at the claims. A violation is reported once, until the claim holds again.
     pub fn check_claims(&mut self) {
-        for ClaimCheck { claim, broken } in &self.code.claims {
+        for ClaimCheck { claim, broken } in &self.code.program.claims {
             let is_broken = match broken {
                 Broken::Several(groups) => groups.iter().filter(|group| self.any(group)).count() > 1,
                 Broken::Lost(from, nearer) => self.any(from) && !self.any(nearer),

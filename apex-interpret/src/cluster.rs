@@ -103,8 +103,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     /// Fires a cluster of the program.
     pub fn fire_cluster(&mut self, cluster: ClusterId, ctx: &Ctx) {
         let code = self.code;
-        let mut local = Local::new(code.program.lower, &code.plans[cluster]);
-        self.ops(&code.clusters[cluster], ctx, &mut Place { local: Some(&mut local), taken: None });
+        let mut local = Local::new(code.program.lower, &code.program.plans[cluster]);
+        self.ops(&code.program.clusters[cluster], ctx, &mut Place { local: Some(&mut local), taken: None });
     }
 
     /// Executes an operation that belongs to a cluster.

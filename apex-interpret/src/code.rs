@@ -2,13 +2,12 @@
 
 use crate::{Library, cells::Cells, state::State};
 use apex_dsl::{
-    analyse::ClusterId,
     catalog::Catalog,
     checked::CheckedProgram,
-    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId},
+    graph::{ConnectionId, Graph, NodeId, NodeKind},
     index::IdVec,
     machine::machines,
-    program::{ClaimCheck, ClusterRow, Lower, Ops, Plan, Program, Reaction, Served},
+    program::{Lower, Program},
     threads::{Origin, Part},
 };
 use std::collections::BTreeMap;
@@ -56,30 +55,10 @@ impl Numbers {
     }
 }
 
-/// Operations of a program, of the part of a thread group, or of the body of an `each`.
+/// A program, the part of a thread group, or the body of an `each`.
 pub struct Code<'a> {
     /// The program.
     pub program: Program<'a>,
-    /// Plans of clusters.
-    pub plans: IdVec<ClusterId, Plan>,
-    /// Operations of clusters.
-    pub clusters: IdVec<ClusterId, Ops>,
-    /// Operations of slots.
-    pub slots: Vec<Served>,
-    /// Operations of timeouts.
-    pub timeouts: Vec<Ops>,
-    /// Operations before the first reaction.
-    pub first: Ops,
-    /// Operations of `reset`.
-    pub reset: Ops,
-    /// Operations of `cancel` and `resume`.
-    pub interrupts: BTreeMap<PortId, Ops>,
-    /// The reaction.
-    pub reaction: Reaction,
-    /// The clusters that the dispatcher looks at.
-    pub rows: Vec<ClusterRow>,
-    /// Claims that are looked at.
-    pub claims: Vec<ClaimCheck>,
     /// Numbers for observers.
     pub numbers: Numbers,
     /// It is the part of a thread group, beside others.
@@ -89,13 +68,8 @@ pub struct Code<'a> {
 }
 
 impl<'a> Code<'a> {
-    /// Operations of a graph.
     fn new(lower: Lower<'a>, numbers: Numbers, is_part: bool) -> Self {
         let Lower { graph, analysis, catalog, .. } = lower;
-        let program = Program::new(lower);
-        let plan = |cluster| Plan::new(graph, catalog, &analysis.links, analysis, cluster);
-        let plans: IdVec<ClusterId, Plan> = analysis.clusters.ids().map(plan).collect();
-        let clusters = analysis.clusters.ids().map(|cluster| program.ops_of(cluster, &plans[cluster])).collect();
         let mut bodies = BTreeMap::new();
         for (node, n) in graph.nodes.iter_enumerated() {
             if let (NodeKind::Each(each), Some(body)) = (&n.kind, analysis.bodies.get(&node)) {
@@ -103,28 +77,13 @@ impl<'a> Code<'a> {
                 bodies.insert(node, Self::new(Lower::new(&each.body, body, catalog, None), inner, false));
             }
         }
-        Self {
-            clusters,
-            slots: (0..program.wiring.slots.len()).map(|slot| program.served(slot)).collect(),
-            timeouts: (0..program.wiring.timeouts.len()).map(|timeout| program.expired(timeout)).collect(),
-            first: program.first(),
-            reset: program.reset(),
-            interrupts: program.interrupts().into_iter().collect(),
-            reaction: program.reaction(),
-            rows: program.wiring.bits.rows(graph, analysis, &analysis.links),
-            claims: program.claim_checks(),
-            numbers,
-            is_part,
-            bodies,
-            plans,
-            program,
-        }
+        Self { program: Program::new(lower), numbers, is_part, bodies }
     }
 
     /// Faults of the compiler that show in the program, also in the bodies of its `each`.
-    fn verify(&self) -> Vec<String> {
-        let inner = self.bodies.values().flat_map(Self::verify);
-        self.program.verify(&self.plans, &self.clusters).into_iter().chain(inner).collect()
+    fn faults(&self) -> Vec<String> {
+        let inner = self.bodies.values().flat_map(Self::faults);
+        self.program.faults().into_iter().chain(inner).collect()
     }
 
     /// The graph.
@@ -170,7 +129,7 @@ impl<'a> Interpreter<'a> {
             if let Some((node, _)) = machines(code.graph(), catalog).next() {
                 return Err(format!("`{}` is a state machine, which is not interpreted yet", code.graph().path(node)));
             }
-            if let Some(fault) = code.verify().into_iter().next() {
+            if let Some(fault) = code.faults().into_iter().next() {
                 return Err(format!("internal error of the compiler: {fault}"));
             }
             let state = State::new(&code, library)?;

@@ -73,10 +73,10 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     ) -> Vec<(usize, Value)> {
         let code = self.code;
         let mut sent = vec![];
-        for cluster in code.clusters.ids() {
-            let mut local = Local::new(code.program.lower, &code.plans[cluster]);
+        for cluster in code.program.clusters.ids() {
+            let mut local = Local::new(code.program.lower, &code.program.plans[cluster]);
             given.iter().for_each(|(port, token)| local.write(self.state, *port, Some(token.clone())));
-            self.ops(&code.clusters[cluster], ctx, &mut Place { local: Some(&mut local), taken: None });
+            self.ops(&code.program.clusters[cluster], ctx, &mut Place { local: Some(&mut local), taken: None });
             let nodes = &code.program.lower.analysis.clusters[cluster].nodes;
             for (port, node) in outputs.iter().filter(|(_, node)| nodes.contains(node)) {
                 let token = local.arriving(self.state, PortId { node: *node, port: 0 });

@@ -116,7 +116,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 self.ops(body, ctx, place);
                 place.taken = None;
             }
-            Op::Settle(row) => self.state.conditions.settle(&self.code.rows, *row),
+            Op::Settle(row) => self.state.conditions.settle(&self.code.program.rows, *row),
             Op::Serve { slot, unless_exit } => {
                 let exits = *unless_exit && self.state.exit.is_some();
                 if self.waits(*slot) && self.state.steps > 0 && !exits {
@@ -149,11 +149,11 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             Op::Exit(code) => self.state.exit = Some(*code),
             Op::Reset => {
                 let code = self.code;
-                self.ops(&code.reset, ctx, place);
+                self.ops(&code.program.reset, ctx, place);
             }
             Op::Interrupt(slot) => {
                 let code = self.code;
-                if let Some(ops) = code.interrupts.get(slot) {
+                if let Some(ops) = code.program.interrupts.get(slot) {
                     self.ops(ops, ctx, place);
                 }
             }
@@ -276,7 +276,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
 
     /// Takes a step, where they are counted.
     pub fn step(&mut self) {
-        if self.code.program.is_endless() {
+        if self.code.program.lower.is_endless() {
             self.state.steps -= 1;
         }
     }
@@ -331,7 +331,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             Carries::Sometimes => self.state.take(Flag::Carries(number)) && self.activate(slot.node, &ctx),
             Carries::Away => self.deactivate(slot.node),
         };
-        let served = &code.slots[number];
+        let served = &code.program.slots[number];
         self.outside(&served.clear, &ctx);
         if turned {
             self.outside(&served.turned, &ctx);

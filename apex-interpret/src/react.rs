@@ -140,14 +140,14 @@ impl<O: Observer> Run<'_, '_, O> {
     /// with the next time at which something is due. Sources without a period fire if it `begins` a reaction.
     fn instant(&mut self, at: Time, now: Time, begins: bool) -> ControlFlow<Next, Next> {
         let code = self.code;
-        let reaction = &code.reaction;
+        let reaction = &code.program.reaction;
         let ctx = &Ctx::at(at, now);
         self.state.steps = BUDGET;
         self.outside(&reaction.left, ctx);
         if let Some(served) = &reaction.start
             && !std::mem::replace(&mut self.state.started, true)
         {
-            self.outside(&code.first, ctx);
+            self.outside(&code.program.first, ctx);
             self.after(served, ctx);
         }
         if let Some(code) = self.state.exit {
@@ -181,8 +181,8 @@ impl<O: Observer> Run<'_, '_, O> {
         let mut first = begins;
         loop {
             let mut quiet = !self.poll(at, ctx);
-            quiet &= !(code.program.has_queue() && self.serve_queue(ctx));
-            for firing in &code.reaction.firings {
+            quiet &= !(code.program.lower.has_queue() && self.serve_queue(ctx));
+            for firing in &code.program.reaction.firings {
                 quiet &= !self.fires(firing, first, ctx);
             }
             first = false;
@@ -217,12 +217,12 @@ impl<O: Observer> Run<'_, '_, O> {
             }
             return false;
         };
-        if !self.state.conditions.start(&code.rows[row]) {
+        if !self.state.conditions.start(&code.program.rows[row]) {
             return false;
         }
         self.step();
         self.fire_cluster(firing.cluster, ctx);
-        self.state.conditions.finish(&code.rows, row);
+        self.state.conditions.finish(&code.program.rows, row);
         self.after(&firing.served, ctx);
         true
     }
@@ -231,7 +231,7 @@ impl<O: Observer> Run<'_, '_, O> {
     fn poll(&mut self, at: Time, ctx: &Ctx) -> bool {
         let code = self.code;
         let mut any = false;
-        for poll in &code.reaction.polls {
+        for poll in &code.program.reaction.polls {
             match poll {
                 Poll::Room { event, bit } => {
                     if !self.state.events.contains_key(event) {
@@ -339,7 +339,7 @@ impl<O: Observer> Run<'_, '_, O> {
         if self.state.steps == 0 {
             return false;
         }
-        self.outside(&code.timeouts[number], ctx);
+        self.outside(&code.program.timeouts[number], ctx);
         true
     }
 }

@@ -8,7 +8,7 @@ pub use study::{Study, recorded, serve};
 pub use timeline::Timeline;
 
 use crate::{Next, Parameters, Program, Time};
-use core::{fmt::Debug, ops::Deref, time::Duration};
+use core::{fmt::Debug, time::Duration};
 use feed::{Fed, Feed};
 use timeline::Sighting;
 
@@ -221,15 +221,17 @@ impl<P: Program + Parameters + 'static> Test<P> {
         self.add(if repeats && period.is_some() { feed.open() } else { feed });
     }
 
-    /// Feeds each of `tokens` to `port` at its time after now. A token that finds no room is put in as soon as there is
-    /// some.
+    /// Feeds the tokens of a recording, which starts now, to `port` at their times. A token that finds no room is put
+    /// in as soon as there is some.
+    #[cfg(feature = "record")]
     pub fn feed_at<T: Clone + 'static>(
         &mut self,
         (port, place): (&'static str, &'static str),
-        tokens: impl Deref<Target = [(Duration, T)]> + 'static,
+        tokens: crate::record::Tokens<T>,
         put: fn(&mut P, T) -> Result<(), T>,
     ) {
         let (start, mut at) = (self.now, 0);
+        let tokens = tokens.begun_at(start);
         let Some((first, _)) = tokens.first() else { return };
         if let Some((last, _)) = tokens.last() {
             self.last_of_recordings = self.last_of_recordings.max(start + *last);

@@ -6,7 +6,10 @@ use apex_nodes::{
     nav::Path,
     scan::{Point2, Pose2, Scan},
 };
-use apex_rt::record::{Codec, tokens};
+use apex_rt::{
+    Time,
+    record::{Codec, tokens},
+};
 use std::{panic, path::PathBuf};
 
 /// Path of a file, or `None` if there is no such folder.
@@ -20,10 +23,13 @@ fn file(name: &str) -> Option<PathBuf> {
 }
 
 /// Tokens of a recording, or the message of the error.
-fn read<T>(name: &str, channel: &str, codec: Option<Codec<T>>) -> Option<Result<Vec<T>, String>> {
+fn read<T: Clone>(name: &str, channel: &str, codec: Option<Codec<T>>) -> Option<Result<Vec<T>, String>> {
     let path = file(name)?;
     let path = path.to_str().expect("a readable path");
-    let read = panic::catch_unwind(|| tokens("", path, channel, codec).into_iter().map(|(_, token)| token).collect());
+    let read = panic::catch_unwind(|| {
+        let tokens = tokens("", path, channel, codec).begun_at(Time::ZERO);
+        tokens.iter().map(|(_, token)| token.clone()).collect()
+    });
     Some(read.map_err(|error| error.downcast::<String>().map_or_else(|_| "?".to_owned(), |text| *text)))
 }
 

@@ -2,8 +2,8 @@
 
 use apex_dsl::{
     analyse::ClusterId,
-    index::IdVec,
-    program::{Fire, Lower, Op, Plan, Program},
+    catalog::Catalog,
+    program::{Fire, Lower, Op, Program},
 };
 use apex_tests::{
     Dice,
@@ -11,74 +11,58 @@ use apex_tests::{
 };
 use std::collections::BTreeMap;
 
-/// A program with the operations of its clusters.
-struct Case<'a> {
-    program: Program<'a>,
-    plans: IdVec<ClusterId, Plan>,
-    clusters: IdVec<ClusterId, Vec<Op>>,
+fn program<'a>(checked: &'a Checked, catalog: &'a Catalog) -> Program<'a> {
+    Program::new(Lower::new(&checked.program.graph, &checked.program.analysis, catalog, None))
 }
 
-impl<'a> Case<'a> {
-    fn new(checked: &'a Checked, catalog: &'a apex_dsl::catalog::Catalog) -> Self {
-        let (graph, analysis) = (&checked.program.graph, &checked.program.analysis);
-        let program = Program::new(Lower::new(graph, analysis, catalog, None));
-        let plan = |cluster| Plan::new(graph, catalog, &analysis.links, analysis, cluster);
-        let plans: IdVec<ClusterId, Plan> = analysis.clusters.ids().map(plan).collect();
-        let clusters = analysis.clusters.ids().map(|cluster| program.ops_of(cluster, &plans[cluster])).collect();
-        Self { program, plans, clusters }
-    }
-
-    fn faults(&self) -> Vec<String> {
-        self.program.verify(&self.plans, &self.clusters)
-    }
-
-    /// The places of operations of a kind, in clusters that fire.
-    fn places(&self, is_meant: impl Fn(&Op) -> bool) -> Vec<(ClusterId, usize)> {
-        let firing = self.clusters.iter_enumerated().filter(|(c, _)| self.program.lower.analysis.clusters[*c].fires);
-        firing
-            .flat_map(|(cluster, ops)| ops.iter().enumerate().map(move |(at, op)| (cluster, at, op)))
-            .filter(|(.., op)| is_meant(op))
-            .map(|(cluster, at, _)| (cluster, at))
-            .collect()
-    }
+/// The places of operations of a kind, in clusters that fire.
+fn places(program: &Program<'_>, is_meant: impl Fn(&Op) -> bool) -> Vec<(ClusterId, usize)> {
+    let firing = program.clusters.iter_enumerated().filter(|(c, _)| program.lower.analysis.clusters[*c].fires);
+    firing
+        .flat_map(|(cluster, ops)| ops.iter().enumerate().map(move |(at, op)| (cluster, at, op)))
+        .filter(|(.., op)| is_meant(op))
+        .map(|(cluster, at, _)| (cluster, at))
+        .collect()
 }
 
-/// Ways to falsify a program. Each returns `false` if it has nothing of that kind.
-const WAYS: [(&str, fn(&mut Case<'_>, &mut Dice) -> bool); 5] = [
-    ("a firing is missing", |case, dice| {
-        let places = case.places(|op| matches!(op, Op::Fire { fire: Fire::Call(_) | Fire::Relay | Fire::Hold, .. }));
-        remove(case, &places, dice)
+/// Falsifies a program. Returns `false` if it has nothing of that kind.
+type Falsify = fn(&mut Program<'_>, &mut Dice) -> bool;
+
+/// Ways to falsify a program.
+const WAYS: [(&str, Falsify); 5] = [
+    ("a firing is missing", |program, dice| {
+        let places =
+            places(program, |op| matches!(op, Op::Fire { fire: Fire::Call(_) | Fire::Relay | Fire::Hold, .. }));
+        remove(program, &places, dice)
     }),
-    ("a node fires twice", |case, dice| {
-        let places = case.places(|op| matches!(op, Op::Fire { fire: Fire::Hold | Fire::Relay, .. }));
+    ("a node fires twice", |program, dice| {
+        let places = places(program, |op| matches!(op, Op::Fire { fire: Fire::Hold | Fire::Relay, .. }));
         let Some((cluster, at)) = any(&places, dice) else { return false };
-        let Op::Fire { node, fire } = &case.clusters[cluster][at] else { return false };
+        let Op::Fire { node, fire } = &program.clusters[cluster][at] else { return false };
         let fire = if matches!(fire, Fire::Hold) { Fire::Hold } else { Fire::Relay };
         let again = Op::Fire { node: *node, fire };
-        case.clusters[cluster].push(again);
+        program.clusters[cluster].push(again);
         true
     }),
-    ("activity stays at an input", |case, dice| {
+    ("activity stays at an input", |program, dice| {
         // Both before the firing, and at the end of the cluster.
-        let places = case.places(|op| matches!(op, Op::TakeActivity { gains, .. } if !gains.is_empty()));
+        let places = places(program, |op| matches!(op, Op::TakeActivity { gains, .. } if !gains.is_empty()));
         let Some((cluster, at)) = any(&places, dice) else { return false };
-        let Op::TakeActivity { node: meant, .. } = case.clusters[cluster][at] else { return false };
-        forget(&mut case.clusters[cluster], meant);
+        let Op::TakeActivity { node: meant, .. } = program.clusters[cluster][at] else { return false };
+        forget(&mut program.clusters[cluster], meant);
         true
     }),
-    ("a connection stays occupied", |case, _| {
-        let occupied: Vec<usize> =
-            case.program.wiring.ports().flat_map(|p| &p.sends).filter_map(|s| s.occupies).collect();
-        let slot =
-            case.program.wiring.slots.iter_mut().find(|slot| slot.frees.is_some_and(|bit| occupied.contains(&bit)));
+    ("a connection stays occupied", |program, _| {
+        let occupied: Vec<usize> = program.wiring.ports().flat_map(|p| &p.sends).filter_map(|s| s.occupies).collect();
+        let slot = program.wiring.slots.iter_mut().find(|slot| slot.frees.is_some_and(|bit| occupied.contains(&bit)));
         slot.is_some_and(|slot| slot.frees.take().is_some())
     }),
-    ("another slot is queued", |case, _| {
-        let slots = &mut case.program.wiring.slots;
+    ("another slot is queued", |program, _| {
+        let slots = &mut program.wiring.slots;
         let is_queued = slots.len() > 1 && slots[0].connection != slots[1].connection;
-        let queued = case.program.wiring.ports().flat_map(|p| &p.sends).any(|send| send.queued == Some(0));
+        let queued = program.wiring.ports().flat_map(|p| &p.sends).any(|send| send.queued == Some(0));
         if is_queued && queued {
-            case.program.wiring.slots.swap(0, 1);
+            program.wiring.slots.swap(0, 1);
         }
         is_queued && queued
     }),
@@ -88,9 +72,9 @@ fn any(places: &[(ClusterId, usize)], dice: &mut Dice) -> Option<(ClusterId, usi
     (!places.is_empty()).then(|| *dice.of(places))
 }
 
-fn remove(case: &mut Case<'_>, places: &[(ClusterId, usize)], dice: &mut Dice) -> bool {
+fn remove(program: &mut Program<'_>, places: &[(ClusterId, usize)], dice: &mut Dice) -> bool {
     let Some((cluster, at)) = any(places, dice) else { return false };
-    case.clusters[cluster].remove(at);
+    program.clusters[cluster].remove(at);
     true
 }
 
@@ -115,13 +99,13 @@ fn falsified_programs_have_faults() {
         let case = if seed % 2 == 0 { case } else { with_timeouts(case) };
         let Ok(checked) = checker.check(&case.text("Random")) else { continue };
         let catalog = checker.catalog();
-        assert_eq!(Case::new(&checked, &catalog).faults(), [] as [String; 0], "seed {seed}");
+        assert_eq!(program(&checked, &catalog).faults(), [] as [String; 0], "seed {seed}");
         for (way, falsify) in WAYS {
-            let mut case = Case::new(&checked, &catalog);
-            if falsify(&mut case, &mut Dice(seed | 1)) {
+            let mut program = program(&checked, &catalog);
+            if falsify(&mut program, &mut Dice(seed | 1)) {
                 let counts = found.entry(way).or_default();
                 counts.0 += 1;
-                counts.1 += usize::from(!case.faults().is_empty());
+                counts.1 += usize::from(!program.faults().is_empty());
             }
         }
     }

@@ -1,7 +1,10 @@
 //! MCAP files of other programs, whose messages tests feed.
 
 use crate::{Folder, cut::Small};
-use apex_rt::record::{replay, tokens};
+use apex_rt::{
+    Time,
+    record::{replay, tokens},
+};
 use mcap::{WriteOptions, records::MessageHeader};
 use std::{collections::BTreeMap, fs, panic, path::Path, time::Duration};
 
@@ -29,7 +32,8 @@ const CDR: [u8; 4] = [0, 1, 0, 0];
 
 /// The tokens of a file, or the message of the error.
 fn read(path: &Path, channel: &str) -> Result<Vec<(Duration, f64)>, String> {
-    let read = panic::catch_unwind(|| tokens("", path.to_str().expect("text"), channel, apex_rt::__codec!(f64)));
+    let (file, codec) = (path.to_str().expect("text"), apex_rt::__codec!(f64));
+    let read = panic::catch_unwind(|| tokens("", file, channel, codec).begun_at(Time::ZERO).to_vec());
     read.map_err(|error| error.downcast::<String>().map_or_else(|_| "?".to_owned(), |text| *text))
 }
 

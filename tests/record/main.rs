@@ -10,6 +10,7 @@ mod limits;
 mod python;
 mod robot;
 mod round;
+mod stamps;
 mod threads;
 mod types;
 

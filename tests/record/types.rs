@@ -422,16 +422,18 @@ fn a_test_is_not_fed_with_another_type() {
         (&Kind::<T>::NEW).codec()
     }
     let file = path.to_str().unwrap();
-    assert_eq!(tokens::<first::Measured>("", file, "measure.out", codec()).len(), 3);
-    assert_eq!(tokens::<moved::Measured>("", file, "measure.out", codec()).len(), 3);
-    let error = panic::catch_unwind(|| tokens::<shorter::Measured>("", file, "measure.out", codec()).len());
+    assert_eq!(tokens::<first::Measured>("", file, "measure.out", codec()).begun_at(Time::ZERO).len(), 3);
+    assert_eq!(tokens::<moved::Measured>("", file, "measure.out", codec()).begun_at(Time::ZERO).len(), 3);
+    let error = panic::catch_unwind(|| {
+        tokens::<shorter::Measured>("", file, "measure.out", codec()).begun_at(Time::ZERO).len()
+    });
     let text = *error.expect_err("another type").downcast::<String>().unwrap();
     assert!(text.contains("the type of `measure.out` was") && text.contains("recorded: charge: f32"), "{text}");
     // The bytes of an old recording: three numbers, where two are taken.
     let old = folder.file("old.mcap");
     rewritten(&path, &old, true);
     let file = old.to_str().unwrap();
-    assert_eq!(tokens::<first::Measured>("", file, "measure.out", codec()).len(), 3);
+    assert_eq!(tokens::<first::Measured>("", file, "measure.out", codec()).begun_at(Time::ZERO).len(), 3);
 }
 
 #[test]
@@ -563,6 +565,6 @@ fn what_a_reference_leads_to_cannot_be_recorded() {
         drive_with(&mut words::Borrowed::new(), until(250), tap);
     });
     let file = path.to_str().expect("a name in UTF-8");
-    let read = tokens("", file, "borrowed.out", apex_rt::__codec!(Cow<'static, str>));
+    let read = tokens("", file, "borrowed.out", apex_rt::__codec!(Cow<'static, str>)).begun_at(Time::ZERO);
     assert_eq!(read.iter().map(|(_, token)| &**token).collect::<Vec<_>>(), ["begins", "begins", "goes on"]);
 }

@@ -11,6 +11,7 @@ mod common;
 mod agents;
 mod bag;
 mod completions;
+mod crates;
 #[cfg(unix)]
 mod debugging;
 mod doc;

@@ -185,3 +185,48 @@ fn wrong_use_is_explained() {
     assert_eq!(wrong.status.code(), Some(1));
     assert!(stderr(&wrong).contains("did you mean `pilot.damping`?"), "{}", stderr(&wrong));
 }
+
+const GAIN: &str = "
+use apex_rt::prelude::*;
+/// Factor.
+#[node]
+pub struct Gain {
+    #[param(default = 0.5, range = 0.0..=1.0)]
+    gain: f64,
+}
+#[node]
+impl Gain {
+    fn process(&mut self, value: &f64) -> f64 {
+        self.gain * value.abs()
+    }
+}
+";
+
+const SCALED: &str = "use crate::Gain;\n
+graph Scaled { in value: f64; out scaled: f64; node g = Gain(); value -> g -> scaled; }\n
+tune Small: Scaled {
+    vary g.gain;
+    wait 10ms;
+    feed value = recording(\"run.mcap\", \"a.out\");
+    minimise scaled;
+    holdout \"other.mcap\";
+}
+";
+
+#[test]
+fn each_run_of_a_study_is_fed_the_recording() {
+    let _guard = builds();
+    let folder = Folder::new("tune-recording");
+    package(&folder, GAIN);
+    let file = folder.file("gain.afg", SCALED);
+    for name in ["run.mcap", "other.mcap"] {
+        fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/record/small.mcap"), folder.0.join(name))
+            .unwrap();
+    }
+    let mut command = apex();
+    command.arg("tune").arg(file).args(["Small", "--debug", "--candidates", "12", "--output"]);
+    command.arg(folder.0.join("study")).env("CARGO_TARGET_DIR", TARGET);
+    done(command);
+    let journal = read(&folder, "study/journal.csv");
+    assert!(journal.lines().count() > 12 && !journal.contains("failed"), "{journal}");
+}

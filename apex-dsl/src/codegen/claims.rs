@@ -30,18 +30,18 @@ impl Generator<'_> {
 
     /// The function that looks at them.
     pub fn claim_function(&self, view: ProgramView<'_>) -> TokenStream {
-        let checks = view.program.claim_checks();
+        let checks = &view.program.claims;
         if checks.is_empty() {
             return quote!();
         }
-        let looks = checks.into_iter().map(|ClaimCheck { claim, broken }| {
+        let looks = checks.iter().map(|ClaimCheck { claim, broken }| {
             let is_broken = match broken {
                 Broken::Several(groups) => {
                     let all = groups.iter().map(|group| self.any(group));
                     quote!([#(#all),*].into_iter().filter(|active| *active).count() > 1)
                 }
                 Broken::Lost(from, nearer) => {
-                    let (from, nearer) = (self.any(&from), self.any(&nearer));
+                    let (from, nearer) = (self.any(from), self.any(nearer));
                     quote!((#from) && !(#nearer))
                 }
                 Broken::NotConserved(all, given) => {
@@ -50,7 +50,7 @@ impl Generator<'_> {
                 }
                 Broken::Never => quote!(false),
             };
-            let name = broken_field(claim);
+            let name = broken_field(*claim);
             quote! {
                 let broken = #is_broken;
                 if broken && !state.#name {
@@ -67,7 +67,7 @@ impl Generator<'_> {
 
     /// Function that tells if a nested graph is active, by its index.
     pub fn is_graph_active(&self, view: ProgramView<'_>) -> TokenStream {
-        let scopes = view.program.active_scopes();
+        let scopes = &view.program.scopes;
         if scopes.is_empty() {
             return quote!();
         }

@@ -33,7 +33,7 @@ impl Generator<'_> {
             ),
             false => (quote!(), quote!()),
         };
-        let exit = view.program.has_exit().then(|| quote! { if self.state.exit.is_some() { break; } });
+        let exit = view.program.lower.has_exit().then(|| quote! { if self.state.exit.is_some() { break; } });
         quote! {
             #needs_table
             #[inline]
@@ -69,7 +69,7 @@ impl Generator<'_> {
             let waits = self.waits(view.graph, view.graph.connections[view.wiring.slots[*slot].connection].from);
             quote!(self.#waits)
         });
-        let exit = view.program.has_exit().then(|| quote!(|| self.state.exit.is_some()));
+        let exit = view.program.lower.has_exit().then(|| quote!(|| self.state.exit.is_some()));
         quote! {
             while (#(#waits)||*) {
                 #(#serves)*

@@ -44,10 +44,10 @@ impl Generator<'_> {
         if view.wiring.may_get_stuck {
             field("stuck", quote!(usize), quote!(0));
         }
-        if view.program.has_exit() {
+        if view.program.lower.has_exit() {
             field("exit", quote!(::core::option::Option<u8>), quote!(None));
         }
-        if view.program.has_start() {
+        if view.program.lower.has_start() {
             field("started", quote!(bool), quote!(false));
         }
         if view.wiring.has_agenda() {
@@ -91,8 +91,8 @@ impl Generator<'_> {
         }
         code.extend(self.row_constants(view));
         code.extend(self.expire_functions(view));
-        if view.program.has_start() {
-            let begin = self.ops(view, &view.program.first());
+        if view.program.lower.has_start() {
+            let begin = self.ops(view, &view.program.first);
             code.extend(quote! {
                 fn begin<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) {
                     let Self { nodes, state, core, .. } = self;
@@ -100,8 +100,8 @@ impl Generator<'_> {
                 }
             });
         }
-        if view.program.has_reset() {
-            let reset = self.ops(view, &view.program.reset());
+        if view.program.lower.has_reset() {
+            let reset = self.ops(view, &view.program.reset);
             let (nodes, [state, core]) = (self.nodes_type(view), self.state_types(view));
             code.extend(quote! {
                 fn reset<O: ::apex_rt::Observer>(nodes: &mut #nodes, state: &mut #state, core: &mut #core, ctx: &::apex_rt::Ctx, observer: &mut O) {
@@ -123,21 +123,21 @@ impl Generator<'_> {
     pub fn react(&self, view: ProgramView<'_>) -> TokenStream {
         let bits = &view.wiring.bits;
         let ProgramView { graph, analysis, program, .. } = view;
-        let Reaction { start, once, before, polls, firings, has_rounds, left } = program.reaction();
-        let endless = program.is_endless();
-        let (raises, expires, wishes) = (self.raises(view, &polls), self.expires_first(view), self.wishes(view));
+        let Reaction { start, once, before, polls, firings, has_rounds, left } = &program.reaction;
+        let endless = program.lower.is_endless();
+        let (raises, expires, wishes) = (self.raises(view, polls), self.expires_first(view), self.wishes(view));
         let next = self.next(view);
-        let has_exit = program.has_exit();
+        let has_exit = program.lower.has_exit();
         let exit =
             has_exit.then(|| quote! { if let Some(code) = self.state.exit { return ::apex_rt::Next::Exit(code); } });
-        let fired = |firing: Firing| FiringCode {
+        let fired = |firing: &Firing| FiringCode {
             cluster: firing.cluster,
             row: firing.row,
             fire: fire(view, firing.cluster),
             served: self.served(view, &firing.served),
         };
-        let inside: Vec<FiringCode> = firings.into_iter().map(fired).collect();
-        let before: Vec<FiringCode> = before.into_iter().map(fired).collect();
+        let inside: Vec<FiringCode> = firings.iter().map(fired).collect();
+        let before: Vec<FiringCode> = before.iter().map(fired).collect();
         let steps = endless.then_some(analysis.asynchronous.slots.len());
         let before: TokenStream = before.iter().map(|firing| firing.straight(steps, false, exit.as_ref())).collect();
         let in_turn = inside.iter().any(|firing| firing.row.is_none());
@@ -151,13 +151,13 @@ impl Generator<'_> {
             (false, true) => quote! { if self.core.dispatcher.take_news() || first { #clusters } },
             (false, false) => quote! { if self.core.dispatcher.take_news() { #clusters } },
         };
-        let start = start.map(|serve| {
-            let serve = self.served(view, &serve);
+        let start = start.as_ref().map(|serve| {
+            let serve = self.served(view, serve);
             quote! { if !::core::mem::replace(&mut self.state.started, true) { self.begin(ctx, observer); #serve } }
         });
         let begin_steps = endless.then(|| {
             // What the reaction before left when its steps were used up.
-            let serve = self.ops(view, &left);
+            let serve = self.ops(view, left);
             let ready = (!bits.dispatched().is_empty()).then(|| quote! { self.core.dispatcher.look_again(); });
             quote! { self.state.steps.begin(); #ready #serve }
         });
@@ -175,7 +175,7 @@ impl Generator<'_> {
         };
         let stuck = self.stuck(view);
         let stop = endless.then(|| quote! { if self.state.steps.is_used_up() { break; } });
-        let serve_first = program.has_queue().then(|| {
+        let serve_first = program.lower.has_queue().then(|| {
             quote! { if !self.core.queue.is_empty() && self.serve(ctx, observer) { quiet = false; } }
         });
         let over = has_exit.then(|| quote! { if self.state.exit.is_some() { break; } });

@@ -17,15 +17,15 @@ pub struct Emitter<'a> {
     pub view: ProgramView<'a>,
     pub graph: &'a Graph,
     pub analysis: &'a Analysis,
-    pub plan: Plan,
+    pub plan: &'a Plan,
     pub cluster: ClusterId,
 }
 
 impl<'a> Emitter<'a> {
     /// An emitter for `cluster`.
     pub fn new(generator: &'a Generator<'a>, view: ProgramView<'a>, cluster: ClusterId) -> Self {
-        let ProgramView { graph, analysis, links, .. } = view;
-        let plan = Plan::new(graph, generator.catalog, links, analysis, cluster);
+        let ProgramView { graph, analysis, .. } = view;
+        let plan = &view.program.plans[cluster];
         Self { generator, view, graph, analysis, plan, cluster }
     }
 
@@ -36,7 +36,7 @@ impl<'a> Emitter<'a> {
 
     /// Code of the cluster.
     pub fn code(&self) -> TokenStream {
-        self.ops_in(&self.view.program.ops_of(self.cluster, &self.plan), BlockId::OUTERMOST)
+        self.ops_in(&self.view.program.clusters[self.cluster], BlockId::OUTERMOST)
     }
 
     /// An operation that belongs to a cluster.

@@ -14,14 +14,14 @@ impl Generator<'_> {
 
     /// The functions of `cancel` and `resume`.
     pub fn interrupts(&self, view: ProgramView<'_>) -> TokenStream {
-        let interrupts = view.program.interrupts();
+        let interrupts = &view.program.interrupts;
         if interrupts.is_empty() {
             return quote!();
         }
         let (place, [state, core]) = (self.nodes_type(view), self.state_types(view));
-        let functions = interrupts.into_iter().map(|(end, ops)| {
-            let (name, docs) = (self.interrupt_function(view, end), format!(" `{}`", view.graph.end_name(end)));
-            let body = self.ops(view, &ops);
+        let functions = interrupts.iter().map(|(end, ops)| {
+            let (name, docs) = (self.interrupt_function(view, *end), format!(" `{}`", view.graph.end_name(*end)));
+            let body = self.ops(view, ops);
             quote! {
                 #[doc = #docs]
                 #[allow(unused_variables)]

@@ -3,10 +3,9 @@
 
 use super::{Generator, activity::ProgramView, each_part};
 use crate::{
-    analyse::ClusterId,
     catalog::Catalog,
     checked::CheckedProgram,
-    program::{Carries, Lines, Op, Plan, Silence, Slot, Timeout, numbers},
+    program::{Carries, Lines, Silence, Slot, Timeout, numbers},
     source::Sources,
 };
 
@@ -24,7 +23,7 @@ pub fn listing(program: &CheckedProgram, catalog: &Catalog, sources: &Sources) -
             list_slots(lines, view);
             list_timers(lines, view);
             list_others(lines, view);
-            lines.reaction(&view.program.reaction(), &|cluster| view.labels.clusters[cluster].clone());
+            lines.reaction(&view.program.reaction, &|cluster| view.labels.clusters[cluster].clone());
         });
         text.push_str(&lines.finish());
     });
@@ -59,13 +58,8 @@ impl Generator<'_> {
             let guards = cluster.own_guards.iter().map(|guard| view.analysis.guards[*guard].text(view.graph));
             let when: Vec<String> = guards.chain((!cluster.upstream.is_empty()).then(|| "tokens".to_owned())).collect();
             lines.add(&format!("cluster {}: {}", view.labels.clusters[index], when.join(", ")));
-            lines.inside(|lines| lines.ops(&self.cluster_ops(view, index)));
+            lines.inside(|lines| lines.ops(&view.program.clusters[index]));
         }
-    }
-
-    fn cluster_ops(&self, view: ProgramView<'_>, cluster: ClusterId) -> Vec<Op> {
-        let plan = Plan::new(view.graph, self.catalog, view.links, view.analysis, cluster);
-        view.program.ops_of(cluster, &plan)
     }
 }
 
@@ -87,7 +81,7 @@ fn list_slots(lines: &mut Lines<'_>, view: ProgramView<'_>) {
                 Carries::Sometimes => lines.add(&format!("activate {node} if carries {number}")),
                 Carries::Away => lines.add(&format!("deactivate {node}")),
             }
-            let served = view.program.served(number);
+            let served = &view.program.slots[number];
             if !served.turned.is_empty() {
                 lines.inside(|lines| lines.ops(&served.turned));
             }
@@ -103,7 +97,7 @@ fn list_timers(lines: &mut Lines<'_>, view: ProgramView<'_>) {
     for (number, Timeout { node, after, needs }) in view.wiring.timeouts.iter().enumerate() {
         let needs = if needs.is_empty() { String::new() } else { format!(", needs {}", numbers(needs)) };
         lines.add(&format!("timeout {number}: {} active for {after:?}{needs}", view.graph.path(*node)));
-        lines.inside(|lines| lines.ops(&view.program.expired(number)));
+        lines.inside(|lines| lines.ops(&view.program.timeouts[number]));
     }
     for (number, Silence { guard, nodes, .. }) in view.wiring.silences.iter().enumerate() {
         let nodes: Vec<String> = nodes.iter().map(|node| view.graph.path(*node)).collect();
@@ -115,16 +109,16 @@ fn list_timers(lines: &mut Lines<'_>, view: ProgramView<'_>) {
 /// Operations before the first reaction, at `cancel` and `resume`, and at `reset`.
 fn list_others(lines: &mut Lines<'_>, view: ProgramView<'_>) {
     let program = view.program;
-    if program.has_start() {
+    if program.lower.has_start() {
         lines.add("start");
-        lines.inside(|lines| lines.ops(&program.first()));
+        lines.inside(|lines| lines.ops(&program.first));
     }
-    for (slot, ops) in program.interrupts() {
-        lines.add(&view.graph.end_name(slot));
-        lines.inside(|lines| lines.ops(&ops));
+    for (slot, ops) in &program.interrupts {
+        lines.add(&view.graph.end_name(*slot));
+        lines.inside(|lines| lines.ops(ops));
     }
-    if program.has_reset() {
+    if program.lower.has_reset() {
         lines.add("reset");
-        lines.inside(|lines| lines.ops(&program.reset()));
+        lines.inside(|lines| lines.ops(&program.reset));
     }
 }

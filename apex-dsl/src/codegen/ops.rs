@@ -230,7 +230,7 @@ impl Writer<'_> {
         let machine = self.view.program.lower.signature(node).and_then(|signature| signature.machine.as_ref());
         let moved = machine.map_or(&[][..], |machine| &machine.moved);
         let events = moved.iter().map(|port| PortId { node, port: *port });
-        let events = events.map(|event| generator.event(event, self.view.program.is_sent_event(event)));
+        let events = events.map(|event| generator.event(event, self.view.program.lower.is_sent_event(event)));
         let (place, method) = (generator.node_place(graph, node), ident(how.method()));
         generator.states_told(graph, node, quote! { #place.#method(#(#events),*); })
     }

@@ -33,10 +33,10 @@ fn list(bits: &[usize]) -> TokenStream {
 pub fn cluster_rows(view: ProgramView<'_>) -> Vec<TokenStream> {
     let bits = &view.wiring.bits;
     let new = format_ident!("{}", if is_sparse(bits) { "sparse" } else { "dense" });
-    let rows = bits.rows(view.graph, view.analysis, view.links).into_iter();
+    let rows = view.program.rows.iter();
     let rows = rows.map(|ClusterRow { enabled, sets, above }| {
-        let (sets, enabled) = (sets.iter().map(|bits| list(bits)), Literal::usize_unsuffixed(enabled));
-        let above = above.into_iter().map(Literal::usize_unsuffixed);
+        let (sets, enabled) = (sets.iter().map(|bits| list(bits)), Literal::usize_unsuffixed(*enabled));
+        let above = above.iter().copied().map(Literal::usize_unsuffixed);
         quote!(Cluster::#new(#enabled, [#(#sets),*], &[#(#above),*]))
     });
     rows.collect()

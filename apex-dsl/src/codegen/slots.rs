@@ -89,7 +89,7 @@ impl Generator<'_> {
 
     /// Code of a slot; none if it calls nothing.
     fn slot(&self, view: ProgramView<'_>, number: usize, slot: &Slot) -> TokenStream {
-        let served = view.program.served(number);
+        let served = &view.program.slots[number];
         let [clear, turned, call, after] =
             [&served.clear, &served.turned, &served.call, &served.after].map(|ops| self.ops(view, ops));
         if clear.is_empty() && turned.is_empty() && call.is_empty() && after.is_empty() {

@@ -280,6 +280,6 @@ impl Generator<'_> {
     fn timeout_arm(&self, view: ProgramView<'_>, index: usize) -> Arm {
         let (graph, node) = (view.graph, view.wiring.timeouts[index].node);
         let docs = format!(" `timeout` of `{}`, {}.", graph.path(node), self.line(graph.nodes[node].span));
-        Arm { number: index, docs, code: self.ops(view, &view.program.expired(index)) }
+        Arm { number: index, docs, code: self.ops(view, &view.program.timeouts[index]) }
     }
 }

@@ -1,14 +1,13 @@
 //! Lowering of activity (execution semantics, section 5), for the nodes that activity can reach. All others are never
 //! active, and nothing is done for them.
 
-use super::{Carries, Flag, Op, Ops, Program};
+use super::{Carries, Flag, Lowering, Op, Ops};
 use crate::{
     graph::{NodeId, NodeKind, PortId, Standard},
     machine::Move,
-    syntax::tree::PortKind,
 };
 
-impl Program<'_> {
+impl Lowering<'_> {
     /// A node becomes active, unless it is already.
     pub fn activate(&self, node: NodeId) -> Op {
         Op::Activate { node, then: self.turn_effects(node, true) }
@@ -93,7 +92,7 @@ impl Program<'_> {
                 ops.extend(self.tell(node));
             }
             let end = PortId { node, port: 0 };
-            if matches!(n.kind, NodeKind::Start) && self.is_sent_event(end) {
+            if matches!(n.kind, NodeKind::Start) && self.lower.is_sent_event(end) {
                 ops.push(Op::Trigger(end));
                 ops.extend(self.started(end).into_iter().map(|flag| Op::Set(flag, true)));
                 ops.extend(self.emit(node, false));
@@ -164,11 +163,5 @@ impl Program<'_> {
     pub fn watch_silence(&self, node: NodeId) -> Option<Op> {
         self.lower.watches_silence(node)?;
         self.wiring.timeout(node).map(Op::StartTimeout)
-    }
-
-    /// Returns `true` if an event is connected.
-    pub fn is_sent_event(&self, end: PortId) -> bool {
-        self.lower.graph.port(end).kind == PortKind::Event
-            && self.lower.links.sends[end.node].iter().any(|c| self.lower.graph.connections[*c].from == end)
     }
 }

@@ -1,7 +1,7 @@
 //! Lowering of claims about activity: where the program keeps activity, also that of tokens on their way. Undecided
 //! claims are looked at whenever activity has moved.
 
-use super::{Carries, Flag, Program};
+use super::{Carries, Flag, Lower};
 use crate::{
     claims::{Checks, FROM, Model, NEARER, Place, PlaceId, scopes_of},
     graph::{ClaimKind, Flow, NodeId, ScopeId},
@@ -42,15 +42,15 @@ pub enum Broken {
 /// Places, with those of the model that each stands for.
 type Spots = BTreeMap<Spot, BTreeSet<PlaceId>>;
 
-impl Program<'_> {
+impl Lower<'_> {
     /// The claims that the program looks at.
-    pub fn claim_checks(&self) -> Vec<ClaimCheck> {
-        let undecided = self.lower.undecided();
+    pub fn claim_checks(self) -> Vec<ClaimCheck> {
+        let undecided = self.undecided();
         if undecided.is_empty() {
             return vec![];
         }
-        let graph = self.lower.graph;
-        let model = Model::new(graph, self.lower.catalog);
+        let graph = self.graph;
+        let model = Model::new(graph, self.catalog);
         let (checks, spots) = (Checks::new(graph, &model), self.spots(&model));
         let check = |claim: usize| {
             let group = |group| within(&spots, &checks.places(claim, group));
@@ -66,12 +66,12 @@ impl Program<'_> {
     }
 
     /// For each nested graph, the places whose activity is in it. Empty if nothing is ever active.
-    pub fn active_scopes(&self) -> Vec<(ScopeId, Vec<Spot>)> {
-        let graph = self.lower.graph;
-        if self.lower.analysis.active.is_empty() || graph.scopes.len() == 1 {
+    pub fn active_scopes(self) -> Vec<(ScopeId, Vec<Spot>)> {
+        let graph = self.graph;
+        if self.analysis.active.is_empty() || graph.scopes.len() == 1 {
             return vec![];
         }
-        let model = Model::new(graph, self.lower.catalog);
+        let model = Model::new(graph, self.catalog);
         let spots = self.spots(&model);
         let nested = graph.nested().map(|scope| {
             let inside = (0..).zip(&model.places).filter(|(_, place)| scopes_of(graph, **place).contains(&scope));
@@ -82,20 +82,19 @@ impl Program<'_> {
     }
 
     /// Places of activity.
-    fn spots(&self, model: &Model) -> Spots {
-        let Self { lower, .. } = self;
+    fn spots(self, model: &Model) -> Spots {
         let mut spots = Spots::new();
         for (place, what) in (0..).zip(&model.places) {
             let spot = match *what {
-                Place::Node(node) | Place::Delayed(node, _) => lower.spot(node),
+                Place::Node(node) | Place::Delayed(node, _) => self.spot(node),
                 Place::Remembered(..) => continue,
                 // Nothing is kept for connections that never carry a token.
-                Place::Connection(c) if !lower.analysis.asynchronous.live[c] => continue,
-                Place::Connection(c) if lower.carries(c) != Carries::Sometimes => continue,
+                Place::Connection(c) if !self.analysis.asynchronous.live[c] => continue,
+                Place::Connection(c) if self.carries(c) != Carries::Sometimes => continue,
                 Place::Connection(c) => {
-                    let connection = &lower.graph.connections[c];
-                    Spot::Flag(match lower.graph.flow(connection) {
-                        Flow::ToSlot => Flag::Carries(lower.analysis.asynchronous.slot(c)),
+                    let connection = &self.graph.connections[c];
+                    Spot::Flag(match self.graph.flow(connection) {
+                        Flow::ToSlot => Flag::Carries(self.analysis.asynchronous.slot(c)),
                         Flow::Synchronous | Flow::ToInput => Flag::Gains(connection.to.node),
                     })
                 }

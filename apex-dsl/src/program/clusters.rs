@@ -1,12 +1,12 @@
 //! Lowering of clusters: what happens when one fires.
 
-use super::{BlockId, Op, Ops, Plan, Program, Storage};
+use super::{BlockId, Lowering, Op, Ops, Plan, Storage};
 use crate::{
     analyse::{Block, ClusterId, Guard, Run, Step, handles_absence, is_mandatory},
     graph::{NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
-impl Program<'_> {
+impl Lowering<'_> {
     /// Operations of a cluster of a program, or of the body of an `each`.
     pub fn ops_of(&self, cluster: ClusterId, plan: &Plan) -> Vec<Op> {
         match self.lower.graph.is_body {
@@ -171,7 +171,7 @@ impl Program<'_> {
 
     fn pass(&self, node: NodeId) -> Ops {
         let is_output = |end: PortId| self.lower.graph.port(end).kind == PortKind::Output;
-        self.pass_activity(node, &|end| is_output(end) || self.is_sent_event(end))
+        self.pass_activity(node, &|end| is_output(end) || self.lower.is_sent_event(end))
     }
 
     /// A source whose silence is watched has sent something.
@@ -181,7 +181,7 @@ impl Program<'_> {
         let ends = (0..graph.nodes[node].ports.len()).map(|port| PortId { node, port });
         let tokens = ends.filter(|end| match graph.port(*end).kind {
             PortKind::Output => plan.is_used(*end),
-            PortKind::Event => graph.port(*end).standard.is_none() && self.is_sent_event(*end),
+            PortKind::Event => graph.port(*end).standard.is_none() && self.lower.is_sent_event(*end),
             _ => false,
         });
         Some(Op::IfSent { tokens: tokens.collect(), then: vec![watch] })

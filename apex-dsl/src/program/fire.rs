@@ -1,6 +1,6 @@
 //! Lowering of firings: which tokens a node takes, and where its results go.
 
-use super::{Plan, Program, is_buffer};
+use super::{Lowering, Plan, is_buffer};
 use crate::{
     analyse::handles_absence,
     catalog::{ArgSig, Signature},
@@ -140,7 +140,7 @@ pub struct Deadline {
     pub event: Option<PortId>,
 }
 
-impl Program<'_> {
+impl Lowering<'_> {
     /// Firing of a node.
     pub fn fire(&self, node: NodeId, plan: &Plan) -> Fire {
         let graph = self.lower.graph;
@@ -258,7 +258,7 @@ impl Program<'_> {
     }
 
     fn event_arg(&self, event: PortId) -> Arg {
-        Arg::Event { event, sent: self.is_sent_event(event) }
+        Arg::Event { event, sent: self.lower.is_sent_event(event) }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Lowering of `cancel` and `resume`: activity is taken out of a node or nested graph, and given back.
 
-use super::{Cancel, Carries, Flag, Lower, Op, Ops, Program, Taken};
+use super::{Cancel, Carries, Flag, Lower, Lowering, Op, Ops, Taken};
 use crate::{
     graph::{ConnectionId, Interrupt, NodeId, PortId, Standard},
     machine::Move,
@@ -23,7 +23,7 @@ impl Lower<'_> {
     }
 }
 
-impl Program<'_> {
+impl Lowering<'_> {
     /// The slots `cancel` and `resume` that are called, and what they do.
     pub fn interrupts(&self) -> Vec<(PortId, Ops)> {
         let mut found = vec![];
@@ -71,7 +71,7 @@ impl Program<'_> {
         });
         let takes = takes.collect();
         let event = Standard::Cancelled.of_interrupt().map(|port| PortId { node: interrupt, port });
-        let cancelled = event.filter(|event| self.is_sent_event(*event)).map(|event| {
+        let cancelled = event.filter(|event| self.lower.is_sent_event(*event)).map(|event| {
             let passes = self.wiring.of(interrupt).iter().any(|port| port.is_active && port.passes.is_some());
             (event, passes && is_reached)
         });

@@ -2,10 +2,10 @@
 
 use super::{Flag, Spot};
 use crate::{
-    analyse::{Analysis, ClusterId, Links, is_source},
+    analyse::{Analysis, ClusterId, Delivery, Links, is_source},
     catalog::{Catalog, Signature},
     claims::Decided,
-    graph::{ConnectionId, Graph, NodeId, NodeKind, PortId},
+    graph::{ConnectionId, Graph, Node, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 use std::time::Duration;
@@ -117,5 +117,43 @@ impl<'a> Lower<'a> {
             true => Spot::Held(node),
             false => Spot::Flag(Flag::Active(node)),
         }
+    }
+
+    /// Returns `true` if an event is connected.
+    pub fn is_sent_event(self, end: PortId) -> bool {
+        self.graph.port(end).kind == PortKind::Event
+            && self.links.sends[end.node].iter().any(|c| self.graph.connections[*c].from == end)
+    }
+
+    /// Returns `true` if slots are called at all.
+    pub fn has_slots(self) -> bool {
+        !self.analysis.asynchronous.slots.is_empty()
+    }
+
+    /// Returns `true` if tokens for slots are queued.
+    pub fn has_queue(self) -> bool {
+        self.analysis.asynchronous.delivery == Delivery::Queued && self.has_slots()
+    }
+
+    /// Returns `true` if a reaction might not end, so that its steps are counted.
+    pub fn is_endless(self) -> bool {
+        self.analysis.asynchronous.endless
+    }
+
+    /// Returns `true` if a token can end the program.
+    pub fn has_exit(self) -> bool {
+        self.graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Exit(_)))
+    }
+
+    /// Returns `true` if a token can take all activity away and trigger `start` again.
+    pub fn has_reset(self) -> bool {
+        self.graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset))
+    }
+
+    /// Returns `true` if something happens before the first reaction.
+    pub fn has_start(self) -> bool {
+        let started = |n: &Node| n.starts_active || matches!(n.kind, NodeKind::Start);
+        let graph = self.graph;
+        graph.nodes.iter().any(started) || graph.nodes.ids().any(|node| self.watches_silence(node).is_some())
     }
 }

@@ -1,8 +1,9 @@
 //! Storage of each token of a cluster: a local if only its own block uses it, an `Option` that is declared further out
 //! if other blocks use it, and the state of the program if a node writes it in place.
 
+use super::Lower;
 use crate::{
-    analyse::{Analysis, Block, ClusterId, Links, Step, handles_absence, is_mandatory, may_be_missing},
+    analyse::{Block, ClusterId, Step, handles_absence, is_mandatory, may_be_missing},
     catalog::{ArgSig, Catalog},
     graph::{Graph, NodeId, NodeKind, PortId},
     index::{IdVec, id},
@@ -82,7 +83,8 @@ pub fn storage(graph: &Graph, catalog: &Catalog, end: PortId) -> Storage {
 
 impl Plan {
     /// Plans `cluster`.
-    pub fn new(graph: &Graph, catalog: &Catalog, links: &Links, analysis: &Analysis, cluster: ClusterId) -> Self {
+    pub fn new(lower: Lower<'_>, cluster: ClusterId) -> Self {
+        let Lower { graph, catalog, links, analysis, .. } = lower;
         let mut plan = Self {
             parents: IdVec::default(),
             home: BTreeMap::new(),

@@ -279,7 +279,7 @@ impl<'p> Lines<'p> {
             self.add("until nothing happens");
             self.depth += 1;
             polls.iter().for_each(|poll| self.poll(poll));
-            if self.program.has_queue() {
+            if self.program.lower.has_queue() {
                 self.add("serve the queue");
             }
             for firing in firings {

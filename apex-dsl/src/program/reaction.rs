@@ -1,10 +1,9 @@
 //! Lowering of a reaction: what each of its rounds looks at, which clusters fire, and which slots are served.
 
-use super::{Entry, Op, Ops, Program};
+use super::{Entry, Lowering, Op, Ops};
 use crate::{
-    analyse::{ClusterId, Delivery, Guard, at_start},
-    catalog::ArgSig,
-    graph::{CellEnd, Node, NodeId, NodeKind, PortId},
+    analyse::{ClusterId, Guard, at_start},
+    graph::{CellEnd, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
 
@@ -124,7 +123,7 @@ pub struct Receiver {
     pub then: [Ops; 3],
 }
 
-impl Program<'_> {
+impl Lowering<'_> {
     /// The reaction.
     pub fn reaction(&self) -> Reaction {
         let analysis = self.lower.analysis;
@@ -134,9 +133,9 @@ impl Program<'_> {
         let has_rounds = !bits.dispatched().is_empty() || !polls.is_empty() || expires;
         let any_stays = !bits.is_all_free();
         // Slots see in which order clusters fire: that of the text.
-        let ordered = any_stays || self.has_slots();
+        let ordered = any_stays || self.lower.has_slots();
         let firings = analysis.clusters.iter_enumerated().filter(|(_, c)| c.fires).map(|(cluster, c)| {
-            let served = match self.has_queue() {
+            let served = match self.lower.has_queue() {
                 false => After::Slots(self.deliver(&c.sends)),
                 true if c.sends.is_empty() && !any_stays => After::NOTHING,
                 true => After::Queue,
@@ -144,66 +143,14 @@ impl Program<'_> {
             Firing { cluster, row: bits.row(cluster), served }
         });
         let (firings, before) = firings.partition(|firing| has_rounds && (firing.row.is_some() || ordered));
-        let start = self.has_start().then(|| match self.has_queue() {
+        let start = self.lower.has_start().then(|| match self.lower.has_queue() {
             true => After::Queue,
             false => After::Slots(self.deliver(&at_start(self.lower.graph, analysis))),
         });
         let guards = analysis.guards.iter().enumerate().filter(|(_, guard)| **guard == Guard::React);
         let once = guards.filter_map(|(guard, _)| bits.guard(guard)).collect();
-        let left = if self.is_endless() { self.deliver(&analysis.asynchronous.slots) } else { vec![] };
+        let left = if self.lower.is_endless() { self.deliver(&analysis.asynchronous.slots) } else { vec![] };
         Reaction { start, once, before, polls, firings, has_rounds, left }
-    }
-
-    /// Returns `true` if slots are called at all.
-    pub fn has_slots(&self) -> bool {
-        !self.lower.analysis.asynchronous.slots.is_empty()
-    }
-
-    /// Returns `true` if tokens for slots are queued.
-    pub fn has_queue(&self) -> bool {
-        self.lower.analysis.asynchronous.delivery == Delivery::Queued && self.has_slots()
-    }
-
-    /// Returns `true` if a reaction might not end, so that its steps are counted.
-    pub fn is_endless(&self) -> bool {
-        self.lower.analysis.asynchronous.endless
-    }
-
-    /// Returns `true` if a token can end the program.
-    pub fn has_exit(&self) -> bool {
-        self.lower.graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Exit(_)))
-    }
-
-    /// Returns `true` if a token can take all activity away and trigger `start` again.
-    pub fn has_reset(&self) -> bool {
-        self.lower.graph.nodes.iter().any(|n| matches!(n.kind, NodeKind::Reset))
-    }
-
-    /// Returns `true` if something happens before the first reaction.
-    pub fn has_start(&self) -> bool {
-        let started = |n: &Node| n.starts_active || matches!(n.kind, NodeKind::Start);
-        let graph = self.lower.graph;
-        graph.nodes.iter().any(started) || graph.nodes.ids().any(|node| self.lower.watches_silence(node).is_some())
-    }
-
-    /// Returns `true` if something happens at a time, so that a late reaction has several instants.
-    pub fn has_instants(&self) -> bool {
-        !self.wiring.timers.is_empty() || !self.wiring.timeouts.is_empty() || !self.wiring.silences.is_empty()
-    }
-
-    /// Returns `true` if the time matters to a program: to its timers, or to a node that may look at it.
-    pub fn has_time(&self) -> bool {
-        let looks = |args: &[ArgSig]| args.contains(&ArgSig::Ctx);
-        let is_told = |node: &Node| match &node.kind {
-            NodeKind::Library(library) => {
-                let signature = &self.lower.catalog.signatures[library.signature];
-                let slots = signature.slots.iter().any(|slot| looks(&slot.args));
-                slots || signature.process.as_deref().is_some_and(looks) || node.modifiers.deadline.is_some()
-            }
-            NodeKind::Each(_) | NodeKind::SetBack => true,
-            _ => false,
-        };
-        self.has_instants() || self.lower.graph.nodes.iter().any(is_told)
     }
 
     /// Polls of each round.

@@ -1,6 +1,6 @@
 //! Lowering of slots and timeouts, and of what is sent when a firing ends.
 
-use super::{Carries, Flag, Op, Ops, Program, Served};
+use super::{Carries, Flag, Lowering, Op, Ops, Served};
 use crate::{
     analyse::{Delivery, ordered},
     catalog::ArgSig,
@@ -8,7 +8,7 @@ use crate::{
     syntax::tree::PortKind,
 };
 
-impl Program<'_> {
+impl Lowering<'_> {
     /// The tokens of a node's asynchronous connections are on their way, as far as there are any: those for slots
     /// are queued, those for inputs lie there. A slot sends on events only.
     pub fn emit(&self, node: NodeId, by_process: bool) -> Ops {
@@ -47,7 +47,7 @@ impl Program<'_> {
     /// Some events of a node are empty before it may trigger them.
     pub fn clear(&self, node: NodeId, wanted: &dyn Fn(PortId) -> bool) -> Ops {
         let ends = (0..self.lower.graph.nodes[node].ports.len()).map(|port| PortId { node, port });
-        ends.filter(|end| wanted(*end) && self.is_sent_event(*end)).map(Op::Clear).collect()
+        ends.filter(|end| wanted(*end) && self.lower.is_sent_event(*end)).map(Op::Clear).collect()
     }
 
     /// Operations for the token of a slot.
@@ -68,7 +68,7 @@ impl Program<'_> {
             false => body,
         };
         let call = self.check_claims().filter(|_| turns).into_iter().chain(call).collect();
-        let mut after = self.leave(node, &|end| self.is_sent_event(end) && triggers(end));
+        let mut after = self.leave(node, &|end| self.lower.is_sent_event(end) && triggers(end));
         after.extend(slot.settles.map(Op::Settle));
         Served { clear: self.clear(node, &triggers), turned, call, after }
     }
@@ -142,7 +142,7 @@ impl Program<'_> {
         ops.extend(self.trigger(node, Standard::Timeout));
         ops.extend(self.leave(node, &|end| {
             let sent = matches!(graph.port(end).standard, Some(Standard::Timeout | Standard::Deactivated));
-            sent && self.is_sent_event(end)
+            sent && self.lower.is_sent_event(end)
         }));
         ops.extend(self.deliver(&self.lower.links.sends[node]));
         ops

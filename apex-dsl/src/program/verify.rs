@@ -4,30 +4,20 @@ use super::{
     After, Arg, Carries, Deadline, Failing, Fire, Flag, Lower, Op, Plan, Poll, Program, Reaction, Send, Storage,
 };
 use crate::{
-    analyse::ClusterId,
     graph::{Flow, NodeId, NodeKind, PortId},
-    index::IdVec,
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Program<'_> {
     /// Faults of the program, each a fault of the compiler.
-    pub fn faults(&self) -> Vec<String> {
-        let Lower { graph, analysis, links, catalog, .. } = self.lower;
-        let plans: IdVec<ClusterId, Plan> =
-            analysis.clusters.ids().map(|cluster| Plan::new(graph, catalog, links, analysis, cluster)).collect();
-        let clusters = analysis.clusters.ids().map(|cluster| self.ops_of(cluster, &plans[cluster])).collect();
-        self.verify(&plans, &clusters)
-    }
-
-    /// Faults of a program whose clusters have these plans and operations. Each is a fault of the compiler.
     ///
     /// - In a cluster each token is written before it is read, and each node fires once.
     /// - The token of each slot is served; a slot is queued by its own connection.
     /// - Each condition that a token clears is raised somewhere, and each that it raises is taken.
     /// - Each flag that is set is taken.
-    pub fn verify(&self, plans: &IdVec<ClusterId, Plan>, clusters: &IdVec<ClusterId, Vec<Op>>) -> Vec<String> {
+    pub fn faults(&self) -> Vec<String> {
+        let Self { plans, clusters, .. } = self;
         let mut faults = vec![];
         for (cluster, ops) in clusters.iter_enumerated().filter(|(c, _)| self.lower.analysis.clusters[*c].fires) {
             let (lower, plan) = (self.lower, &plans[cluster]);
@@ -74,7 +64,7 @@ impl Program<'_> {
         for (number, slot) in self.wiring.slots.iter().enumerate() {
             let text = || self.lower.graph.connection_text(slot.connection);
             if effects.written.all.contains(&self.source_of(number))
-                && !self.has_queue()
+                && !self.lower.has_queue()
                 && !effects.served.contains(&number)
             {
                 faults.push(format!("slot {number} of `{}` is never served", text()));
@@ -90,10 +80,9 @@ impl Program<'_> {
     }
 
     fn conditions(&self) -> Vec<String> {
-        let Lower { graph, analysis, links, .. } = self.lower;
-        let rows = self.wiring.bits.rows(graph, analysis, links);
-        let of_rows = |set: usize| rows.iter().flat_map(move |row| row.sets[set].iter().copied());
-        let polls = self.reaction().polls;
+        let Lower { graph, .. } = self.lower;
+        let of_rows = |set: usize| self.rows.iter().flat_map(move |row| row.sets[set].iter().copied());
+        let polls = &self.reaction.polls;
         let senders =
             || polls.iter().filter_map(|poll| if let Poll::Sender(sender) = poll { Some(sender) } else { None });
         let raised: BTreeSet<usize> = of_rows(5)
@@ -122,7 +111,7 @@ impl Program<'_> {
     fn flags(&self, effects: &Effects) -> Vec<String> {
         let passed = self.wiring.ports().flat_map(|port| port.takes_away.iter().chain(port.passes.iter().flatten()));
         let set = passed.chain(&effects.set);
-        let polls = self.reaction().polls;
+        let polls = &self.reaction.polls;
         let far = polls.iter().filter_map(|poll| match poll {
             Poll::Sender(sender) => Some(sender.node),
             _ => None,
@@ -177,33 +166,30 @@ impl Effects {
     fn new<'o>(program: &Program<'_>, clusters: impl Iterator<Item = &'o Vec<Op>>) -> Self {
         let mut effects = Self::default();
         clusters.for_each(|ops| effects.ops(program, ops));
-        let Reaction { start, before, polls, firings, left, .. } = program.reaction();
-        effects.ops(program, &left);
-        let served = before.iter().chain(&firings).map(|firing| &firing.served);
-        for after in served.chain(&start) {
+        let Reaction { start, before, polls, firings, left, .. } = &program.reaction;
+        effects.ops(program, left);
+        let served = before.iter().chain(firings).map(|firing| &firing.served);
+        for after in served.chain(start) {
             if let After::Slots(ops) = after {
                 effects.ops(program, ops);
             }
         }
         polls.iter().for_each(|poll| effects.poll(program, poll));
-        (0..program.wiring.timeouts.len()).for_each(|timeout| effects.ops(program, &program.expired(timeout)));
-        effects.ops(program, &program.first());
-        if program.has_reset() {
-            effects.ops(program, &program.reset());
-        }
+        program.timeouts.iter().for_each(|ops| effects.ops(program, ops));
+        effects.ops(program, &program.first);
+        effects.ops(program, &program.reset);
         // A slot is called only if there may be a token for it, and may then cause others.
-        let interrupts: BTreeMap<PortId, Vec<Op>> = program.interrupts().into_iter().collect();
         let mut slots: BTreeMap<PortId, Vec<usize>> = BTreeMap::new();
         (0..program.wiring.slots.len()).for_each(|slot| slots.entry(program.source_of(slot)).or_default().push(slot));
         loop {
             if let Some(port) = effects.written.new.pop() {
                 for slot in slots.get(&port).into_iter().flatten() {
-                    let served = program.served(*slot);
+                    let served = &program.slots[*slot];
                     let all = [&served.clear, &served.turned, &served.call, &served.after];
                     all.into_iter().for_each(|ops| effects.ops(program, ops));
                 }
             } else if let Some(slot) = effects.interrupts.new.pop() {
-                effects.ops(program, interrupts.get(&slot).map_or(&[], Vec::as_slice));
+                effects.ops(program, program.interrupts.get(&slot).map_or(&[], Vec::as_slice));
             } else {
                 return effects;
             }

@@ -50,6 +50,8 @@ pub struct Codec<T> {
     pub write: fn(&T, &mut Vec<u8>) -> bool,
     /// Reads a token. Fails with the reason if the bytes are not one, or more than one.
     pub read: fn(&[u8]) -> Result<T, Reason>,
+    /// Reads a token like `read`, with the stamps of headers counted from a zero in ns ([`Reader::since`]).
+    pub read_since: fn(&[u8], i64) -> Result<T, Reason>,
     /// Returns the shape of the type: the definition of the message, or all that serde reads.
     pub shape: fn() -> String,
     /// Returns the messages that hold a token of the type, its own first; none for types that are not messages.
@@ -115,16 +117,19 @@ impl<T: Message> ByMessage<T> for &&Kind<T> {
                 token.write(&mut Writer::new(bytes));
                 true
             },
-            read: |bytes| {
-                let mut message = Reader::new(bytes)?;
-                let token = T::read(&mut message)?;
-                let is_whole = message.left() == 0 || message.left() == unread(&token)?;
-                if is_whole { Ok(token) } else { Err(LEFT_OVER) }
-            },
+            read: |bytes| read_message(bytes, 0),
+            read_since: read_message,
             shape: || message::<T>().complete_definition(),
             messages: || iter::once(Foreign::itself()).chain(T::others()).collect(),
         })
     }
+}
+
+fn read_message<T: Message>(bytes: &[u8], zero: i64) -> Result<T, Reason> {
+    let mut message = Reader::new(bytes)?.since(zero);
+    let token = T::read(&mut message)?;
+    let is_whole = message.left() == 0 || message.left() == unread(&token)?;
+    if is_whole { Ok(token) } else { Err(LEFT_OVER) }
 }
 
 /// Number of bytes at the end of a token that its type writes and does not read, such as fields that are always zero.
@@ -156,14 +161,17 @@ impl<T: Serialize + DeserializeOwned> BySerde<T> for &Kind<T> {
         Some(Codec {
             schema: Schema { name: type_name::<T>(), definition: "", encoding: "postcard" },
             write: |token, bytes| postcard::to_io(token, &mut *bytes).is_ok(),
-            read: |bytes| {
-                let (token, rest) = postcard::take_from_bytes(bytes).map_err(|_| WRONG)?;
-                if rest.is_empty() { Ok(token) } else { Err(LEFT_OVER) }
-            },
+            read: read_by_serde,
+            read_since: |bytes, _| read_by_serde(bytes),
             shape: shape::<T>,
             messages: Vec::new,
         })
     }
+}
+
+fn read_by_serde<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Reason> {
+    let (token, rest) = postcard::take_from_bytes(bytes).map_err(|_| WRONG)?;
+    if rest.is_empty() { Ok(token) } else { Err(LEFT_OVER) }
 }
 
 /// Codec of all other types: none.

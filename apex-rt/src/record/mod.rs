@@ -36,7 +36,7 @@ pub use tap::Tap;
 pub use tap::{looked, sent};
 pub use threads::record_on_threads;
 #[doc(hidden)]
-pub use tokens::tokens;
+pub use tokens::{Tokens, tokens};
 pub use types::TypeChange;
 
 /// Role of the tokens of a channel.

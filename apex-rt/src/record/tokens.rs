@@ -6,55 +6,103 @@ use super::{
     definition::{difference, of_ros1},
     types::{TypeMatch, compare},
 };
-use apex_bag::{CUT, Channel, ROS1, Recording};
-use core::time::Duration;
+use crate::Time;
+use apex_bag::{CUT, Channel, Message, ROS1, Recording};
+use core::{cell::RefCell, time::Duration};
 use std::{
     collections::btree_map::{BTreeMap, Entry},
     env,
     path::{Path, PathBuf},
+    rc::Rc,
 };
 
-/// Returns the tokens of the channel `channel` of a recording, with their times. The path `file` is relative to the
-/// folder of the source file `text`. Behind a colon, `channel` may name one of several tokens in the messages of
-/// another program: `/tf: odom -> base_link`.
-///
-/// # Panics
-/// The file cannot be read, or has no such tokens.
-pub fn tokens<T>(text: &str, file: &str, channel: &str, codec: Option<Codec<T>>) -> Vec<(Duration, T)> {
-    try_tokens(&find(text, file), channel, codec).unwrap_or_else(|message| panic!("{message}"))
+/// Tokens of one channel of a recording, with their times.
+type Timed<T> = Rc<[(Duration, T)]>;
+/// Tokens that were read, and the time of the program at which the recording starts with their stamps.
+type Known<T> = Option<(Time, Timed<T>)>;
+
+/// Tokens of one channel of a recording, which are read when it is known at which time of the program it starts. A
+/// clone does not read them again for the same time.
+pub struct Tokens<T> {
+    path: PathBuf,
+    /// Channel, and behind a colon the part of its messages.
+    wanted: String,
+    codec: Option<Codec<T>>,
+    /// Tokens that were read last.
+    known: Rc<RefCell<Known<T>>>,
 }
 
-fn try_tokens<T>(path: &Path, wanted: &str, codec: Option<Codec<T>>) -> Result<Vec<(Duration, T)>, String> {
+impl<T> Clone for Tokens<T> {
+    fn clone(&self) -> Self {
+        Self { path: self.path.clone(), wanted: self.wanted.clone(), known: self.known.clone(), ..*self }
+    }
+}
+
+/// Returns the tokens of the channel `channel` of a recording. The path `file` is relative to the folder of the source
+/// file `text`. Behind a colon, `channel` may name one of several tokens in the messages of another program:
+/// `/tf: odom -> base_link`.
+pub fn tokens<T>(text: &str, file: &str, channel: &str, codec: Option<Codec<T>>) -> Tokens<T> {
+    Tokens { path: find(text, file), wanted: channel.to_owned(), codec, known: Rc::default() }
+}
+
+impl<T> Tokens<T> {
+    /// Returns the tokens with their times, counted from the start of the recording. The stamps of their headers are
+    /// moved as well: they are times of a program in which the recording starts at `begun`.
+    ///
+    /// # Panics
+    /// The file cannot be read, or has no such tokens.
+    pub fn begun_at(self, begun: Time) -> Timed<T> {
+        if let Some((_, tokens)) = self.known.borrow().as_ref().filter(|(known, _)| *known == begun) {
+            return tokens.clone();
+        }
+        let read = read_tokens(&self.path, &self.wanted, self.codec, begun);
+        let tokens: Timed<T> = read.unwrap_or_else(|message| panic!("{message}")).into();
+        *self.known.borrow_mut() = Some((begun, tokens.clone()));
+        tokens
+    }
+}
+
+fn read_tokens<T>(
+    path: &Path,
+    wanted: &str,
+    codec: Option<Codec<T>>,
+    begun: Time,
+) -> Result<Vec<(Duration, T)>, String> {
     let codec =
         codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
     let (topic, part) = wanted.split_once(':').map_or((wanted, ""), |(topic, part)| (topic.trim(), part.trim()));
     let cannot_read = |error| format!("cannot read `{}`: {error}", path.display());
     let mut recording = Recording::open(path).map_err(cannot_read)?;
-    let (mut tokens, mut readers, mut start) = (vec![], BTreeMap::new(), None);
+    let (mut messages, mut readers, mut first) = (vec![], BTreeMap::new(), u64::MAX);
     while let Some(message) = recording.next_message().map_err(cannot_read)? {
-        start = Some(start.map_or(message.time, |start: u64| start.min(message.time)));
+        first = first.min(message.time);
         let found = recording.channels().get(&message.channel);
         let Some(found) = found.filter(|c| c.name == topic || c.topic == topic) else { continue };
-        let read = match readers.entry(message.channel) {
-            Entry::Occupied(entry) => entry.into_mut(),
-            Entry::Vacant(entry) => entry.insert(Read::of(path, found, recording.program().is_some(), codec)?),
-        };
-        let token = apex_bag::message(&message.data).map_err(Into::into).and_then(|bytes| read.read(&bytes, part));
+        if let Entry::Vacant(entry) = readers.entry(message.channel) {
+            entry.insert(Read::of(path, found, recording.program().is_some(), codec)?);
+        }
+        messages.push(message);
+    }
+    is_whole(path, &recording)?;
+    // Recorders write messages as they come, which is not always the order of their times.
+    messages.sort_by_key(|message| message.time);
+    let zero = recording.zero(first);
+    let since = i64::try_from(zero).unwrap_or(i64::MAX).saturating_sub(begun.as_nanos());
+    let mut tokens = vec![];
+    for Message { channel, time, data, .. } in messages {
+        let read = &readers[&channel];
+        let token = apex_bag::message(&data).map_err(Into::into).and_then(|bytes| read.read(&bytes, since, part));
         let token = token.map_err(|reason| {
             let (ty, file) = (codec.schema.name, path.display());
             format!("a token of `{wanted}` in `{file}` is not one of `{ty}`: {reason}")
         })?;
-        tokens.extend(token.map(|token| (message.time, token)));
+        tokens.extend(token.map(|token| (Duration::from_nanos(time - zero), token)));
     }
-    is_whole(path, &recording)?;
     if tokens.is_empty() {
         let names: Vec<String> = recording.channels().values().map(|c| format!("`{}`", c.name)).collect();
         return Err(format!("`{}` has no tokens of `{wanted}`; it has {}", path.display(), names.join(", ")));
     }
-    let start = start.filter(|_| recording.begins_late()).unwrap_or_default();
-    // Recorders write messages as they come, which is not always the order of their times.
-    tokens.sort_by_key(|(time, _)| *time);
-    Ok(tokens.into_iter().map(|(time, token)| (Duration::from_nanos(time - start), token)).collect())
+    Ok(tokens)
 }
 
 /// Checks that a recording was read to its end. One of another program may be cut off: its recorder was, too.
@@ -72,7 +120,7 @@ fn is_whole(path: &Path, recording: &Recording) -> Result<(), String> {
 /// Function that reads the tokens of a channel.
 enum Read<T> {
     /// Tokens of the type of the port.
-    Own(fn(&[u8]) -> Result<T, Reason>),
+    Own(fn(&[u8], i64) -> Result<T, Reason>),
     /// Messages that hold such tokens, in CDR or in the form of ROS 1.
     Foreign { read: fn(&mut Reader<'_>, &str) -> Result<Option<T>, Reason>, is_ros1: bool },
 }
@@ -84,7 +132,7 @@ impl<T> Read<T> {
         let is_own_type = channel.schema == codec.schema.name && !is_ros1;
         if is_own || is_own_type || messages.is_empty() || !["cdr", ROS1].contains(&&*channel.encoding) {
             check(path, channel, codec)?;
-            return Ok(Self::Own(codec.read));
+            return Ok(Self::Own(codec.read_since));
         }
         let (file, topic, ty) = (path.display(), &channel.topic, &channel.schema);
         let Some(message) = messages.iter().find(|message| message.name == ty) else {
@@ -103,12 +151,12 @@ impl<T> Read<T> {
         }
     }
 
-    /// Reads the token in the bytes of a message, or the part of this name.
-    fn read(&self, bytes: &[u8], part: &str) -> Result<Option<T>, Reason> {
+    /// Reads the token in the bytes of a message, or the part of this name. Stamps count from `zero`, in ns.
+    fn read(&self, bytes: &[u8], zero: i64, part: &str) -> Result<Option<T>, Reason> {
         match self {
-            Self::Own(read) => read(bytes).map(Some),
-            Self::Foreign { read, is_ros1: true } => read(&mut Reader::ros1(bytes), part),
-            Self::Foreign { read, is_ros1: false } => read(&mut Reader::new(bytes)?, part),
+            Self::Own(read) => read(bytes, zero).map(Some),
+            Self::Foreign { read, is_ros1: true } => read(&mut Reader::ros1(bytes).since(zero), part),
+            Self::Foreign { read, is_ros1: false } => read(&mut Reader::new(bytes)?.since(zero), part),
         }
     }
 }

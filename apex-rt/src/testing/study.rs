@@ -7,7 +7,7 @@ use crate::{
     Parameters, Program,
     params::{Access, ParamInfo, ParamRef, ParamVisitor},
 };
-use core::{any::Any, cell::RefCell, fmt::Write as _, time::Duration};
+use core::{any::Any, cell::RefCell, fmt::Write as _};
 use std::{
     collections::HashMap,
     env,
@@ -113,25 +113,22 @@ impl ParamVisitor for Defaults {
     }
 }
 
-/// Returns the tokens of a channel of `file`, or of the recording that stands for it in the present run. `read` reads a
-/// file.
-pub fn recorded<T: 'static>(
-    file: &'static str,
-    channel: &'static str,
-    read: impl FnOnce(&str) -> Vec<(Duration, T)>,
-) -> Rc<[(Duration, T)]> {
+/// Returns the tokens of a channel of `file`, or of the recording that stands for it in the present run. `tokens` gives
+/// those of a file; their clones know what was read in the runs before.
+pub fn recorded<T: Clone + 'static>(file: &'static str, channel: &'static str, tokens: impl FnOnce(&str) -> T) -> T {
     let other = TRIAL.with_borrow(|trial| {
         let trial = trial.as_ref()?;
         trial.study.recordings.get(trial.recording.checked_sub(1)?).copied()
     });
     let file = other.unwrap_or(file);
-    let known = RECORDED.with_borrow(|all| all.get(&(file, channel)).and_then(|tokens| tokens.clone().downcast().ok()));
-    let tokens: Rc<Rc<[(Duration, T)]>> = known.unwrap_or_else(|| {
-        let tokens: Rc<Rc<[(Duration, T)]>> = Rc::new(read(file).into());
-        RECORDED.with_borrow_mut(|all| all.insert((file, channel), tokens.clone()));
-        tokens
-    });
-    (*tokens).clone()
+    RECORDED.with_borrow_mut(|all| {
+        let known = all.get(&(file, channel)).and_then(|known| known.downcast_ref::<T>());
+        known.cloned().unwrap_or_else(|| {
+            let tokens = tokens(file);
+            all.insert((file, channel), Rc::new(tokens.clone()));
+            tokens
+        })
+    })
 }
 
 /// Serves runs until standard input ends: `seed recording tests value …`, answered by `ok goal …` or `failed reason`.

@@ -128,8 +128,7 @@ impl<T: Message> Player<T> {
         loop {
             let next = self.recording.next_message().map_err(|error| Mistake::File(error.to_string()))?;
             let Some(found) = next else { return Ok(None) };
-            let start = *self.start.get_or_insert(found.time);
-            let zero = if self.recording.begins_late() { start } else { 0 };
+            let zero = self.recording.zero(*self.start.get_or_insert(found.time));
             let channel = self.recording.channels().get(&found.channel);
             let Some(channel) = channel.filter(|c| c.name == topic || c.topic == topic) else { continue };
             self.has_topic = true;

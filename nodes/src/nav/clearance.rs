@@ -53,8 +53,8 @@ impl Clearance {
         Zone::new(Outline::new(vehicle, [0.0; 2]), if is_backward { 0.0 } else { self.ahead - self.side })
     }
 
-    /// Obstacles and missing floor near the tractor, and floor that was not seen and should have been, with
-    /// the distances to be kept from them in m. Ahead, floor that is not known only counts where the camera sees it, and
+    /// Obstacles and missing floor near the tractor, and floor that was not seen and should have been, with the
+    /// distances to be kept from them in m. Ahead, floor that is not known only counts where the camera sees it, and
     /// behind everywhere. What is beneath the vehicle already does not count.
     pub(super) fn hazards<'a>(
         &'a self,

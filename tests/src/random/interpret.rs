@@ -14,7 +14,7 @@ use apex_interpret::{Args, Interpreter, Library, Node, Outcome, Value};
 use apex_rt::{Failure, Observer, Time};
 use std::{cell::RefCell, collections::BTreeMap, rc::Rc};
 
-/// What sinks wrote, by their identifiers.
+/// Tapes of the sinks, by their identifiers.
 type Tapes = Rc<RefCell<BTreeMap<i64, Vec<Token>>>>;
 
 /// Node of one of the kinds.

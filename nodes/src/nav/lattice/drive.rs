@@ -48,7 +48,8 @@ impl CurveDrive {
         self.backing_gain > 0.0
     }
 
-    /// Distance in m that the vehicle, or its load, reaches from the axis of the tractor to all sides, however it is bent.
+    /// Distance in m that the vehicle, or its load, reaches from the axis of the tractor to all sides, however it is
+    /// bent.
     pub(super) fn girth(&self) -> f32 {
         let Articulated { hitch, drawbar, width, .. } = self.shape;
         let [length, across] = self.load.map(|size| 0.5 * size);
@@ -91,7 +92,7 @@ pub(super) struct Drive<'a> {
     pub ground: &'a Ground<'a>,
     pub vehicle: &'a CurveDrive,
     pub room: &'a Room,
-    /// What of the floor the vehicle may drive over, if it has to be known.
+    /// Floor that the vehicle may drive over, if it has to be known.
     pub footing: Option<&'a Footing>,
 }
 

@@ -16,7 +16,7 @@ const GRAZE: f32 = 0.005;
 /// Distance from the start up to which hazards that are near there count, in m.
 const LEAVES: f32 = 1.5;
 
-/// What of the floor a vehicle may drive over, as `SweepStop` judges it.
+/// Floor that a vehicle may drive over, as `SweepStop` judges it.
 #[derive(Debug, Clone)]
 pub(super) struct Footing {
     transform: DistanceTransform,

@@ -70,11 +70,11 @@ const NONE: u32 = u32::MAX;
 /// steps (hybrid A*; Dolgov et al. 2010), and Dubins curves at the end. A passively steered trailer is predicted on the
 /// way. Vehicles that may back up do so with a constant angle to the trailer in each step, as `BackFollower` does. The
 /// heuristic is the length of the shortest way on the map without regard to the heading. The outline of the vehicle
-/// with its load keeps a margin from obstacles; on the first 0.8 m it may be as near to them as it is at the start. From
-/// hazards on the floor it keeps the clearance that `SweepStop` keeps, and 4 cm more. If
-/// a vehicle that backs up does not get away from a narrow place, a second search has shorter steps and smaller states
-/// near the start. If the first search is too long, the second one trusts the heuristic more. A way to a goal at which
-/// something stands ends before it. Keeps its buffers.
+/// with its load keeps a margin from obstacles; on the first 0.8 m it may be as near to them as it is at the start.
+/// From hazards on the floor it keeps the clearance that `SweepStop` keeps, and 4 cm more. If a vehicle that backs up
+/// does not get away from a narrow place, a second search has shorter steps and smaller states near the start. If the
+/// first search is too long, the second one trusts the heuristic more. A way to a goal at which something stands ends
+/// before it. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub struct CurveSearch {
     estimates: Estimates,
@@ -598,7 +598,8 @@ mod tests {
         assert_eq!(from(Pose2::new(end.x, end.y, 0.0), 2.0), Err(NoPath::GoalBlocked));
     }
 
-    /// The stop and the planner had other ideas of the floor behind a corner of the trailer, and the vehicle stood there.
+    /// The stop and the planner had other ideas of the floor behind a corner of the trailer, and the vehicle stood
+    /// there.
     #[test]
     fn what_the_planner_plans_backward_the_stop_lets_drive() {
         let map = room();
