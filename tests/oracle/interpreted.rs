@@ -111,26 +111,26 @@ fn interpreted_synchronous_graphs_follow_the_rules() {
     let count = (number("APEX_INTERPRETED_GRAPHS").unwrap_or(1000) / 5) as usize;
     let first = number("APEX_ORACLE_SEED").unwrap_or(1);
     let cases = cases(SEED ^ first, count);
-    let wrong: Vec<String> = cases
-        .par_chunks(40)
-        .flat_map_iter(|cases| {
-            let (programs, catalog) = programs(&text(cases));
-            let tried = cases.iter().enumerate().flat_map(move |(number, case)| {
-                let expected = case.run(ITERATIONS);
-                let names = [format!("Flat{number}"), format!("Nested{number}")];
-                let of_case: Vec<&CheckedProgram> = programs.iter().filter(|p| names.contains(&p.graph.name)).collect();
-                assert_eq!(of_case.len(), 2, "both are programs");
-                let wrong = of_case.into_iter().filter_map(|program| {
-                    let trace = case.interpret(program, &catalog, ITERATIONS).expect("all nodes are known");
-                    (trace != expected).then(|| format!("{}: {expected:?}\n{trace:?}\n{case:?}", program.graph.name))
-                });
-                wrong.collect::<Vec<_>>()
-            });
-            tried.collect::<Vec<_>>()
-        })
-        .collect();
-    println!("{} graphs, each twice", cases.len());
+    // A loop through the nested graph may have no delay then: such a graph is not legal.
+    let tried: Vec<Option<String>> = cases.par_iter().filter_map(|case| wrong_synchronous(case, ITERATIONS)).collect();
+    let wrong: Vec<&String> = tried.iter().flatten().collect();
+    println!("{} of {} graphs are legal, each twice", tried.len(), cases.len());
     assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong[0]);
+    assert!(tried.len() * 10 > cases.len() * 9, "too few graphs are legal");
+}
+
+/// Difference of the runs of a graph, flat and nested, from the rules; `None` if the graph is not legal.
+fn wrong_synchronous(case: &apex_tests::Case, iterations: usize) -> Option<Option<String>> {
+    let (programs, catalog) = programs(&text(std::slice::from_ref(case)))?;
+    let expected = case.run(iterations);
+    let programs: Vec<&CheckedProgram> =
+        programs.iter().filter(|p| ["Flat0", "Nested0"].contains(&p.graph.name.as_str())).collect();
+    assert_eq!(programs.len(), 2, "both are programs");
+    let wrong = programs.into_iter().find_map(|program| {
+        let trace = case.interpret(program, &catalog, iterations).expect("all nodes are known");
+        (trace != expected).then(|| format!("{}: {expected:?}\n{trace:?}\n{case:?}", program.graph.name))
+    });
+    Some(wrong)
 }
 
 /// Claims that the compiler has not decided are looked at.
@@ -159,6 +159,19 @@ fn interpreted_claims_are_reported_once() {
 #[test]
 fn interpreted_graphs_run_as_their_nets_may() {
     try_all(1, |seed| generate(seed, true), as_net);
+}
+
+/// Seeds of graphs about which the program, interpreted and compiled alike, and the net disagree: outputs in loops with
+/// delays, some of them sent to slots.
+const OPEN: [u64; 6] = [5412, 6739, 6971, 500_608, 502_980, 507_263];
+
+#[test]
+#[ignore = "open: one of 4,000 random graphs"]
+fn open_disagreements_with_the_nets() {
+    let checker = Checker::new();
+    let wrong = OPEN.iter().filter(|seed| matches!(as_net(&checker, &generate(**seed, true)), Tried::Wrong(_)));
+    let wrong: Vec<&u64> = wrong.collect();
+    assert!(wrong.is_empty(), "{wrong:?}");
 }
 
 #[test]
