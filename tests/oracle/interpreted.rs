@@ -10,6 +10,8 @@ use std::env;
 
 /// Times of reactions that are in time, in ns.
 const IN_TIME: [i64; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
+/// Maximum number of failures that are reduced and shown.
+const SHOWN: usize = 3;
 /// Graphs that share a checker.
 const BATCH: u64 = 100;
 
@@ -70,6 +72,21 @@ fn late_as_in_time(checker: &Checker, case: &Case) -> Tried {
     }
 }
 
+/// Reduces a failing graph. Returns the failure of a small graph that still fails.
+fn smallest(checker: &Checker, mut case: Case, test: &(dyn Fn(&Checker, &Case) -> Tried + Sync)) -> Option<String> {
+    let Tried::Wrong(mut why) = test(checker, &case) else { return None };
+    loop {
+        let smaller = case.smaller().into_iter().find_map(|case| match test(checker, &case) {
+            Tried::Wrong(why) => Some((case, why)),
+            Tried::Illegal | Tried::Right(_) => None,
+        });
+        match smaller {
+            Some(found) => (case, why) = found,
+            None => return Some(why),
+        }
+    }
+}
+
 fn calls(records: &[Record]) -> usize {
     records.iter().filter(|record| matches!(record, Record::Fired(_) | Record::Handled(_))).count()
 }
@@ -89,17 +106,18 @@ fn try_all(share: u64, made: impl Fn(u64) -> Case + Sync, test: impl Fn(&Checker
         .collect();
     let right: Vec<usize> =
         tried.iter().filter_map(|tried| if let Tried::Right(calls) = tried { Some(*calls) } else { None }).collect();
-    let wrong: Vec<&str> = tried
-        .iter()
-        .filter_map(|tried| if let Tried::Wrong(why) = tried { Some(why.as_str()) } else { None })
-        .collect();
+    let wrong: Vec<u64> =
+        (first..).zip(&tried).filter(|(_, tried)| matches!(tried, Tried::Wrong(_))).map(|(seed, _)| seed).collect();
     let calls: usize = right.iter().sum();
     println!(
         "{count} seeds from APEX_ORACLE_SEED={first}: {} right, {} wrong, {calls} calls",
         right.len(),
         wrong.len()
     );
-    assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong[..wrong.len().min(3)].join("\n"));
+    let checker = Checker::new();
+    let shown: Vec<String> =
+        wrong.iter().take(SHOWN).filter_map(|seed| smallest(&checker, made(*seed), &test)).collect();
+    assert!(wrong.is_empty(), "{} are wrong, with the seeds {wrong:?}:\n{}", wrong.len(), shown.join("\n"));
     // Otherwise little was tested.
     assert!(right.len() as u64 * 2 > count && calls > right.len() * 5, "too few graphs are legal, or they do nothing");
 }
