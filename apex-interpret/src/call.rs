@@ -31,11 +31,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 let token = local.arriving(self.state, input);
                 local.write(self.state, PortId { node, port: 1 }, token);
             }
-            Fire::See => {
-                let token = local.arriving(self.state, input);
-                self.state.seen.entry(node).or_default().extend(token);
-            }
-            Fire::Nothing => {}
+            // Nothing looks at probes yet.
+            Fire::See | Fire::Nothing => {}
         }
     }
 
@@ -57,7 +54,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         } else if self.accepts(node, call, local) {
             let mut args = self.args(node, args, None, ctx, Some(local));
             if let Some(event) = call.processed {
-                self.state.tokens.insert(event, std::rc::Rc::new(()));
+                self.state.trigger(event);
             }
             let result = self.called(node, call.failing, |boxed| boxed.process(&mut args));
             self.triggered(node, args);
@@ -199,7 +196,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         if ctx.is_late(self.number(node), time, self.observer)
             && let Some(event) = event
         {
-            self.state.tokens.insert(event, std::rc::Rc::new(()));
+            self.state.trigger(event);
         }
     }
 

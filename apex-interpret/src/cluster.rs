@@ -9,7 +9,6 @@ use apex_dsl::{
     analyse::{ClusterId, Run as Firings},
     graph::{NodeId, NodeKind, PortId},
     program::{Lower, Op, Plan, Storage},
-    syntax::tree::PortKind,
 };
 use apex_rt::{Ctx, Observer};
 use std::collections::BTreeMap;
@@ -50,7 +49,7 @@ impl<'a> Local<'a> {
             return self.read(state, from);
         }
         let tokens = self.arrays.get(&from)?;
-        if !self.is_batched(to) {
+        if !self.lower.is_batched(to) {
             return tokens.get(self.firing).cloned().flatten();
         }
         let rate = self.lower.graph.port(to).rate;
@@ -70,7 +69,7 @@ impl<'a> Local<'a> {
 
     fn spread(&mut self, port: PortId, token: Option<Value>) {
         let rate = self.lower.graph.port(port).rate;
-        let is_batched = self.is_batched(port);
+        let is_batched = self.lower.is_batched(port);
         let Some(places) = self.arrays.get_mut(&port) else { return };
         match token {
             Some(token) if is_batched => {
@@ -82,13 +81,6 @@ impl<'a> Local<'a> {
             None if is_batched => {}
             token => places[self.firing] = token,
         }
-    }
-
-    /// Returns `true` if a port takes or sends an array of tokens at once.
-    fn is_batched(&self, port: PortId) -> bool {
-        self.lower
-            .signature(port.node)
-            .is_some_and(|signature| signature.ports.get(port.port).is_some() && signature.is_batched(port.port))
     }
 }
 
@@ -111,9 +103,9 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     pub fn in_cluster(&mut self, op: &Op, ctx: &Ctx, place: &mut Place<'_, 'r>) {
         let Some(local) = place.local.as_deref_mut() else { return };
         match op {
-            Op::Take(node) => {
-                let (port, token) = self.waiting(*node);
-                local.write(self.state, port, token);
+            Op::Take(port) => {
+                let token = self.waiting(port.node);
+                local.write(self.state, *port, token);
             }
             Op::TakeDelayed(node) => {
                 let token = self.delayed(*node, local);
@@ -159,15 +151,12 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         }
     }
 
-    /// The token that waits in a delay or at an input of the program, and where it comes in.
-    fn waiting(&mut self, node: NodeId) -> (PortId, Option<Value>) {
-        let n = &self.code.graph().nodes[node];
-        let port = n.ports.iter().position(|port| port.kind == PortKind::Output).unwrap_or(0);
-        let token = match n.kind {
+    /// The token that waits in a delay or at an input of the program.
+    fn waiting(&mut self, node: NodeId) -> Option<Value> {
+        match self.code.graph().nodes[node].kind {
             NodeKind::Delay(_) => self.state.held.get_mut(&node).and_then(|held| held.take_at(0)),
             _ => self.state.inputs.remove(&node).map(|(_, token)| token),
-        };
-        (PortId { node, port }, token)
+        }
     }
 
     /// Token of a firing of a delay: first those that it holds, then the first ones of this iteration.

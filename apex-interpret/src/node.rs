@@ -33,9 +33,6 @@ pub trait Node {
     /// Calls the method that is called when the node becomes active, or inactive.
     fn turned(&mut self, _active: bool) {}
 
-    /// Calls the method that is called when the program ends.
-    fn stop(&mut self) {}
-
     /// Returns the value of a parameter.
     fn param(&self, param: usize) -> Option<Value>;
 

@@ -109,7 +109,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             }
             Op::Cancel(cancel) => self.cancel(cancel, ctx, place),
             Op::Clear(port) => drop(self.state.tokens.remove(port)),
-            Op::Trigger(port) => drop(self.state.tokens.insert(*port, std::rc::Rc::new(()))),
+            Op::Trigger(port) => self.state.trigger(*port),
             Op::Send(port) => self.send(*port, ctx),
             Op::Taking { port, body } => {
                 place.taken = self.state.tokens.remove(port);
@@ -131,12 +131,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                     self.call_slot(*slot, call, token, ctx);
                 }
             }
-            Op::SeeSlot { slot, taken } => {
-                let node = self.code.program.wiring.slots[*slot].node;
-                if let Some(token) = self.slot_token(*slot, *taken, place) {
-                    self.state.seen.entry(node).or_default().push(token);
-                }
-            }
+            // Nothing looks at probes yet.
+            Op::SeeSlot { .. } => {}
             Op::PutOut { slot, taken, room } => {
                 let node = self.code.program.wiring.slots[*slot].node;
                 if let Some(token) = self.slot_token(*slot, *taken, place) {
@@ -360,7 +356,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         }
         taken |= *is_reached && self.state.take(Flag::Active(*interrupt));
         if let (Some((event, carries)), true) = (cancelled, taken) {
-            self.state.tokens.insert(*event, std::rc::Rc::new(()));
+            self.state.trigger(*event);
             if *carries {
                 self.state.set(Flag::Active(*interrupt), true);
             }

@@ -126,7 +126,7 @@ impl<O: Observer> Run<'_, '_, O> {
         }
     }
 
-    /// When a program wants to be called because of sources without a pace. If a part waits for others, they wake it.
+    /// Next call that sources without a pace need. If a part waits for others, they wake it.
     fn sources(&self) -> Next {
         let (analysis, bits) = (self.code.program.lower.analysis, &self.code.program.wiring.bits);
         let mut guards = analysis.clusters.iter().flat_map(|c| &c.own_guards);
@@ -298,32 +298,28 @@ impl<O: Observer> Run<'_, '_, O> {
     /// ⊥ takes the place of a token that did not come for too long. Returns `true` if one did not.
     fn silence_ends(&mut self, at: Time) -> bool {
         let code = self.code;
-        let mut any = false;
         for (timeout, silence) in code.program.wiring.silences.iter().enumerate() {
-            if any || !self.state.silences[timeout].is_due(at) {
+            if !self.state.silences[timeout].is_due(at) {
                 continue;
             }
             match &silence.entry {
-                Entry::Input { raises } => {
-                    if !self.state.conditions.has(*raises) {
-                        self.state.conditions.set(*raises, true);
-                        any = true;
-                    }
+                Entry::Input { raises } if !self.state.conditions.has(*raises) => {
+                    self.state.conditions.set(*raises, true);
+                    return true;
                 }
-                Entry::Connection { connection, raises, occupies, free } => {
-                    if self.state.conditions.all(free) {
-                        self.state.tokens.remove(&code.graph().connections[*connection].from);
-                        if let Some(stamp) = code.program.lower.stamp(*connection) {
-                            self.state.stamps[stamp] = at;
-                        }
-                        self.state.conditions.set(*occupies, false);
-                        self.state.conditions.set(*raises, true);
-                        any = true;
+                Entry::Connection { connection, raises, occupies, free } if self.state.conditions.all(free) => {
+                    self.state.tokens.remove(&code.graph().connections[*connection].from);
+                    if let Some(stamp) = code.program.lower.stamp(*connection) {
+                        self.state.stamps[stamp] = at;
                     }
+                    self.state.conditions.set(*occupies, false);
+                    self.state.conditions.set(*raises, true);
+                    return true;
                 }
+                Entry::Input { .. } | Entry::Connection { .. } => {}
             }
         }
-        any
+        false
     }
 
     /// The first timeout expires that is due and can. Returns `true` if there is one.

@@ -9,6 +9,7 @@ use apex_dsl::{
 use apex_rt::{ProgramTime, Time, Timeout, Timer};
 use std::{
     collections::{BTreeMap, BTreeSet, VecDeque},
+    rc::Rc,
     time::Duration,
 };
 
@@ -60,8 +61,6 @@ pub struct State {
     pub outputs: BTreeMap<NodeId, Value>,
     /// Events of the program that wait to be taken.
     pub events: BTreeMap<NodeId, Value>,
-    /// Tokens that probes saw.
-    pub seen: BTreeMap<NodeId, Vec<Value>>,
     /// State of the bodies of `each`.
     pub bodies: BTreeMap<NodeId, State>,
 }
@@ -127,7 +126,6 @@ impl State {
             inputs: BTreeMap::new(),
             outputs: BTreeMap::new(),
             events: BTreeMap::new(),
-            seen: BTreeMap::new(),
             bodies: bodies.collect::<Result<_, String>>()?,
         })
     }
@@ -135,6 +133,11 @@ impl State {
     /// Clears a flag. Returns `true` if it was set.
     pub fn take(&mut self, flag: Flag) -> bool {
         self.flags.remove(&flag)
+    }
+
+    /// Triggers an event without a value.
+    pub fn trigger(&mut self, event: PortId) {
+        self.tokens.insert(event, Rc::new(()));
     }
 
     /// Sets or clears a flag.

@@ -4,7 +4,7 @@
 
 use apex_dsl::checked::CheckedProgram;
 use apex_tests::oracle::{Case, Checker, Record, generate, interpret, on_threads, paced, with_timeouts};
-use apex_tests::{SEED, cases, programs, text};
+use apex_tests::{Compiler, SEED, cases, text};
 use rayon::prelude::*;
 use std::env;
 
@@ -130,7 +130,13 @@ fn interpreted_synchronous_graphs_follow_the_rules() {
     let first = number("APEX_ORACLE_SEED").unwrap_or(1);
     let cases = cases(SEED ^ first, count);
     // A loop through the nested graph may have no delay then: such a graph is not legal.
-    let tried: Vec<Option<String>> = cases.par_iter().filter_map(|case| wrong_synchronous(case, ITERATIONS)).collect();
+    let tried: Vec<Option<String>> = cases
+        .par_chunks(BATCH as usize)
+        .flat_map_iter(|cases| {
+            let mut compiler = Compiler::new();
+            cases.iter().filter_map(move |case| wrong_synchronous(&mut compiler, case, ITERATIONS))
+        })
+        .collect();
     let wrong: Vec<&String> = tried.iter().flatten().collect();
     println!("{} of {} graphs are legal, each twice", tried.len(), cases.len());
     assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong[0]);
@@ -138,14 +144,14 @@ fn interpreted_synchronous_graphs_follow_the_rules() {
 }
 
 /// Difference of the runs of a graph, flat and nested, from the rules; `None` if the graph is not legal.
-fn wrong_synchronous(case: &apex_tests::Case, iterations: usize) -> Option<Option<String>> {
-    let (programs, catalog) = programs(&text(std::slice::from_ref(case)))?;
+fn wrong_synchronous(compiler: &mut Compiler, case: &apex_tests::Case, iterations: usize) -> Option<Option<String>> {
+    let programs = compiler.programs(&text(std::slice::from_ref(case)))?;
     let expected = case.run(iterations);
     let programs: Vec<&CheckedProgram> =
         programs.iter().filter(|p| ["Flat0", "Nested0"].contains(&p.graph.name.as_str())).collect();
     assert_eq!(programs.len(), 2, "both are programs");
     let wrong = programs.into_iter().find_map(|program| {
-        let trace = case.interpret(program, &catalog, iterations).expect("all nodes are known");
+        let trace = case.interpret(program, compiler.catalog(), iterations).expect("all nodes are known");
         (trace != expected).then(|| format!("{}: {expected:?}\n{trace:?}\n{case:?}", program.graph.name))
     });
     Some(wrong)

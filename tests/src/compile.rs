@@ -3,7 +3,7 @@
 use apex_dsl::{
     catalog::Catalog,
     checked::CheckedProgram,
-    passes,
+    passes::{self, Checked},
     report::{Diagnostic, Diagnostics, Severity},
     source::{Sources, Span},
 };
@@ -57,38 +57,56 @@ pub fn check(text: &str) -> Vec<Found> {
     compile(text).0
 }
 
-/// The programs of a `text`, which can use the nodes of this package, with the catalog; `None` if it has errors.
-pub fn programs(text: &str) -> Option<(Vec<CheckedProgram>, Catalog)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let workspace = Workspace::load(folder).expect("this package has a workspace");
-    let mut disk = Disk::new(Some(&workspace.cache_folder()));
-    let mut catalog = Catalog::load(workspace.crates(&Seen::Crate("behaviour", false)), &mut disk);
-    let mut sources = Sources::default();
-    let root = sources.add(folder.join("text.afg"), text);
-    let mut diagnostics = Diagnostics::default();
-    let checked = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
-    (!diagnostics.has_errors()).then_some((checked.programs, catalog))
+/// The compiler, with the nodes of this package.
+pub struct Compiler {
+    disk: Disk,
+    catalog: Catalog,
+}
+
+impl Compiler {
+    /// The compiler before its first text.
+    #[allow(clippy::new_without_default)]
+    pub fn new() -> Self {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let workspace = Workspace::load(folder).expect("this package has a workspace");
+        let mut disk = Disk::new(Some(&workspace.cache_folder()));
+        let catalog = Catalog::load(workspace.crates(&Seen::Crate("behaviour", false)), &mut disk);
+        Self { disk, catalog }
+    }
+
+    /// The node types.
+    pub fn catalog(&self) -> &Catalog {
+        &self.catalog
+    }
+
+    /// The programs of a `text`; `None` if it has errors.
+    pub fn programs(&mut self, text: &str) -> Option<Vec<CheckedProgram>> {
+        let (checked, _, diagnostics) = self.check(text);
+        (!diagnostics.has_errors()).then_some(checked.programs)
+    }
+
+    fn check(&mut self, text: &str) -> (Checked, Sources, Diagnostics) {
+        let mut sources = Sources::default();
+        let root = sources.add(Path::new(env!("CARGO_MANIFEST_DIR")).join("text.afg"), text);
+        let mut diagnostics = Diagnostics::default();
+        let checked = passes::check(root, &mut self.catalog, &mut sources, &mut self.disk, &mut diagnostics);
+        (checked, sources, diagnostics)
+    }
 }
 
 fn compile(text: &str) -> (Vec<Found>, String) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let workspace = Workspace::load(folder).expect("this package has a workspace");
-    let mut disk = Disk::new(Some(&workspace.cache_folder()));
-    let mut catalog = Catalog::load(workspace.crates(&Seen::Crate("behaviour", false)), &mut disk);
-    let mut sources = Sources::default();
-    let root = sources.add(folder.join("text.afg"), text);
-    let mut diagnostics = Diagnostics::default();
-    let checked = passes::check(root, &mut catalog, &mut sources, &mut disk, &mut diagnostics);
+    let mut compiler = Compiler::new();
+    let (checked, sources, mut diagnostics) = compiler.check(text);
     let code = passes::generate(
         &checked.programs,
         &checked.texts.machines,
-        &catalog,
+        &compiler.catalog,
         &sources,
         &|_| proc_macro2::Span::call_site(),
         false,
         &mut diagnostics,
     );
-    disk.save();
+    compiler.disk.save();
     let errors = diagnostics.sorted().into_iter().filter(|d| d.severity == Severity::Error);
     (errors.map(|d| Found::new(d, &sources)).collect(), code.to_string())
 }

@@ -47,7 +47,7 @@ pub mod nodes {
     pub use tapes::*;
 }
 
-pub use compile::{Found, check, error, expand, programs};
+pub use compile::{Compiler, Found, check, error, expand};
 pub use dice::Dice;
 pub use libraries::{Libraries, root};
 pub use log::{Log, active, active_after_each, react, simulate};

@@ -135,10 +135,15 @@ impl Generator<'_> {
 
     /// The method of a node that is called when it becomes active, or inactive.
     pub fn hook(&self, graph: &Graph, node: NodeId, active: bool) -> TokenStream {
-        let NodeKind::Library(library) = &graph.nodes[node].kind else { return quote!() };
-        let signature = &self.catalog.signatures[library.signature];
-        let method = if active { &signature.on_activate } else { &signature.on_deactivate };
-        let (place, method) = (self.node_place(graph, node), ident(method.as_deref().unwrap_or_default()));
+        let signature = match &graph.nodes[node].kind {
+            NodeKind::Library(library) => Some(&self.catalog.signatures[library.signature]),
+            _ => None,
+        };
+        let method = signature.and_then(|s| if active { s.on_activate.as_ref() } else { s.on_deactivate.as_ref() });
+        let Some(method) = method else {
+            return self.bug(graph.nodes[node].span, "a node has no method for a change of its activity");
+        };
+        let (place, method) = (self.node_place(graph, node), ident(method));
         quote! { #place.#method(); }
     }
 }

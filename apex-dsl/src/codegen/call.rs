@@ -143,7 +143,10 @@ impl<'a> Calling<'a> {
         let (names, tokens): (Vec<Ident>, Vec<TokenStream>) =
             inputs.filter_map(|to| Some((emitter.tested(*to), emitter.arriving(*to, self.block)?))).unzip();
         let (place, clears) = (self.place(), self.clear_buffers());
-        let method = ident(self.signature.no_message.as_deref().unwrap_or_default());
+        let Some(method) = &self.signature.no_message else {
+            return emitter.generator.bug(emitter.graph.nodes[self.node].span, "a node has no method for ⊥");
+        };
+        let method = ident(method);
         let value = if returns.maybe || returns.fallible || !returns.value { call } else { quote!(Some(#call)) };
         let missing = match (returns.value, returns.fallible) {
             (true, true) => quote!(Ok(None)),

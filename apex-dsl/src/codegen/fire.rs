@@ -42,7 +42,7 @@ impl<'a> Emitter<'a> {
     /// An operation that belongs to a cluster.
     pub fn op(&self, op: &Op, block: BlockId) -> TokenStream {
         match op {
-            Op::Take(node) => self.take(*node),
+            Op::Take(end) => self.take(*end),
             Op::TakeDelayed(node) => self.take_delayed(*node),
             Op::Declare(end) => self.declare(*end),
             Op::Block { block, tokens, body } => {
@@ -78,9 +78,8 @@ impl<'a> Emitter<'a> {
     }
 
     /// Takes the token that waits in a delay or at an input of the program.
-    fn take(&self, node: NodeId) -> TokenStream {
-        let sends = self.graph.nodes[node].ports.iter().position(|p| p.kind == PortKind::Output).unwrap_or(0);
-        let name = self.generator.name(PortId { node, port: sends });
+    fn take(&self, end: PortId) -> TokenStream {
+        let (name, node) = (self.generator.name(end), end.node);
         match self.graph.nodes[node].kind {
             NodeKind::Delay(_) => {
                 let held = self.generator.held(node);
@@ -242,7 +241,10 @@ impl<'a> Emitter<'a> {
                 Some((from, token)) => self.generator.see(self.graph, node, from, &token),
                 None => quote!(),
             },
-            _ => quote!(),
+            (Fire::Nothing, _) => quote!(),
+            (Fire::Call(_) | Fire::Each(_), _) => {
+                self.generator.bug(self.graph.nodes[node].span, "a node fires as one of another kind")
+            }
         }
     }
 

@@ -121,7 +121,10 @@ impl Writer<'_> {
                 let name = generator.name(*end);
                 quote! { state.#name = Some(()); }
             }
-            Op::Send(end) => view.wiring.port(*end).map(|port| generator.send(view, port)).unwrap_or_default(),
+            Op::Send(end) => match view.wiring.port(*end) {
+                Some(port) => generator.send(view, port),
+                None => generator.bug(view.graph.nodes[end.node].span, "a port that sends has no row"),
+            },
             Op::Taking { port, body } => {
                 let body = self.ops(body);
                 generator.taken(view.graph, *port, &body)

@@ -35,7 +35,7 @@ impl Emitter<'_> {
     /// The token that arrives at an input in firing `i`, or the array of tokens, as `Option<&T>`.
     pub fn arriving_in_iteration(&self, to: PortId, from: PortId) -> TokenStream {
         let name = self.generator.name(from);
-        if self.is_batched(to) {
+        if self.view.program.lower.is_batched(to) {
             let (rate, copy) = (self.graph.port(to).rate, self.generator.copier(self.graph, from));
             return quote!(::apex_rt::gather::<_, #rate>(&#name, i, #copy).as_ref());
         }
@@ -45,22 +45,11 @@ impl Emitter<'_> {
     /// Puts the value that firing `i` sends into the array of the output. It may be ⊥ if it is `optional`.
     pub fn put_in_array(&self, end: PortId, value: TokenStream, optional: bool) -> TokenStream {
         let name = self.generator.name(end);
-        match (self.is_batched(end), optional) {
+        match (self.view.program.lower.is_batched(end), optional) {
             (true, true) => quote! { if let Some(batch) = #value { ::apex_rt::spread(&mut #name, i, batch); } },
             (true, false) => quote! { ::apex_rt::spread(&mut #name, i, #value); },
             (false, true) => quote! { #name[i] = #value; },
             (false, false) => quote! { #name[i] = Some(#value); },
-        }
-    }
-
-    /// Returns `true` if a port takes or sends an array of tokens at once.
-    fn is_batched(&self, end: PortId) -> bool {
-        match &self.graph.nodes[end.node].kind {
-            NodeKind::Library(library) => {
-                let signature = &self.generator.catalog.signatures[library.signature];
-                signature.ports.get(end.port).is_some() && signature.is_batched(end.port)
-            }
-            _ => false,
         }
     }
 

@@ -3,22 +3,22 @@
 
 use super::{Carries, Flag, Lowering, Op, Ops};
 use crate::{
-    graph::{NodeId, NodeKind, PortId, Standard},
+    graph::{Flow, NodeId, NodeKind, PortId, Standard},
     machine::Move,
 };
 
 impl Lowering<'_> {
-    /// A node becomes active, unless it is already.
+    /// Activation of a node, unless it is active already.
     pub fn activate(&self, node: NodeId) -> Op {
         Op::Activate { node, then: self.turn_effects(node, true) }
     }
 
-    /// A node is no longer active.
+    /// Deactivation of a node, if it is active.
     pub fn deactivate(&self, node: NodeId) -> Op {
         Op::Deactivate { node, then: self.turn_effects(node, false) }
     }
 
-    /// The event and the hook of a node that became active, or is no longer.
+    /// Event and hook of a node whose activity has changed.
     pub fn turn_effects(&self, node: NodeId, active: bool) -> Ops {
         let event = if active { Standard::Activated } else { Standard::Deactivated };
         let has_hook = self.lower.signature(node).is_some_and(|signature| match active {
@@ -106,12 +106,12 @@ impl Lowering<'_> {
     fn started(&self, end: PortId) -> Vec<Flag> {
         let graph = self.lower.graph;
         let sent = graph.connections.iter_enumerated().filter(|(_, c)| c.from == end);
-        let flags =
-            sent.filter_map(|(i, c)| match (graph.flow(c) == crate::graph::Flow::ToSlot, self.lower.carries(i)) {
-                (true, Carries::Sometimes) => Some(Flag::Carries(self.lower.analysis.asynchronous.slot(i))),
-                (false, Carries::Always | Carries::Sometimes) => Some(Flag::Gains(c.to.node)),
-                _ => None,
-            });
+        let flags = sent.filter_map(|(i, c)| match self.lower.carries(i) {
+            Carries::Sometimes => Some(self.lower.flag(i)),
+            // A slot knows that its token always carries activity.
+            Carries::Always if graph.flow(c) != Flow::ToSlot => Some(self.lower.flag(i)),
+            _ => None,
+        });
         flags.collect()
     }
 

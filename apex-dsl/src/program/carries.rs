@@ -1,9 +1,9 @@
 //! Activity that tokens may carry.
 
-use super::Lower;
+use super::{Flag, Lower};
 use crate::{
     analyse::takes_activity,
-    graph::{ConnectionId, NodeId, NodeKind},
+    graph::{ConnectionId, Flow, NodeId, NodeKind},
 };
 
 /// Effect of a token on the activity of the node that takes it.
@@ -36,6 +36,15 @@ impl Lower<'_> {
             _ if takes_activity(self.graph, self.catalog, c.from.node) => Carries::Away,
             _ if self.is_active(c.from.node) => Carries::Sometimes,
             _ => Carries::Nothing,
+        }
+    }
+
+    /// Flag of activity that the token on `connection` carries.
+    pub fn flag(self, connection: ConnectionId) -> Flag {
+        let c = &self.graph.connections[connection];
+        match self.graph.flow(c) {
+            Flow::ToSlot => Flag::Carries(self.analysis.asynchronous.slot(connection)),
+            Flow::Synchronous | Flow::ToInput => Flag::Gains(c.to.node),
         }
     }
 

@@ -4,7 +4,7 @@
 use super::{Carries, Flag, Lower};
 use crate::{
     claims::{Checks, FROM, Model, NEARER, Place, PlaceId, scopes_of},
-    graph::{ClaimKind, Flow, NodeId, ScopeId},
+    graph::{ClaimKind, NodeId, ScopeId},
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,7 +22,7 @@ pub enum Spot {
 pub struct ClaimCheck {
     /// Its number.
     pub claim: usize,
-    /// When it is broken.
+    /// Activity that breaks it.
     pub broken: Broken,
 }
 
@@ -91,13 +91,7 @@ impl Lower<'_> {
                 // Nothing is kept for connections that never carry a token.
                 Place::Connection(c) if !self.analysis.asynchronous.live[c] => continue,
                 Place::Connection(c) if self.carries(c) != Carries::Sometimes => continue,
-                Place::Connection(c) => {
-                    let connection = &self.graph.connections[c];
-                    Spot::Flag(match self.graph.flow(connection) {
-                        Flow::ToSlot => Flag::Carries(self.analysis.asynchronous.slot(c)),
-                        Flow::Synchronous | Flow::ToInput => Flag::Gains(connection.to.node),
-                    })
-                }
+                Place::Connection(c) => Spot::Flag(self.flag(c)),
             };
             spots.entry(spot).or_default().insert(place);
         }

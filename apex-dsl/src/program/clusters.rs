@@ -6,6 +6,7 @@ use crate::{
     graph::{NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
 };
+
 impl Lowering<'_> {
     /// Operations of a cluster of a program, or of the body of an `each`.
     pub fn ops_of(&self, cluster: ClusterId, plan: &Plan) -> Vec<Op> {
@@ -67,16 +68,15 @@ impl Lowering<'_> {
     /// Tokens that wait in the program are taken when the cluster starts.
     fn read_first(&self, node: NodeId, plan: &Plan) -> Ops {
         let graph = self.lower.graph;
-        let sends = graph.nodes[node].ports.iter().any(|p| p.kind == PortKind::Output);
-        if !sends || plan.is_multirate {
-            return vec![];
-        }
+        let sends = graph.nodes[node].ports.iter().position(|p| p.kind == PortKind::Output);
+        let Some(port) = sends.filter(|_| !plan.is_multirate) else { return vec![] };
+        let take = Op::Take(PortId { node, port });
         match graph.nodes[node].kind {
             NodeKind::Delay(_) => {
                 let pass = if self.lower.is_active(node) { self.pass(node) } else { vec![] };
-                [Op::Take(node)].into_iter().chain(pass).collect()
+                [take].into_iter().chain(pass).collect()
             }
-            NodeKind::Boundary(_) if !graph.is_body => vec![Op::Take(node)],
+            NodeKind::Boundary(_) if !graph.is_body => vec![take],
             _ => vec![],
         }
     }
@@ -138,7 +138,7 @@ impl Lowering<'_> {
         match &graph.nodes[node].kind {
             NodeKind::Delay(_) if plan.is_used(PortId { node, port: 1 }) => return vec![Op::TakeDelayed(node)],
             NodeKind::Delay(_) => return vec![],
-            NodeKind::Boundary(PortKind::Input) if !graph.is_body => return vec![Op::Take(node)],
+            NodeKind::Boundary(PortKind::Input) if !graph.is_body => return vec![Op::Take(PortId { node, port: 0 })],
             _ => {}
         }
         let body = self.step(node, plan);

@@ -156,4 +156,10 @@ impl<'a> Lower<'a> {
         let graph = self.graph;
         graph.nodes.iter().any(started) || graph.nodes.ids().any(|node| self.watches_silence(node).is_some())
     }
+
+    /// Returns `true` if a port takes or sends an array of tokens at once.
+    pub fn is_batched(self, end: PortId) -> bool {
+        self.signature(end.node)
+            .is_some_and(|signature| signature.ports.get(end.port).is_some() && signature.is_batched(end.port))
+    }
 }

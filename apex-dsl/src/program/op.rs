@@ -99,8 +99,8 @@ pub enum Op {
     Stamp { upstream: Vec<ClusterId>, stamps: Vec<usize>, leaves: Option<ClusterId> },
 
     // Clusters
-    /// Takes the token that waits in a delay or at an input of the program.
-    Take(NodeId),
+    /// Takes the token that waits in a delay or at an input of the program, and comes in at this port.
+    Take(PortId),
     /// Declares a token before the blocks that use it.
     Declare(PortId),
     /// Happens if all tokens are there.

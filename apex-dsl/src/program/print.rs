@@ -138,7 +138,7 @@ impl<'p> Lines<'p> {
                     if ages.is_empty() { "now".to_owned() } else { ages.join(", ") }
                 ));
             }
-            Op::Take(node) => self.add(&format!("take {}", path(*node))),
+            Op::Take(port) => self.add(&format!("take {}", path(port.node))),
             Op::Declare(port) => self.add(&format!("declare {}", self.end(*port))),
             Op::Block { tokens, body, .. } => self.with(&format!("if {}", self.ends(tokens)), body),
             Op::Iteration { runs, firings } => {

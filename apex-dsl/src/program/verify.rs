@@ -284,10 +284,7 @@ impl Tokens<'_> {
     fn ops(&mut self, ops: &[Op], known: &mut BTreeSet<PortId>) {
         for op in ops {
             match op {
-                Op::Take(node) => {
-                    let sends = self.lower.graph.nodes[*node].ports.iter().position(|p| p.kind == PortKind::Output);
-                    known.extend(sends.map(|port| PortId { node: *node, port }));
-                }
+                Op::Take(port) => drop(known.insert(*port)),
                 Op::TakeDelayed(node) => drop(known.insert(PortId { node: *node, port: 1 })),
                 Op::Declare(port) => drop(known.insert(*port)),
                 Op::Block { tokens, body, .. } => {

@@ -283,18 +283,16 @@ fn send(graph: &Graph, analysis: &Analysis, bits: &Bits, connection: ConnectionI
 
 /// Effect of a token at `end` on activity.
 fn passing(lower: Lower<'_>, end: PortId) -> Port {
-    let Lower { graph, analysis, links, .. } = lower;
+    let Lower { graph, links, .. } = lower;
     let is_meant = |c: &ConnectionId| graph.connections[*c].active && graph.connections[*c].from == end;
     let mut connections: Vec<ConnectionId> = links.from(end.node).filter(is_meant).collect();
     connections.sort_unstable();
     let (mut along, mut takes_away) = (vec![], vec![]);
     for connection in connections {
         let c = &graph.connections[connection];
-        let to_slot = graph.flow(c) == Flow::ToSlot;
         match lower.carries(connection) {
-            Carries::Sometimes if to_slot => along.push(Flag::Carries(analysis.asynchronous.slot(connection))),
-            Carries::Sometimes => along.push(Flag::Gains(c.to.node)),
-            Carries::Away if !to_slot => takes_away.push(Flag::Loses(c.to.node)),
+            Carries::Sometimes => along.push(lower.flag(connection)),
+            Carries::Away if graph.flow(c) != Flow::ToSlot => takes_away.push(Flag::Loses(c.to.node)),
             _ => {}
         }
     }
