@@ -138,7 +138,7 @@ fn a_manager_starts_and_stops_the_robot() {
     assert!(manager.change("activate"));
     within(5.0, "it works", || robot.seen.all() == ["configure", "works"] && beats.all().len() > 10);
     assert!(manager.change("deactivate"));
-    assert_eq!(robot.seen.all().last(), Some(&"rests"));
+    robot.seen.expect(&["configure", "works", "rests"]);
     within(5.0, "its last word", || beats.all().last() == Some(&0));
     let count = beats.all().len();
     thread::sleep(Duration::from_millis(200));

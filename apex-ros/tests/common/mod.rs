@@ -5,6 +5,7 @@ pub mod python;
 
 use apex_ros::{Opening, Ros};
 use std::{
+    fmt::Debug,
     net::TcpListener,
     sync::{Arc, Mutex},
     thread,
@@ -97,6 +98,19 @@ impl<T: Clone + Send + 'static> Collected<T> {
     /// All that were collected so far.
     pub fn all(&self) -> Vec<T> {
         self.0.lock().expect("no panic").clone()
+    }
+
+    /// Waits for exactly these. What another port or topic has brought says nothing about when they come.
+    pub fn expect<U: Debug>(&self, expected: &[U])
+    where
+        T: PartialEq<U> + Debug,
+    {
+        let all = || self.all();
+        let start = Instant::now();
+        while all() != expected && start.elapsed() < Duration::from_secs(5) {
+            thread::sleep(Duration::from_millis(2));
+        }
+        assert_eq!(all(), expected);
     }
 
     pub fn clear(&self) {
