@@ -47,7 +47,7 @@ struct LegPlaces {
     done: Option<PlaceId>,
 }
 
-/// Places of a delay on a loop.
+/// Places of a delay.
 struct DelayPlaces {
     held: PlaceId,
     room: PlaceId,
@@ -63,11 +63,13 @@ struct Builder<'a> {
     segments: Vec<Segment>,
     places: Vec<LegPlaces>,
     loops: Vec<Loop>,
-    /// Places of the delays on loops.
+    /// Places of the delays.
     delays: BTreeMap<NodeId, DelayPlaces>,
-    /// For each delay on a loop and each leg into the loop: everything that the delay sent for a token on the leg has
+    /// For each delay and each leg into its loop: everything that the delay sent for a token on the leg has
     /// finished.
     returns: BTreeMap<(NodeId, usize), PlaceId>,
+    /// For the first delay of each loop and each output of a nested graph that its tokens pass: they have.
+    ahead: BTreeMap<(NodeId, Crossing), PlaceId>,
     /// For each `start`: marked until it has begun.
     starts: BTreeMap<NodeId, PlaceId>,
     from: BTreeMap<SegmentEnd, Vec<usize>>,
@@ -106,6 +108,13 @@ impl<'a> Builder<'a> {
                 starts.insert(node, place(format!("{} is due", graph.path(node)), 1));
             }
         }
+        let mut ahead = BTreeMap::new();
+        for on_loop in &loops {
+            for side in &on_loop.ahead {
+                let name = format!("{} has passed {}", names(graph, &on_loop.delays), side_name(graph, *side));
+                ahead.insert((on_loop.delays[0], *side), place(name, 0));
+            }
+        }
         let mut returns = BTreeMap::new();
         for (on_loop, entry) in entries() {
             let segment = connection_name(graph, segments[entry].connection);
@@ -120,7 +129,7 @@ impl<'a> Builder<'a> {
             from.entry(segment.from).or_default().push(i);
             to.entry(segment.to).or_default().push(i);
         }
-        Self { graph, net, segments, places, loops, delays: BTreeMap::new(), returns, starts, from, to }
+        Self { graph, net, segments, places, loops, delays: BTreeMap::new(), returns, ahead, starts, from, to }
     }
 
     fn place(&mut self, name: String, initial: usize) -> PlaceId {
@@ -185,9 +194,7 @@ impl<'a> Builder<'a> {
         let name = self.graph.path(node);
         match &self.graph.nodes[node].kind {
             NodeKind::Start => return self.start(node, name),
-            NodeKind::Delay(initial) if self.loops.iter().any(|on_loop| on_loop.delays.contains(&node)) => {
-                return self.delay_in_loop(node, &name, initial.len());
-            }
+            NodeKind::Delay(initial) => return self.delay(node, &name, initial.len()),
             _ => {}
         }
         // `process` and the slots of a node take the lock while they run, so that they exclude one another.
@@ -263,20 +270,12 @@ impl<'a> Builder<'a> {
         let mut takes = self.tokens(&inputs);
         takes.extend([enabled, lock]);
         takes.extend(self.free(&out));
-        let mut given = vec![running];
-        let mut sends = vec![running];
-        if let NodeKind::Delay(initial) = &self.graph.nodes[node].kind {
-            // `held` is the last place of both transitions, on which `State` relies.
-            let held = self.place(format!("{name} holds"), initial.len());
-            given.push(held);
-            sends.push(held);
-        }
-        self.transition(format!("{name} takes"), TransitionKind::Take(node), takes, given);
+        self.transition(format!("{name} takes"), TransitionKind::Take(node), takes, vec![running]);
         let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
         let mut gives = vec![lock, waiting];
         gives.extend(self.sent(&synchronous));
         gives.extend(ports.iter().map(|(_, place)| *place));
-        self.transition(format!("{name} sends"), TransitionKind::Send(node), sends, gives);
+        self.transition(format!("{name} sends"), TransitionKind::Send(node), vec![running], gives);
         // A leg that is both taken and given is only tested: it must be free, and remains so.
         let awaited = if self.graph.nodes[node].modifiers.pipelined { vec![] } else { self.awaited(&out) };
         let (mut takes, mut gives) = (vec![waiting], vec![enabled]);
@@ -323,9 +322,9 @@ impl<'a> Builder<'a> {
         self.transition(name, TransitionKind::Start(node), takes, self.sent(&segments));
     }
 
-    /// Adds a delay on a loop. It takes like a sink and sends like a source, because the nodes that it would wait for
-    /// need its tokens.
-    fn delay_in_loop(&mut self, node: NodeId, name: &str, initial: usize) {
+    /// Adds a delay. It takes like a sink and sends like a source: on a loop, the nodes that it would wait for need its
+    /// tokens, and elsewhere the nodes behind it need not wait for the nodes before it.
+    fn delay(&mut self, node: NodeId, name: &str, initial: usize) {
         let (inputs, out) = (self.legs_into(SegmentEnd::Node(node)), self.legs_from(SegmentEnd::Node(node)));
         let undecided = self.undecided(node, name).into_iter().map(|(_, place)| place).collect();
         let held = self.place(format!("{name} holds"), initial);
@@ -350,7 +349,7 @@ impl<'a> Builder<'a> {
     /// Adds the transition with which the delays of a loop send, once for each iteration of the nodes that feed the
     /// loop.
     fn iteration(&mut self, on_loop: &Loop) {
-        let Loop { delays, entries, events } = on_loop;
+        let Loop { delays, entries, events, ahead } = on_loop;
         let out: Vec<usize> = delays.iter().flat_map(|delay| self.legs_from(SegmentEnd::Node(*delay))).collect();
         let synchronous: Vec<usize> = out.iter().copied().filter(|l| self.flow(*l) == Flow::Synchronous).collect();
         let own = || delays.iter().map(|delay| &self.delays[delay]);
@@ -368,13 +367,14 @@ impl<'a> Builder<'a> {
         gives.extend(events);
         gives.extend(self.sent(&synchronous));
         gives.extend(own().flat_map(|delay| &delay.undecided));
+        gives.extend(ahead.iter().map(|side| self.ahead[&(delays[0], *side)]));
         let verb = if delays.len() == 1 { "sends" } else { "send" };
         let name = format!("{} {verb}", names(self.graph, delays));
         self.transition(name, TransitionKind::Release(delays[0]), takes, gives);
     }
 
     /// Adds a boundary of a nested graph. It takes a token from each leg that ends there and sends one on each leg that
-    /// begins there.
+    /// begins there, after the delays of a loop have sent theirs ahead.
     fn side(&mut self, side: Crossing) {
         let name = side_name(self.graph, side);
         let (incoming, outgoing) = (self.legs_into(SegmentEnd::Side(side)), self.legs_from(SegmentEnd::Side(side)));
@@ -383,6 +383,7 @@ impl<'a> Builder<'a> {
         let mut takes = self.tokens(&incoming);
         takes.push(enabled);
         takes.extend(self.free(&outgoing));
+        takes.extend(self.ahead.iter().filter(|((_, of), _)| *of == side).map(|(_, place)| *place));
         let mut gives = self.sent(&outgoing);
         gives.push(waiting);
         self.transition(format!("{name} passes"), TransitionKind::Pass(side), takes, gives);

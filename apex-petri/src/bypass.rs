@@ -5,7 +5,7 @@
 
 use super::{
     Net, PlaceId, TransitionId, TransitionKind, free_for,
-    route::{Loop, Segment, SegmentEnd},
+    route::{Loop, Segment, SegmentEnd, echoes},
     state::Token,
     token_on,
 };
@@ -26,6 +26,8 @@ struct Side {
     pass: TransitionId,
     enabled: PlaceId,
     waiting: PlaceId,
+    /// Marked when the delays of loops have sent their tokens through.
+    after: Vec<PlaceId>,
     routes: Vec<Route>,
     /// Ways on which a token has crossed early.
     ahead: BTreeSet<usize>,
@@ -45,11 +47,7 @@ impl Bypass {
     /// Initial state, without early tokens.
     pub fn new(segments: &[Segment], loops: &[Loop], net: &Net) -> Self {
         let mut gives: Vec<Vec<PlaceId>> = (0..segments.len()).map(|segment| vec![token_on(segment)]).collect();
-        // The copies (`echo`) for legs into loops follow the places of all legs.
-        let entries = loops.iter().flat_map(|on_loop| &on_loop.entries);
-        for (echo, entry) in (2 * segments.len()..).map(PlaceId::from).zip(entries) {
-            gives[*entry].push(echo);
-        }
+        echoes(segments, loops).for_each(|(echo, entry)| gives[entry].push(echo));
         let (mut sides, mut begins) = (BTreeMap::new(), BTreeMap::new());
         for (pass, transition) in net.transitions.iter_enumerated() {
             let TransitionKind::Pass(side) = transition.kind else { continue };
@@ -60,9 +58,11 @@ impl Bypass {
                 let (before, free) = (token_on(segment - 1), free_for(segment));
                 routes.push(Route { before, free, gives: gives[segment].clone() });
             }
-            // `Builder::side` takes a token of each way, then `enabled`. The last place that it gives to is `waiting`.
+            // `Builder::side` takes a token of each way, `enabled`, and that each way is free. The last place that it
+            // gives to is `waiting`.
             let (enabled, waiting) = (transition.takes[routes.len()], transition.gives[transition.gives.len() - 1]);
-            sides.insert(side, Side { pass, enabled, waiting, routes, ahead: BTreeSet::new() });
+            let after = transition.takes[2 * routes.len() + 1..].to_vec();
+            sides.insert(side, Side { pass, enabled, waiting, after, routes, ahead: BTreeSet::new() });
         }
         Self { sides, begins }
     }
@@ -96,8 +96,12 @@ impl Bypass {
         for side in self.sides.values_mut().filter(|s| !s.ahead.is_empty()) {
             let rest: Vec<&Route> =
                 side.routes.iter().enumerate().filter(|(i, _)| !side.ahead.contains(i)).map(|(_, w)| w).collect();
-            if rest.iter().all(|w| !marking[w.before].is_empty() && !marking[w.free].is_empty()) {
+            let is_ready = |w: &&Route| !marking[w.before].is_empty() && !marking[w.free].is_empty();
+            if rest.iter().all(is_ready) && side.after.iter().all(|place| !marking[*place].is_empty()) {
                 rest.into_iter().for_each(|w| go(w, marking));
+                for place in &side.after {
+                    marking[*place].pop_front();
+                }
                 marking[side.enabled].pop_front();
                 marking[side.waiting].push_back(Token::default());
                 side.ahead.clear();

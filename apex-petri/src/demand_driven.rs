@@ -1,6 +1,6 @@
 //! Sources that fire when their consumers need tokens.
 
-use super::route::{SegmentEnd, reached, segments};
+use super::route::{SegmentEnd, loops, reached, segments};
 use apex_dsl::graph::{Flow, Graph, NodeId, NodeKind};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,7 +15,8 @@ pub fn demand_driven(graph: &Graph, sources: &BTreeSet<NodeId>) -> BTreeSet<Node
     };
     let mut after: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
     let mut paces: BTreeSet<SegmentEnd> = graph.nodes.ids().filter(has_pace).map(SegmentEnd::Node).collect();
-    for segment in segments(graph) {
+    let segments = segments(graph);
+    for segment in &segments {
         let flow = graph.flow(&graph.connections[segment.connection]);
         // Tokens cross a boundary together, so that asynchronous ones wait for all others there, too.
         if flow == Flow::Synchronous || flow == Flow::ToInput && matches!(segment.from, SegmentEnd::Side(_)) {
@@ -23,6 +24,12 @@ pub fn demand_driven(graph: &Graph, sources: &BTreeSet<NodeId>) -> BTreeSet<Node
         }
         if flow == Flow::ToInput {
             paces.insert(segment.to);
+        }
+    }
+    // The delays of a loop send when a token has come on each leg into the loop.
+    for on_loop in loops(graph, &segments) {
+        for entry in on_loop.entries {
+            after.entry(segments[entry].from).or_default().extend(on_loop.delays.iter().copied().map(SegmentEnd::Node));
         }
     }
     let waits = |node: &NodeId| {

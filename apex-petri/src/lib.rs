@@ -92,9 +92,9 @@ pub enum TransitionKind {
     Pass(Crossing),
     /// Everything downstream of a boundary of a nested graph has finished.
     NotifySide(Crossing),
-    /// All delays of a loop, of which this node is the first, send their oldest tokens.
+    /// All delays of a loop, of which this node is the first, or a delay on no loop, send their oldest tokens.
     Release(NodeId),
-    /// A delay on a loop takes a token.
+    /// A delay takes a token.
     Hold(NodeId),
     /// Everything that the delays of a loop sent for the token on this leg into the loop has finished.
     Return(usize),
@@ -118,6 +118,11 @@ impl Net {
     /// The transition with this meaning.
     pub fn find(&self, kind: TransitionKind) -> Option<TransitionId> {
         self.transitions.position(|t| t.kind == kind)
+    }
+
+    /// The place where a delay holds tokens: the last one that the transition gives to with which it takes them.
+    fn held(&self, hold: TransitionId) -> Option<PlaceId> {
+        self.transitions[hold].gives.last().copied()
     }
 }
 

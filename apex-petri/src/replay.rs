@@ -45,12 +45,18 @@ struct Change {
     optional: bool,
 }
 
-/// Nodes whose unrecorded transitions may occur early or late: nodes with slots, which take ⊥, and delays on loops,
-/// which send. Events may be blocked in one order and not in the other.
+/// Nodes whose unrecorded transitions may occur early or late: nodes with slots, which take ⊥, delays, which send, and
+/// relays, which take activity. Events may be blocked in one order and not in the other, and `cancel` may find activity
+/// before a relay or not.
 pub fn undecided(graph: &Graph, net: &Net) -> BTreeSet<NodeId> {
+    let takes_activity = |node: NodeId| graph.connections.iter().any(|c| c.to.node == node && c.active);
     let undecided = net.transitions.iter().filter_map(|t| match t.kind {
         TransitionKind::Handle(connection) => Some(graph.connections[connection].to.node),
         TransitionKind::Release(node) => Some(node),
+        TransitionKind::Take(node) => {
+            let is_relay = matches!(graph.nodes[node].kind, NodeKind::Relay);
+            (is_relay && takes_activity(node)).then_some(node)
+        }
         _ => None,
     });
     undecided.collect()
@@ -79,6 +85,8 @@ pub struct Replay<'a> {
     has_groups: bool,
     /// Nodes that take ⊥ and delays that send only when something else needs it.
     hesitant: BTreeSet<NodeId>,
+    /// Step from which on they do.
+    hesitates_from: usize,
 }
 
 impl<'a> Replay<'a> {
@@ -106,17 +114,22 @@ impl<'a> Replay<'a> {
             last: vec![],
             has_groups: graph.has_several_groups(),
             hesitant: BTreeSet::new(),
+            hesitates_from: 0,
         };
         replay.expect_changes(true);
         Ok(replay)
     }
 
-    /// The same replay in which these of the undecided nodes act as late as possible, and the others as early as
-    /// possible. A run is legal if it is legal for one choice.
+    /// The same replay in which these of the undecided nodes act as late as possible from a step on (counted from 1),
+    /// and the others as early as possible. A run is legal if it is legal for one choice.
     #[must_use]
-    pub fn hesitating(mut self, nodes: BTreeSet<NodeId>) -> Self {
-        self.hesitant = nodes;
+    pub fn hesitating(mut self, nodes: BTreeSet<NodeId>, from: usize) -> Self {
+        (self.hesitant, self.hesitates_from) = (nodes, from);
         self
+    }
+
+    fn hesitates(&self, node: NodeId) -> bool {
+        self.step >= self.hesitates_from && self.hesitant.contains(&node)
     }
 
     /// Begins a reaction.
@@ -126,7 +139,10 @@ impl<'a> Replay<'a> {
         self.state.set_time(now);
         for (node, (_, fired)) in &mut self.sources {
             // An iteration that is still under way counts as the one of this reaction.
-            let notify = self.by_kind.get(&TransitionKind::Notify(*node)).filter(|_| self.hesitant.contains(node));
+            let notify = self
+                .by_kind
+                .get(&TransitionKind::Notify(*node))
+                .filter(|_| self.step >= self.hesitates_from && self.hesitant.contains(node));
             let waits = notify.and_then(|t| self.net.transitions[*t].takes.first());
             let is_delay = matches!(self.graph.nodes[*node].kind, NodeKind::Delay(_));
             *fired = is_delay && waits.is_some_and(|place| self.state.is_marked(*place));
@@ -171,7 +187,7 @@ impl<'a> Replay<'a> {
             return Err(self.wrong(&format!("handled {}", connection.index()), "it does not end at a slot".to_owned()));
         };
         let what = format!("handled {}", connection_name(self.graph, connection));
-        self.check_debts(&what)?;
+        self.pay_debts(&what)?;
         self.prepare(handle, &what)?;
         let node = self.graph.connections[connection].to.node;
         let changes = |other: NodeId| match self.graph.nodes[node].kind {
@@ -182,6 +198,10 @@ impl<'a> Replay<'a> {
         self.check_early(&what, changes)?;
         self.forget_optional();
         self.run(handle);
+        // Nodes whose tokens carry activity no more may take them without a record.
+        if self.graph.nodes[node].interrupts().is_some() {
+            self.agenda = self.net.transitions.ids().collect();
+        }
         self.last = self.state.tokens_of(node);
         self.settle();
         self.match_early(&what)
@@ -220,20 +240,17 @@ impl<'a> Replay<'a> {
         if self.matches_expected(node, active) {
             return Ok(());
         }
-        // The activity may have come to a node that does not run because of ⊥.
-        if self
-            .deferred()
-            .into_iter()
-            .any(|(n, p)| n == node && p.active == active && self.state.is_active(n) != active)
-        {
-            self.run(self.by_kind[&TransitionKind::Take(node)]);
+        // The activity may have come to a node that does not run because of ⊥, after nodes that remain as they are.
+        while let Some(take) = self.deferred_for(node, active) {
+            self.run(take);
             self.settle();
             if self.matches_expected(node, active) {
                 return Ok(());
             }
         }
         // A timeout takes the activity of its node along.
-        while self.time_out(|t| t.kind == TransitionKind::TimeOut(node)) {
+        let own = self.by_kind.get(&TransitionKind::TimeOut(node)).copied();
+        while self.time_out(|timeout| Some(timeout) == own) {
             if self.matches_expected(node, active) {
                 return Ok(());
             }
@@ -284,17 +301,37 @@ impl<'a> Replay<'a> {
 
     /// Lets the first timeout occur if nothing else is left to do. With several thread groups, each group waits for its
     /// own nodes alone: the first timeout that `serves`. Returns `false` if none occurs.
-    fn time_out(&mut self, serves: impl Fn(&Transition) -> bool) -> bool {
+    fn time_out(&mut self, serves: impl Fn(TransitionId) -> bool) -> bool {
         let enabled = self.net.transitions.iter_enumerated().filter(|(id, _)| self.state.is_enabled(*id));
         let (due, others): (Vec<_>, Vec<_>) = enabled.partition(|(_, t)| matches!(t.kind, TransitionKind::TimeOut(_)));
         let first = match self.has_groups {
-            true => due.into_iter().find(|(_, t)| serves(t)),
+            true => due.into_iter().find(|(id, _)| serves(*id)),
             false => due.into_iter().next().filter(|_| !others.iter().any(|(_, t)| self.is_open(t.kind))),
         };
         let Some((id, _)) = first else { return false };
         self.run(id);
         self.settle();
         true
+    }
+
+    /// Lets the timeout occur that `transition` waits for, over as few transitions as possible, or else any.
+    fn time_out_for(&mut self, transition: TransitionId) -> bool {
+        self.before(transition).into_iter().any(|end| self.time_out(|timeout| timeout == end))
+            || self.time_out(|_| true)
+    }
+
+    /// A transition, those that give it what it lacks, those that give these what they lack, and so on.
+    fn before(&self, transition: TransitionId) -> Vec<TransitionId> {
+        let (mut before, mut seen) = (vec![transition], BTreeSet::from([transition]));
+        let mut next = 0;
+        while let Some(end) = before.get(next) {
+            let missing = self.state.missing(*end);
+            let gives = |t: &Transition| t.gives.iter().any(|p| missing.contains(p) && !t.takes.contains(p));
+            let givers = self.net.transitions.iter_enumerated().filter(|(_, t)| gives(t));
+            before.extend(givers.map(|(id, _)| id).filter(|id| seen.insert(*id)));
+            next += 1;
+        }
+        before
     }
 
     /// Returns `true` if `node` is active now.
@@ -333,7 +370,7 @@ impl<'a> Replay<'a> {
         if !self.state.is_enabled(transition) {
             self.flush_for(transition);
         }
-        while !self.state.is_enabled(transition) && self.time_out(|_| true) {
+        while !self.state.is_enabled(transition) && self.time_out_for(transition) {
             self.bring_all(transition, &mut BTreeSet::new());
         }
         if self.state.is_enabled(transition) {
@@ -371,10 +408,13 @@ impl<'a> Replay<'a> {
                     self.settle();
                 }
             }
-            // The delays of a loop send once its other tokens are there.
-            Some(release @ TransitionKind::Release(_)) => {
+            // The delays of a loop send once its other tokens are there, or as these are about to come.
+            Some(release @ TransitionKind::Release(node)) => {
                 let release = self.by_kind[&release];
                 self.bring_all(release, seen);
+                if self.is_due(node) {
+                    self.state.lend(release);
+                }
                 self.release(release);
             }
             _ => {}
@@ -396,8 +436,21 @@ impl<'a> Replay<'a> {
         nodes
             .filter(|n| self.by_kind.get(&TransitionKind::Take(*n)).is_some_and(|t| self.state.is_enabled(*t)))
             .map(|n| (n, self.state.preview(n)))
-            .filter(|(n, p)| !p.reported && (p.modifies || self.hesitant.contains(n)))
+            .filter(|(n, p)| !p.reported && (p.modifies || self.hesitates(*n)))
             .collect()
+    }
+
+    /// A deferred transition with which `node` becomes active or inactive, or else one on which that waits and which
+    /// changes no activity.
+    fn deferred_for(&self, node: NodeId, active: bool) -> Option<TransitionId> {
+        let take = self.by_kind.get(&TransitionKind::Take(node)).copied()?;
+        let (turning, remaining): (Vec<_>, Vec<_>) =
+            self.deferred().into_iter().partition(|(n, p)| p.active != self.state.is_active(*n));
+        if turning.iter().any(|(n, p)| *n == node && p.active == active) {
+            return Some(take);
+        }
+        let before = self.before(take);
+        remaining.iter().map(|(n, _)| self.by_kind[&TransitionKind::Take(*n)]).find(|take| before.contains(take))
     }
 
     /// Executes everything that is deferred: delays on loops send, then nodes take ⊥.
@@ -441,7 +494,13 @@ impl<'a> Replay<'a> {
         if let TransitionKind::Take(node) | TransitionKind::Release(node) = self.net.transitions[transition].kind
             && let Some((count, fired)) = self.sources.get_mut(&node)
         {
-            *count += 1;
+            let modifiers = &self.graph.nodes[node].modifiers;
+            let passed = self.now.checked_sub(modifiers.after.unwrap_or_default());
+            // A late source makes up for what it has missed, or not.
+            *count = match (modifiers.every, passed) {
+                (Some(period), Some(passed)) if modifiers.skip => (passed.as_nanos() / period.as_nanos()) as u32 + 1,
+                _ => *count + 1,
+            };
             *fired = true;
         }
         self.state.occur(transition);
@@ -467,14 +526,25 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// Reports tokens that have crossed a boundary of a nested graph without the others: they belong to the same
-    /// firing.
-    fn check_debts(&self, what: &str) -> Result<(), Wrong> {
-        match self.state.owes() {
-            Some(side) => {
-                let side = side_name(self.graph, side);
-                Err(self.wrong(what, format!("only some of the tokens have passed the boundary `{side}`")))
+    /// Lets the tokens follow that have to, by deferred transitions and timeouts.
+    fn pay_debts(&mut self, what: &str) -> Result<(), Wrong> {
+        while let Err(wrong) = self.check_debts(what) {
+            if !self.take_deferred(None) && !self.time_out(|_| true) {
+                return Err(wrong);
             }
+        }
+        Ok(())
+    }
+
+    /// Reports tokens that have crossed a boundary of a nested graph, or left the delays of a loop, without the others:
+    /// they belong to the same firing.
+    fn check_debts(&self, what: &str) -> Result<(), Wrong> {
+        if let Some(side) = self.state.owes() {
+            let side = side_name(self.graph, side);
+            return Err(self.wrong(what, format!("only some of the tokens have passed the boundary `{side}`")));
+        }
+        match self.state.borrowed() {
+            Some(place) => Err(self.wrong(what, format!("delays have sent before `{}`", self.net.places[place].name))),
             None => Ok(()),
         }
     }
@@ -483,13 +553,11 @@ impl<'a> Replay<'a> {
         match self.net.transitions[transition].kind {
             TransitionKind::Take(node) => {
                 let preview = self.state.preview(node);
-                // Delays and relays have no activity, so that they pass activity on without a record.
-                let agnostic = matches!(self.graph.nodes[node].kind, NodeKind::Relay | NodeKind::Delay(_));
-                !preview.reported
-                    && (agnostic || !preview.modifies && !self.hesitant.contains(&node))
-                    && self.is_due(node)
+                // Relays have no activity, so that they pass activity on without a record.
+                let waits = preview.modifies && !self.state.is_agnostic(node);
+                !preview.reported && !waits && !self.hesitates(node) && self.is_due(node)
             }
-            TransitionKind::Release(node) => !self.hesitant.contains(&node) && self.is_due(node),
+            TransitionKind::Release(node) => !self.hesitates(node) && self.is_due(node),
             TransitionKind::Handle(_) | TransitionKind::TimeOut(_) => false,
             _ => true,
         }

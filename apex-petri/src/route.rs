@@ -1,5 +1,6 @@
 //! Connections cut into legs at the boundaries of nested graphs, and the loops of a graph.
 
+use super::PlaceId;
 use apex_dsl::{
     graph::{ConnectionId, Crossing, Flow, Graph, NodeId, NodeKind},
     syntax::tree::PortKind,
@@ -29,12 +30,39 @@ pub struct Segment {
 /// All legs. Those of one connection are adjacent and in order.
 pub fn segments(graph: &Graph) -> Vec<Segment> {
     let insides = insides(graph);
-    // The token of a delay begins an iteration of its loop. It must not wait at the outputs of nested graphs on the
-    // loop, because the other tokens there are made only in that iteration.
+    let causes = causes(graph);
     cut(graph, |node, side| {
-        matches!(side, Crossing::Leave(_))
-            && insides.get(&node).is_some_and(|inside| inside.contains(&SegmentEnd::Side(side)))
+        insides.get(&node).is_some_and(|inside| passes(inside, side)) || is_ahead(&causes, node, side)
     })
+}
+
+/// Returns `true` if the token of a delay does not wait at a boundary for the others: it begins an iteration of its
+/// loop, and at the outputs of nested graphs on the loop the other tokens are made only in that iteration.
+fn passes(inside: &BTreeSet<SegmentEnd>, side: Crossing) -> bool {
+    matches!(side, Crossing::Leave(_)) && inside.contains(&SegmentEnd::Side(side))
+}
+
+/// Returns `true` if tokens of a node do not wait at the outputs of a nested graph for the others, because some of these
+/// are made from tokens that have left there, and those of the node are not.
+fn is_ahead(causes: &BTreeMap<Crossing, BTreeSet<SegmentEnd>>, node: NodeId, side: Crossing) -> bool {
+    let made =
+        |made: &BTreeSet<SegmentEnd>| made.contains(&SegmentEnd::Side(side)) && !made.contains(&SegmentEnd::Node(node));
+    causes.get(&side).is_some_and(made)
+}
+
+/// For the outputs of each nested graph, what is made from the tokens there, but not by delays.
+fn causes(graph: &Graph) -> BTreeMap<Crossing, BTreeSet<SegmentEnd>> {
+    let is_delay =
+        |end: SegmentEnd| matches!(end, SegmentEnd::Node(node) if matches!(graph.nodes[node].kind, NodeKind::Delay(_)));
+    let mut after: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
+    for segment in cut(graph, |_, _| false).iter().filter(|segment| to_input(graph, segment)) {
+        if !is_delay(segment.from) {
+            after.entry(segment.from).or_default().push(segment.to);
+        }
+    }
+    let sides = graph.connections.iter().flat_map(|c| c.crossings.iter().copied()).collect::<BTreeSet<Crossing>>();
+    let leaving = sides.into_iter().filter(|side| matches!(side, Crossing::Leave(_)));
+    leaving.map(|side| (side, reached([SegmentEnd::Side(side)], &after))).collect()
 }
 
 /// The legs, where connections from a node ignore the boundaries for which `passes` is true.
@@ -54,8 +82,8 @@ fn cut(graph: &Graph, passes: impl Fn(NodeId, Crossing) -> bool) -> Vec<Segment>
     segments
 }
 
-/// A loop, or several loops with nodes in common. An iteration begins only when it can be completed: all delays send
-/// together.
+/// A loop, several loops with nodes in common, or a delay that is on none: this is the shortest loop. An iteration
+/// begins only when it can be completed: all delays send together.
 #[derive(Debug, Clone)]
 pub struct Loop {
     /// Its delays.
@@ -65,6 +93,9 @@ pub struct Loop {
     pub entries: Vec<usize>,
     /// Legs of the events of all nodes on it. They have to be free when an iteration begins.
     pub events: Vec<usize>,
+    /// Outputs of nested graphs where the tokens of its delays do not wait for the others. These follow in the same
+    /// iteration.
+    pub ahead: BTreeSet<Crossing>,
 }
 
 /// The loops of a graph, by its [`segments`].
@@ -75,7 +106,10 @@ pub fn loops(graph: &Graph, segments: &[Segment]) -> Vec<Loop> {
         let is_event = |l: &Segment| {
             matches!(l.from, SegmentEnd::Node(_)) && inside.contains(&l.from) && from_event(graph, l.connection)
         };
+        let from_delays = graph.connections.iter().filter(|c| delays.contains(&c.from.node));
+        let is_ahead = |side: &Crossing| passes(&inside, *side);
         Loop {
+            ahead: from_delays.flat_map(|c| c.crossings.iter().copied()).filter(is_ahead).collect(),
             delays,
             entries: numbered().filter(|(_, l)| is_entry(l)).map(|(i, _)| i).collect(),
             events: numbered().filter(|(_, l)| is_event(l)).map(|(i, _)| i).collect(),
@@ -87,8 +121,14 @@ pub fn loops(graph: &Graph, segments: &[Segment]) -> Vec<Loop> {
     delays.into_iter().map(on_loop).collect()
 }
 
-/// For each delay on a loop, the nodes and boundaries on that loop. Nested graphs count as a whole, by their
-/// boundaries.
+/// Places of the copies of tokens that lead into loops, with their legs. They follow the two places of each leg.
+pub fn echoes<'a>(segments: &[Segment], loops: &'a [Loop]) -> impl Iterator<Item = (PlaceId, usize)> + use<'a> {
+    let entries = loops.iter().flat_map(|on_loop| on_loop.entries.iter().copied());
+    (2 * segments.len()..).map(PlaceId::from).zip(entries)
+}
+
+/// For each delay, the nodes and boundaries on the loop that it is on: itself if it is on none. Nested graphs count as a
+/// whole, by their boundaries.
 fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<SegmentEnd>> {
     let mut after: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
     let mut before: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
@@ -100,9 +140,9 @@ fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<SegmentEnd>> {
     for (node, _) in graph.nodes.iter_enumerated().filter(|(_, n)| matches!(n.kind, NodeKind::Delay(_))) {
         // Everything that is both downstream and upstream of a delay is on a loop with it.
         let (below, above) = (reached([SegmentEnd::Node(node)], &after), reached([SegmentEnd::Node(node)], &before));
-        if below.contains(&SegmentEnd::Node(node)) {
-            insides.insert(node, below.intersection(&above).copied().collect());
-        }
+        let mut inside: BTreeSet<SegmentEnd> = below.intersection(&above).copied().collect();
+        inside.insert(SegmentEnd::Node(node));
+        insides.insert(node, inside);
     }
     insides
 }

@@ -5,6 +5,7 @@ use super::{
     build::has_process,
     bypass::Bypass,
     clocks::{self, Clocks},
+    free_for,
     route::{self, SegmentEnd},
     token_on,
 };
@@ -100,6 +101,9 @@ pub struct State<'a> {
     /// The delays of each loop, by the first one.
     loops: BTreeMap<NodeId, Vec<NodeId>>,
     bypass: Bypass,
+    /// Copies of tokens that lead into loops, and free legs of events on loops: how many of them delays have used before
+    /// they came.
+    lent: BTreeMap<PlaceId, usize>,
     clocks: Clocks,
 }
 
@@ -173,6 +177,11 @@ impl<'a> State<'a> {
             consumers,
             clocks: Clocks::new(graph, &sources),
             sources,
+            lent: route::echoes(&segments, &loops)
+                .map(|(place, _)| place)
+                .chain(loops.iter().flat_map(|on_loop| on_loop.events.iter().map(|leg| free_for(*leg))))
+                .map(|place| (place, 0))
+                .collect(),
             bypass: Bypass::new(&segments, &loops, net),
             loops: loops.into_iter().map(|on_loop| (on_loop.delays[0], on_loop.delays)).collect(),
         }
@@ -217,6 +226,7 @@ impl<'a> State<'a> {
     /// Lets the token that `place` lacks cross a boundary of a nested graph before the others have arrived, if it can.
     pub fn advance(&mut self, place: PlaceId) {
         self.bypass.advance(place, &mut self.marking);
+        self.take_back();
     }
 
     /// The place before the boundary, if tokens reach `place` through the boundary of a nested graph.
@@ -227,12 +237,40 @@ impl<'a> State<'a> {
     /// Lets the remaining tokens cross boundaries where all of them have arrived. Returns the transitions that this
     /// replaces.
     pub fn follow(&mut self) -> Vec<TransitionId> {
-        self.bypass.follow(&mut self.marking)
+        let passed = self.bypass.follow(&mut self.marking);
+        self.take_back();
+        passed
     }
 
     /// A boundary that some token crossed early and that others have yet to cross.
     pub fn owes(&self) -> Option<Crossing> {
         self.bypass.owes()
+    }
+
+    /// Lets the delays of a loop send before all tokens that lead into the loop have come, or after events on it have
+    /// been triggered, if nothing else holds them back: other nodes may fire first. The tokens have to follow.
+    pub fn lend(&mut self, release: TransitionId) {
+        let missing = self.missing(release);
+        if missing.iter().all(|place| self.lent.contains_key(place)) {
+            for place in missing {
+                self.marking[place].push_back(Token::default());
+                self.lent.entry(place).and_modify(|count| *count += 1);
+            }
+        }
+    }
+
+    /// A place of a token that delays have used before it came.
+    pub fn borrowed(&self) -> Option<PlaceId> {
+        self.lent.iter().find(|(_, count)| **count > 0).map(|(place, _)| *place)
+    }
+
+    /// Takes back what was lent where the tokens have come.
+    fn take_back(&mut self) {
+        for (place, count) in &mut self.lent {
+            while *count > 0 && self.marking[*place].pop_front().is_some() {
+                *count -= 1;
+            }
+        }
     }
 
     /// Returns `true` if `transition` may occur.
@@ -263,7 +301,7 @@ impl<'a> State<'a> {
         Preview {
             runs,
             reported: is_visible && (runs || self.told[node]),
-            active: after(self.active[node], &modifiers),
+            active: if self.is_agnostic(node) { self.active[node] } else { after(self.active[node], &modifiers) },
             modifies: modifiers.iter().any(|m| *m != 0),
         }
     }
@@ -292,7 +330,7 @@ impl<'a> State<'a> {
         }
         let colours = match t.kind {
             TransitionKind::Take(node) => self.take(node, &tokens),
-            TransitionKind::Send(node) => self.send(node, &tokens),
+            TransitionKind::Send(node) => self.send(node),
             TransitionKind::Trigger(end) => self.decide(end),
             TransitionKind::Suppress(end) => {
                 self.decided.remove(&end);
@@ -309,9 +347,8 @@ impl<'a> State<'a> {
                 held.into_iter().flat_map(|(delay, oldest)| self.forward(delay, oldest)).collect()
             }
             TransitionKind::Hold(_) => {
-                // The last place that it gives to is the one where the delay holds tokens.
                 let token = t.takes.first().and_then(|p| tokens.get(p)).copied().unwrap_or_default();
-                t.gives.last().map(|p| (*p, token)).into_iter().collect()
+                self.net.held(transition).map(|place| (place, token)).into_iter().collect()
             }
             TransitionKind::Start(node) => self.start(node),
             TransitionKind::TimeOut(node) => self.time_out(node),
@@ -320,6 +357,7 @@ impl<'a> State<'a> {
         for place in &t.gives {
             self.marking[*place].push_back(colours.get(place).copied().unwrap_or_default());
         }
+        self.take_back();
     }
 
     fn set_active(&mut self, node: NodeId, active: bool) {
@@ -336,8 +374,9 @@ impl<'a> State<'a> {
         self.set_active(node, after(self.active[node], &modifiers));
     }
 
-    fn is_agnostic(&self, node: NodeId) -> bool {
-        matches!(self.graph.nodes[node].kind, NodeKind::Relay | NodeKind::Delay(_))
+    /// Returns `true` if a node passes activity on without becoming active.
+    pub fn is_agnostic(&self, node: NodeId) -> bool {
+        matches!(self.graph.nodes[node].kind, NodeKind::Relay)
     }
 
     fn take(&mut self, node: NodeId, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
@@ -350,12 +389,8 @@ impl<'a> State<'a> {
         if !self.is_agnostic(node) {
             self.activate(node, &by_port);
         }
-        let first = by_port.values().next().copied().unwrap_or_default();
         self.taken.insert(node, Taken { slot: None, runs, tokens: by_port });
-        // A delay stores the token in the last place that the transition gives to.
-        let holds = matches!(self.graph.nodes[node].kind, NodeKind::Delay(_));
-        let transition = self.net.find(TransitionKind::Take(node)).filter(|_| holds);
-        transition.and_then(|t| self.net.transitions[t].gives.last().copied()).map(|p| (p, first)).into_iter().collect()
+        BTreeMap::new()
     }
 
     fn preview_taken(&self, node: NodeId, tokens: &BTreeMap<PlaceId, Token>) -> bool {
@@ -365,17 +400,11 @@ impl<'a> State<'a> {
             .all(|l| tokens.get(&l.token).is_some_and(|t| t.value))
     }
 
-    fn send(&mut self, node: NodeId, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
+    fn send(&mut self, node: NodeId) -> BTreeMap<PlaceId, Token> {
         let taken = self.taken.remove(&node).unwrap_or_default();
         match &self.graph.nodes[node].kind {
             NodeKind::Relay => {
                 let token = taken.tokens.values().next().copied().unwrap_or_default();
-                self.forward(node, token)
-            }
-            NodeKind::Delay(_) => {
-                let transition = self.net.find(TransitionKind::Send(node));
-                let held = transition.and_then(|t| self.net.transitions[t].takes.last());
-                let token = held.and_then(|p| tokens.get(p)).copied().unwrap_or_default();
                 self.forward(node, token)
             }
             _ => self.emit(node, &taken),
@@ -540,7 +569,7 @@ impl<'a> State<'a> {
         let nodes: BTreeSet<NodeId> = self.graph.nodes_of(subject).into_iter().collect();
         for &node in &nodes {
             let mut found = self.active[node];
-            for place in self.places_before(node) {
+            for place in self.places_before(node).into_iter().chain(self.held_by(node)) {
                 for token in self.marking[place].iter_mut().filter(|token| token.modifier > 0) {
                     token.modifier = 0;
                     found = true;
@@ -562,6 +591,11 @@ impl<'a> State<'a> {
     fn places_before(&self, node: NodeId) -> BTreeSet<PlaceId> {
         let links = self.into.values().chain(self.from.values()).flatten();
         links.filter(|link| self.graph.connections[link.connection].to.node == node).map(|link| link.token).collect()
+    }
+
+    /// The place where a node holds tokens, if it is a delay.
+    fn held_by(&self, node: NodeId) -> Option<PlaceId> {
+        self.net.held(self.net.find(TransitionKind::Hold(node))?)
     }
 
     fn handled(&mut self, node: NodeId) -> BTreeMap<PlaceId, Token> {

@@ -185,17 +185,35 @@ fn interpreted_graphs_run_as_their_nets_may() {
     try_all(1, |seed| generate(seed, true), as_net);
 }
 
-/// Seeds of graphs about which the program, interpreted and compiled alike, and the net disagree: outputs in loops with
-/// delays, some of them sent to slots.
-const OPEN: [u64; 6] = [5412, 6739, 6971, 500_608, 502_980, 507_263];
+/// Seeds about which the program, interpreted and compiled alike, and the net once disagreed.
+const FORMER: [u64; 19] = [
+    5412, 6739, 6971, 500_608, 502_980, 507_263, 516_058, 518_052, 2_001_006, 2_035_091, 2_041_023, 2_049_314,
+    2_072_645, 2_078_947, 2_080_385, 2_083_520, 2_094_618, 2_098_221, 3050,
+];
+
+/// The same of graphs with timeouts in thread groups.
+const FORMER_OF_THREADS: [u64; 8] =
+    [503_825, 504_993, 1_301_522, 1_302_202, 1_302_283, 1_303_536, 1_308_026, 1_313_156];
+
+/// Seeds about which they disagree: the output of a nested graph that leads back to its input, in which other outputs
+/// and an event come together, waits for the event although a delay has made it.
+const OPEN: [u64; 1] = [2_032_420];
+
+fn wrong(seeds: &[u64], made: impl Fn(u64) -> Case) -> Vec<u64> {
+    let checker = Checker::new();
+    seeds.iter().copied().filter(|seed| matches!(as_net(&checker, &made(*seed)), Tried::Wrong(_))).collect()
+}
 
 #[test]
-#[ignore = "open: one of 4,000 random graphs"]
+fn former_disagreements_with_the_nets_are_settled() {
+    assert_eq!(wrong(&FORMER, |seed| generate(seed, true)), [0; 0]);
+    assert_eq!(wrong(&FORMER_OF_THREADS, |seed| on_threads(with_timeouts(generate(seed, true)))), [0; 0]);
+}
+
+#[test]
+#[ignore = "open: one of 100,000 random graphs"]
 fn open_disagreements_with_the_nets() {
-    let checker = Checker::new();
-    let wrong = OPEN.iter().filter(|seed| matches!(as_net(&checker, &generate(**seed, true)), Tried::Wrong(_)));
-    let wrong: Vec<&u64> = wrong.collect();
-    assert!(wrong.is_empty(), "{wrong:?}");
+    assert_eq!(wrong(&OPEN, |seed| generate(seed, true)), [0; 0]);
 }
 
 #[test]

@@ -14,9 +14,15 @@
 //! each of the other two.
 //!
 //! Clusters are as large as possible, but no node may wait for a condition that the firing rules do not require. This
-//! is why sources without a period are also grouped by the guards downstream of them (see `holding`).
+//! is why sources without a period are also grouped by what holds them back (`holding`).
 
-use super::{Analysis, Asynchronous, Block, Links, Step, demand_driven::demand_driven, fires, is_source};
+use super::{
+    Analysis, Asynchronous, Block, Links, Step,
+    demand_driven::demand_driven,
+    fires,
+    holding::{Holding, Ways},
+    is_source,
+};
 use crate::{
     catalog::Catalog,
     graph::{Connection, ConnectionId, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
@@ -329,7 +335,8 @@ fn add_react_guards(
 ) -> IdVec<NodeId, BTreeSet<usize>> {
     let above = accumulate(view, guards, own);
     let plain = without_pace(view, guards, own);
-    let holding = holding(view, &above);
+    let ways = Ways::new(view.graph, view.links, guards);
+    let stays: Vec<NodeId> = view.graph.nodes.ids().filter(|node| view.sends_what_stays(*node)).collect();
     let mut demand_driven = demand_driven(view, &above);
     let mut parts: BTreeMap<NodeId, usize> = plain.iter().map(|node| (*node, 0)).collect();
     loop {
@@ -339,8 +346,13 @@ fn add_react_guards(
         // their other guards, too.
         let mut shared: BTreeMap<Alike<'_>, usize> = BTreeMap::new();
         let sharing: Vec<NodeId> = plain.iter().copied().filter(|node| !is_pulled(node)).collect();
+        // Pulled nodes wait for what their consumers wait for.
+        let sets = demand_driven.iter().filter_map(|group| Some((group, group.guards(guards, &above)?)));
+        let pulled = sets.flat_map(|(group, set)| group.nodes.iter().map(move |node| (*node, set.clone()))).collect();
+        let holding = |node: &NodeId| (*node, ways.holding(*node, guards, own, &pulled, &stays));
+        let holding: BTreeMap<NodeId, Holding> = sharing.iter().map(holding).collect();
         for &node in &sharing {
-            let key = (view.regions[node], &above[node], &holding[node], parts[&node]);
+            let key = (view.regions[node], &above[node], &holding[&node], parts[&node]);
             let guard = *shared.entry(key).or_insert_with(|| {
                 all.push(Guard::React);
                 all.len() - 1
@@ -368,43 +380,7 @@ fn add_react_guards(
 
 /// Properties that nodes with a common guard share: their region, their other guards, what holds them back, and the
 /// part that they are in.
-type Alike<'a> = (usize, &'a BTreeSet<usize>, &'a BTreeSet<HeldBack>, usize);
-
-/// Reason for which a source cannot fire again.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum HeldBack {
-    /// A guard does not hold.
-    Guard(usize),
-    /// A token that this node has sent stays on its connection.
-    Sender(NodeId),
-}
-
-/// Guards upstream and downstream of each node. A source may fire again only when all nodes downstream have finished
-/// (R4). Two sources without a period may share a cluster only if the same guards downstream hold them back. Otherwise
-/// one would wait for the guards of the other: with `a -> [x, z.p]` and `b -> z.q`, where `x` waits for room for its
-/// event, `b` must not wait for it.
-fn holding(view: &View<'_>, above: &IdVec<NodeId, BTreeSet<usize>>) -> IdVec<NodeId, BTreeSet<HeldBack>> {
-    let guards = |guards: &BTreeSet<usize>| guards.iter().copied().map(HeldBack::Guard).collect();
-    let mut holding: IdVec<NodeId, BTreeSet<HeldBack>> = above.iter().map(guards).collect();
-    // Loops with delays lead upstream: all nodes are visited until nothing changes.
-    loop {
-        let mut changed = false;
-        for &node in view.order.iter().rev() {
-            let before = holding[node].len();
-            if view.sends_what_stays(node) {
-                holding[node].insert(HeldBack::Sender(node));
-            }
-            for &c in &view.links.out_of[node] {
-                let next = holding[view.graph.connections[c].to.node].clone();
-                holding[node].extend(next);
-            }
-            changed |= holding[node].len() > before;
-        }
-        if !changed {
-            return holding;
-        }
-    }
-}
+type Alike<'a> = (usize, &'a BTreeSet<usize>, &'a Holding, usize);
 
 /// Nodes that fire once per reaction: sources without a period, and delays on loops that nothing feeds. Without a guard
 /// such a loop would not have a condition to wait for, and would fire without end.
@@ -426,16 +402,18 @@ fn without_pace(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize
     plain
 }
 
+/// The guards that are tokens of events, by their connections.
+pub fn tokens(guards: &[Guard]) -> impl Iterator<Item = (ConnectionId, usize)> {
+    let guards = guards.iter().enumerate();
+    guards.filter_map(|(g, guard)| if let Guard::Token(c) = guard { Some((*c, g)) } else { None })
+}
+
 /// Guards of each node: its own, and those of all nodes upstream. The guards of all tokens that arrive at a boundary go
 /// on together. A token of an event brings its own guard and not those of its sender. Guards also travel around loops
 /// with delays: all nodes are visited until nothing changes.
 fn accumulate(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize>>) -> IdVec<NodeId, BTreeSet<usize>> {
     let View { graph, links, order, .. } = *view;
-    let tokens: BTreeMap<ConnectionId, usize> = guards
-        .iter()
-        .enumerate()
-        .filter_map(|(g, guard)| if let Guard::Token(c) = guard { Some((*c, g)) } else { None })
-        .collect();
+    let tokens: BTreeMap<ConnectionId, usize> = tokens(guards).collect();
     let mut sets: IdVec<NodeId, BTreeSet<usize>> = own.iter().map(|g| g.iter().copied().collect()).collect();
     let mut sides = Sides::new();
     loop {

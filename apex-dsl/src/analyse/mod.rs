@@ -22,6 +22,7 @@ mod clocks;
 mod clusters;
 mod delivery;
 mod demand_driven;
+mod holding;
 mod iteration;
 mod live;
 mod order;

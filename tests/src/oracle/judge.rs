@@ -177,36 +177,42 @@ fn integer(value: &Value) -> Option<i64> {
 }
 
 /// Maximum number of choices that are tried.
-const MAX_CHOICES: usize = 200;
+const MAX_CHOICES: usize = 500;
+
+/// Nodes that act late from this record on.
+type Late = (BTreeSet<NodeId>, usize);
 
 /// Replays a run on the net. Unrecorded transitions may occur early or late.
 pub fn judge(catalog: &Catalog, checked: &Checked, records: &[Record]) -> Result<(), Failure> {
-    let replay = |hesitant: &BTreeSet<NodeId>| replay(catalog, checked, records, hesitant);
-    let Err((step, early)) = replay(&BTreeSet::new()) else { return Ok(()) };
+    let replay = |late: Late| replay(catalog, checked, records, late);
+    let Err((step, early)) = replay(Late::default()) else { return Ok(()) };
     let undecided = apex_petri::undecided(&checked.program.graph, &checked.net);
-    let Err((other, late)) = replay(&undecided) else { return Ok(()) };
-    match choices(&undecided).take(MAX_CHOICES).any(|hesitant| replay(&hesitant).is_ok()) {
+    let Err((other, late)) = replay((undecided.clone(), 0)) else { return Ok(()) };
+    let steps = records.iter().filter(|record| !matches!(record, Record::Took(_)));
+    let reactions = steps.zip(1..).filter(|(record, _)| matches!(record, Record::Begin(_)));
+    match choices(&undecided, reactions.map(|(_, step)| step)).take(MAX_CHOICES).any(|late| replay(late).is_ok()) {
         true => Ok(()),
         false => Err((step, format!("{early}\n  (if ⊥ comes late: step {other}: {late})"))),
     }
 }
 
-/// Sets of nodes that act late: all but one, one, and then any.
-fn choices(undecided: &BTreeSet<NodeId>) -> impl Iterator<Item = BTreeSet<NodeId>> {
+/// Choices of nodes that act late: all but one, one, or all from one of the reactions on, one, and then any.
+fn choices(undecided: &BTreeSet<NodeId>, reactions: impl Iterator<Item = usize>) -> impl Iterator<Item = Late> {
     let nodes: Vec<NodeId> = undecided.iter().copied().take(u64::BITS as usize - 1).collect();
     let all = (1_u64 << nodes.len()) - 1;
     let ones: Vec<u64> = (0..nodes.len()).map(|i| 1 << i).collect();
     let others: Vec<u64> = ones.iter().map(|one| all & !one).collect();
-    let masks = others.into_iter().chain(ones).chain(1..all);
-    masks.map(move |mask| nodes.iter().enumerate().filter(|(i, _)| mask & 1 << i != 0).map(|(_, node)| *node).collect())
+    let later: Vec<(u64, usize)> = reactions
+        .flat_map(|from| ones.iter().chain([&all]).map(move |mask| (*mask, from)).collect::<Vec<_>>())
+        .collect();
+    let masks = others.into_iter().chain(ones).map(|mask| (mask, 0)).chain(later).chain((1..all).map(|mask| (mask, 0)));
+    masks.map(move |(mask, from)| {
+        let late = nodes.iter().enumerate().filter(|(i, _)| mask & 1 << i != 0);
+        (late.map(|(_, node)| *node).collect(), from)
+    })
 }
 
-fn replay(
-    catalog: &Catalog,
-    checked: &Checked,
-    records: &[Record],
-    hesitant: &BTreeSet<NodeId>,
-) -> Result<(), Failure> {
+fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], (late, from): Late) -> Result<(), Failure> {
     let Checked { program: CheckedProgram { graph, .. }, net } = checked;
     let scripts = script_of(graph, catalog);
     let by_id: BTreeMap<i64, NodeId> = scripts.iter().map(|(node, (id, _))| (*id, *node)).collect();
@@ -220,7 +226,7 @@ fn replay(
     // For each input of the node that fired last whether it is connected.
     let mut inputs: Vec<bool> = vec![];
     let replay = Replay::new(graph, catalog, net, &sends).map_err(|why| (0, why))?;
-    let mut replay = replay.hesitating(hesitant.clone());
+    let mut replay = replay.hesitating(late, from);
     for (step, record) in records.iter().enumerate() {
         let result = match record {
             Record::Begin(now) => {
