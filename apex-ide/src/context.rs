@@ -513,11 +513,12 @@ fn in_machine(written: &[Token<'_>], in_state: bool) -> Context {
     match (written[0].text, last.text) {
         ("slot" | "event", ":") => Context::Type,
         ("on", "on") => Context::MachineSlot,
-        ("on", "=>") => Context::State,
-        ("on", "resume") if written.iter().rev().nth(1).is_some_and(|t| t.text == "=>") => Context::State,
+        ("on" | "after", "=>") => Context::State,
+        ("after", "after") => Context::Expression,
+        ("on" | "after", "resume") if written.iter().rev().nth(1).is_some_and(|t| t.text == "=>") => Context::State,
         ("on", "if") => Context::Expression,
-        ("on" | "entry" | "exit", "->") => Context::MachineEvent,
-        ("on" | "entry" | "exit", ",") if has_arrow(written) => Context::MachineEvent,
+        ("on" | "after" | "entry" | "exit", "->") => Context::MachineEvent,
+        ("on" | "after" | "entry" | "exit", ",") if has_arrow(written) => Context::MachineEvent,
         ("on", _) if written.len() == 2 => Context::Words(&["if"]),
         _ => Context::Nothing,
     }

@@ -8,8 +8,8 @@ use apex_dsl::{
     syntax::{
         keywords::{KeywordPosition, words_at},
         tree::{
-            Action, Arg, Endpoint, Expr, ExprKind, File, FsmItem, GraphItem, Ident, Instance, Modifier, ModifierKind,
-            NodeBody, PathExpr, PortRef, PortsOf, StateItem, TestItem, TestStep, TypeExpr, TypeKind, Use,
+            Action, Arg, Cause, Endpoint, Expr, ExprKind, File, FsmItem, GraphItem, Ident, Instance, Modifier,
+            ModifierKind, NodeBody, PathExpr, PortRef, PortsOf, StateItem, TestItem, TestStep, TypeExpr, TypeKind, Use,
         },
     },
 };
@@ -442,7 +442,10 @@ impl<'a> Walker<'a, '_> {
 
     fn state(&mut self, id: MachineId, state: &StateItem) {
         for transition in &state.transitions {
-            self.machine_port(id, &transition.slot);
+            match &transition.cause {
+                Cause::Slot(slot) => self.machine_port(id, slot),
+                Cause::After(time) => self.token(id, time),
+            }
             let target = transition.target.as_ref();
             let found = target.and_then(|name| self.declared.states[&id].get(name.text.as_str()).copied());
             if let (Some(name), Some(definition)) = (target, found) {

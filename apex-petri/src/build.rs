@@ -2,7 +2,7 @@
 
 use super::{
     Net, NoNet, Place, PlaceId, Transition, TransitionKind, clocks, connection_name,
-    route::{self, Loop, Segment, SegmentEnd},
+    route::{self, Loop, Segment, SegmentEnd, Side},
     side_name,
 };
 use apex_dsl::{
@@ -29,7 +29,7 @@ pub fn net(graph: &Graph, catalog: &Catalog) -> Result<Net, NoNet> {
     }
     let sides =
         builder.segments.iter().filter_map(|l| if let SegmentEnd::Side(side) = l.to { Some(side) } else { None });
-    let sides: BTreeSet<Crossing> = sides.collect();
+    let sides: BTreeSet<Side> = sides.collect();
     sides.into_iter().for_each(|side| builder.side(side));
     builder.loops.clone().iter().for_each(|on_loop| builder.iteration(on_loop));
     builder.returning();
@@ -111,7 +111,8 @@ impl<'a> Builder<'a> {
         let mut ahead = BTreeMap::new();
         for on_loop in &loops {
             for side in &on_loop.ahead {
-                let name = format!("{} has passed {}", names(graph, &on_loop.delays), side_name(graph, *side));
+                let name =
+                    format!("{} has passed {}", names(graph, &on_loop.delays), side_name(graph, Side::whole(*side)));
                 ahead.insert((on_loop.delays[0], *side), place(name, 0));
             }
         }
@@ -375,7 +376,7 @@ impl<'a> Builder<'a> {
 
     /// Adds a boundary of a nested graph. It takes a token from each leg that ends there and sends one on each leg that
     /// begins there, after the delays of a loop have sent theirs ahead.
-    fn side(&mut self, side: Crossing) {
+    fn side(&mut self, side: Side) {
         let name = side_name(self.graph, side);
         let (incoming, outgoing) = (self.legs_into(SegmentEnd::Side(side)), self.legs_from(SegmentEnd::Side(side)));
         let enabled = self.place(format!("{name} is enabled"), 1);
@@ -383,7 +384,7 @@ impl<'a> Builder<'a> {
         let mut takes = self.tokens(&incoming);
         takes.push(enabled);
         takes.extend(self.free(&outgoing));
-        takes.extend(self.ahead.iter().filter(|((_, of), _)| *of == side).map(|(_, place)| *place));
+        takes.extend(self.ahead.iter().filter(|((_, of), _)| Side::whole(*of) == side).map(|(_, place)| *place));
         let mut gives = self.sent(&outgoing);
         gives.push(waiting);
         self.transition(format!("{name} passes"), TransitionKind::Pass(side), takes, gives);

@@ -5,24 +5,24 @@
 
 use super::{
     Net, PlaceId, TransitionId, TransitionKind, free_for,
-    route::{Loop, Segment, SegmentEnd, echoes},
+    route::{Loop, Segment, SegmentEnd, Side, echoes},
     state::Token,
     token_on,
 };
-use apex_dsl::{graph::Crossing, index::IdVec};
+use apex_dsl::index::IdVec;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Tokens that have crossed a boundary early.
 #[derive(Clone)]
 pub struct Bypass {
-    sides: BTreeMap<Crossing, Side>,
+    sides: BTreeMap<Side, Waiting>,
     /// For each leg that begins at a boundary, by the places of its token and of the copy: the boundary, and the number
     /// of the leg there.
-    begins: BTreeMap<PlaceId, (Crossing, usize)>,
+    begins: BTreeMap<PlaceId, (Side, usize)>,
 }
 
 #[derive(Clone)]
-struct Side {
+struct Waiting {
     pass: TransitionId,
     enabled: PlaceId,
     waiting: PlaceId,
@@ -62,7 +62,7 @@ impl Bypass {
             // gives to is `waiting`.
             let (enabled, waiting) = (transition.takes[routes.len()], transition.gives[transition.gives.len() - 1]);
             let after = transition.takes[2 * routes.len() + 1..].to_vec();
-            sides.insert(side, Side { pass, enabled, waiting, after, routes, ahead: BTreeSet::new() });
+            sides.insert(side, Waiting { pass, enabled, waiting, after, routes, ahead: BTreeSet::new() });
         }
         Self { sides, begins }
     }
@@ -112,7 +112,7 @@ impl Bypass {
     }
 
     /// A boundary that some token crossed early and that others have yet to cross.
-    pub fn owes(&self) -> Option<Crossing> {
+    pub fn owes(&self) -> Option<Side> {
         self.sides.iter().find(|(_, s)| !s.ahead.is_empty()).map(|(side, _)| *side)
     }
 }

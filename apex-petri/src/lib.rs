@@ -26,6 +26,7 @@ use std::fmt;
 pub use build::net;
 pub use pnml::pnml;
 pub use replay::{Replay, Wrong, undecided};
+pub use route::Side;
 pub use state::{Call, Origin, Preview, Script, State, Token, unsupported};
 
 id! {
@@ -89,9 +90,9 @@ pub enum TransitionKind {
     /// The slots of a node have finished.
     Handled(NodeId),
     /// All tokens at a boundary of a nested graph cross it together.
-    Pass(Crossing),
+    Pass(Side),
     /// Everything downstream of a boundary of a nested graph has finished.
-    NotifySide(Crossing),
+    NotifySide(Side),
     /// All delays of a loop, of which this node is the first, or a delay on no loop, send their oldest tokens.
     Release(NodeId),
     /// A delay takes a token.
@@ -142,10 +143,11 @@ fn connection_name(graph: &Graph, connection: ConnectionId) -> String {
     format!("{} -> {}", graph.end_name(c.from), graph.end_name(c.to))
 }
 
-fn side_name(graph: &Graph, side: Crossing) -> String {
-    let (scope, word) = match side {
-        Crossing::Enter(scope) => (scope, "in"),
-        Crossing::Leave(scope) => (scope, "out"),
+fn side_name(graph: &Graph, side: Side) -> String {
+    let (scope, word) = match (side.crossing, side.is_first) {
+        (Crossing::Enter(scope), _) => (scope, "in"),
+        (Crossing::Leave(scope), false) => (scope, "out"),
+        (Crossing::Leave(scope), true) => (scope, "out, first"),
     };
     graph::path(&graph.scopes, scope, Some(word))
 }

@@ -13,7 +13,33 @@ pub enum SegmentEnd {
     /// A node.
     Node(NodeId),
     /// A boundary of a nested graph.
-    Side(Crossing),
+    Side(Side),
+}
+
+/// A boundary of a nested graph, where tokens wait for one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Side {
+    /// The inputs or the outputs of the graph.
+    pub crossing: Crossing,
+    /// Tokens from which other tokens at the same boundary are made: they do not wait for these.
+    pub is_first: bool,
+}
+
+impl Side {
+    /// All tokens at a boundary.
+    pub fn whole(crossing: Crossing) -> Self {
+        Self { crossing, is_first: false }
+    }
+}
+
+impl SegmentEnd {
+    /// The node, or all tokens at the boundary.
+    fn whole(self) -> Self {
+        match self {
+            Self::Side(side) => Self::Side(Side::whole(side.crossing)),
+            Self::Node(_) => self,
+        }
+    }
 }
 
 /// The part of a connection between two stops.
@@ -31,22 +57,24 @@ pub struct Segment {
 pub fn segments(graph: &Graph) -> Vec<Segment> {
     let insides = insides(graph);
     let causes = causes(graph);
-    cut(graph, |node, side| {
-        insides.get(&node).is_some_and(|inside| passes(inside, side)) || is_ahead(&causes, node, side)
+    cut(graph, |node, crossing| {
+        let passes = insides.get(&node).is_some_and(|inside| passes(inside, crossing));
+        (!passes).then(|| Side { crossing, is_first: is_first(&causes, node, crossing) })
     })
 }
 
 /// Returns `true` if the token of a delay does not wait at a boundary for the others: it begins an iteration of its
 /// loop, and at the outputs of nested graphs on the loop the other tokens are made only in that iteration.
 fn passes(inside: &BTreeSet<SegmentEnd>, side: Crossing) -> bool {
-    matches!(side, Crossing::Leave(_)) && inside.contains(&SegmentEnd::Side(side))
+    matches!(side, Crossing::Leave(_)) && inside.contains(&SegmentEnd::Side(Side::whole(side)))
 }
 
-/// Returns `true` if tokens of a node do not wait at the outputs of a nested graph for the others, because some of these
-/// are made from tokens that have left there, and those of the node are not.
-fn is_ahead(causes: &BTreeMap<Crossing, BTreeSet<SegmentEnd>>, node: NodeId, side: Crossing) -> bool {
-    let made =
-        |made: &BTreeSet<SegmentEnd>| made.contains(&SegmentEnd::Side(side)) && !made.contains(&SegmentEnd::Node(node));
+/// Returns `true` if some of the tokens at the outputs of a nested graph are made from tokens that have left there, and
+/// those of a node are not.
+fn is_first(causes: &BTreeMap<Crossing, BTreeSet<SegmentEnd>>, node: NodeId, side: Crossing) -> bool {
+    let made = |made: &BTreeSet<SegmentEnd>| {
+        made.contains(&SegmentEnd::Side(Side::whole(side))) && !made.contains(&SegmentEnd::Node(node))
+    };
     causes.get(&side).is_some_and(made)
 }
 
@@ -55,25 +83,25 @@ fn causes(graph: &Graph) -> BTreeMap<Crossing, BTreeSet<SegmentEnd>> {
     let is_delay =
         |end: SegmentEnd| matches!(end, SegmentEnd::Node(node) if matches!(graph.nodes[node].kind, NodeKind::Delay(_)));
     let mut after: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
-    for segment in cut(graph, |_, _| false).iter().filter(|segment| to_input(graph, segment)) {
+    for segment in cut(graph, |_, side| Some(Side::whole(side))).iter().filter(|segment| to_input(graph, segment)) {
         if !is_delay(segment.from) {
             after.entry(segment.from).or_default().push(segment.to);
         }
     }
     let sides = graph.connections.iter().flat_map(|c| c.crossings.iter().copied()).collect::<BTreeSet<Crossing>>();
     let leaving = sides.into_iter().filter(|side| matches!(side, Crossing::Leave(_)));
-    leaving.map(|side| (side, reached([SegmentEnd::Side(side)], &after))).collect()
+    leaving.map(|side| (side, reached([SegmentEnd::Side(Side::whole(side))], &after))).collect()
 }
 
-/// The legs, where connections from a node ignore the boundaries for which `passes` is true.
-fn cut(graph: &Graph, passes: impl Fn(NodeId, Crossing) -> bool) -> Vec<Segment> {
+/// The legs, where connections from a node wait at the boundaries for which `side` returns them.
+fn cut(graph: &Graph, side: impl Fn(NodeId, Crossing) -> Option<Side>) -> Vec<Segment> {
     let mut segments = vec![];
     for (connection, c) in graph.connections.iter_enumerated() {
         let mut from = SegmentEnd::Node(c.from.node);
         // A slot takes each token alone, so that no boundary holds it back.
         let sides = if graph.flow(c) == Flow::ToSlot { &[] } else { c.crossings.as_slice() };
-        for &crossing in sides.iter().filter(|side| !passes(c.from.node, **side)) {
-            let to = SegmentEnd::Side(crossing);
+        for side in sides.iter().filter_map(|crossing| side(c.from.node, *crossing)) {
+            let to = SegmentEnd::Side(side);
             segments.push(Segment { connection, from, to });
             from = to;
         }
@@ -102,7 +130,8 @@ pub struct Loop {
 pub fn loops(graph: &Graph, segments: &[Segment]) -> Vec<Loop> {
     let on_loop = |(inside, delays): (BTreeSet<SegmentEnd>, Vec<NodeId>)| {
         let numbered = || segments.iter().enumerate();
-        let is_entry = |l: &Segment| to_input(graph, l) && !inside.contains(&l.from) && inside.contains(&l.to);
+        let is_inside = |end: SegmentEnd| inside.contains(&end.whole());
+        let is_entry = |l: &Segment| to_input(graph, l) && !is_inside(l.from) && is_inside(l.to);
         let is_event = |l: &Segment| {
             matches!(l.from, SegmentEnd::Node(_)) && inside.contains(&l.from) && from_event(graph, l.connection)
         };
@@ -127,12 +156,12 @@ pub fn echoes<'a>(segments: &[Segment], loops: &'a [Loop]) -> impl Iterator<Item
     (2 * segments.len()..).map(PlaceId::from).zip(entries)
 }
 
-/// For each delay, the nodes and boundaries on the loop that it is on: itself if it is on none. Nested graphs count as a
-/// whole, by their boundaries.
+/// For each delay, the nodes and boundaries on the loop that it is on: itself if it is on none. Nested graphs count as
+/// a whole, by their boundaries.
 fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<SegmentEnd>> {
     let mut after: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
     let mut before: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
-    for segment in cut(graph, |_, _| false).iter().filter(|segment| to_input(graph, segment)) {
+    for segment in cut(graph, |_, side| Some(Side::whole(side))).iter().filter(|segment| to_input(graph, segment)) {
         after.entry(segment.from).or_default().push(segment.to);
         before.entry(segment.to).or_default().push(segment.from);
     }

@@ -6,12 +6,12 @@ use super::{
     bypass::Bypass,
     clocks::{self, Clocks},
     free_for,
-    route::{self, SegmentEnd},
+    route::{self, SegmentEnd, Side},
     token_on,
 };
 use apex_dsl::{
     catalog::Catalog,
-    graph::{ConnectionId, Crossing, Flow, Graph, NodeId, NodeKind, PortId, Standard, Subject},
+    graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId, Standard, Subject},
     index::IdVec,
     syntax::tree::PortKind,
 };
@@ -101,8 +101,8 @@ pub struct State<'a> {
     /// The delays of each loop, by the first one.
     loops: BTreeMap<NodeId, Vec<NodeId>>,
     bypass: Bypass,
-    /// Copies of tokens that lead into loops, and free legs of events on loops: how many of them delays have used before
-    /// they came.
+    /// Copies of tokens that lead into loops, and free legs of events on loops: how many of them delays have used
+    /// before they came.
     lent: BTreeMap<PlaceId, usize>,
     clocks: Clocks,
 }
@@ -120,6 +120,9 @@ pub fn unsupported(graph: &Graph) -> Option<String> {
     for (id, node) in graph.nodes.iter_enumerated() {
         if let NodeKind::Boundary(_) = node.kind {
             return Some(format!("`{}` is a port of the program", node.name));
+        }
+        if node.ports.iter().any(|port| port.comes_with_time) {
+            return Some(format!("`{}` leaves states after a time", graph.path(id)));
         }
         for port in &node.ports {
             if port.standard.is_some_and(|s| !matches!(s, Standard::Processed | Standard::Timeout)) {
@@ -243,7 +246,7 @@ impl<'a> State<'a> {
     }
 
     /// A boundary that some token crossed early and that others have yet to cross.
-    pub fn owes(&self) -> Option<Crossing> {
+    pub fn owes(&self) -> Option<Side> {
         self.bypass.owes()
     }
 
@@ -603,7 +606,7 @@ impl<'a> State<'a> {
         self.emit(node, &taken)
     }
 
-    fn pass(&mut self, side: Crossing, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
+    fn pass(&mut self, side: Side, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
         let stop = SegmentEnd::Side(side);
         let into = self.into.get(&stop).into_iter().flatten();
         let by_connection: BTreeMap<ConnectionId, Token> =

@@ -398,6 +398,19 @@ pub trait Wired {
         self.open_agenda();
     }
 
+    /// Starts and stops the times of the states of a machine, which begin with the timeout `first`. `turned` holds
+    /// those that have begun (`true`) or ended, `after` their lengths in nanoseconds.
+    #[inline]
+    fn time_states<const N: usize>(&mut self, first: usize, turned: [Option<bool>; N], after: [u64; N], ctx: &Ctx) {
+        for (timeout, (turned, after)) in (first..).zip(turned.into_iter().zip(after)) {
+            match turned {
+                Some(true) => self.start_timeout(timeout, after, ctx),
+                Some(false) => self.stop_timeout(timeout),
+                None => {}
+            }
+        }
+    }
+
     /// Stops a timeout.
     #[inline(always)]
     fn stop_timeout(&mut self, timeout: usize) {

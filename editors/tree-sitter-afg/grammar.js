@@ -113,9 +113,10 @@ module.exports = grammar({
       seq('state', field('name', $.identifier), '{', repeat(choice($.state, $.transition, $.hook)), '}'),
     transition: ($) =>
       seq(
-        'on',
-        field('slot', $.identifier),
-        optional(seq('if', field('guard', $.expression))),
+        choice(
+          seq('on', field('slot', $.identifier), optional(seq('if', field('guard', $.expression)))),
+          seq('after', field('time', $.expression)),
+        ),
         optional(seq('=>', optional('resume'), field('target', $.identifier))),
         optional($._actions),
         ';',

@@ -35,3 +35,4 @@ mod scripts;
 mod structs;
 mod timing;
 mod variants;
+mod waits;

@@ -15,6 +15,7 @@ macro_rules! texts {
 texts! {
     answers "texts/answers.afg"
     arbitration "texts/arbitration.afg"
+    call "texts/call.afg"
     calm "texts/calm.afg"
     charged "texts/charged.afg"
     degraded "texts/degraded.afg"

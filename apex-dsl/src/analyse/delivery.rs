@@ -54,7 +54,8 @@ pub fn steps(graph: &Graph, analysis: &Analysis) -> Vec<Vec<ConnectionId>> {
     let firings = analysis.clusters.iter().map(|c| c.sends.clone());
     let alone = |node: &NodeId| {
         let n = &graph.nodes[*node];
-        matches!(n.kind, NodeKind::Boundary(_) | NodeKind::Receiver(_)) || n.modifiers.timeout.is_some()
+        let is_timed = n.modifiers.timeout.is_some() || n.ports.iter().any(|port| port.comes_with_time);
+        matches!(n.kind, NodeKind::Boundary(_) | NodeKind::Receiver(_)) || is_timed
     };
     let nodes = graph.nodes.ids().filter(alone).map(|node| analysis.links.sends[node].clone());
     firings.chain(nodes).chain([at_start(graph, analysis)]).collect()

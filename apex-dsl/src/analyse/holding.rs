@@ -1,8 +1,8 @@
-//! What holds a source back. A source may fire again only when all nodes downstream have finished (R4), and each of
-//! these waits for the tokens of all others that send to it.
+//! Conditions that hold a source back. A source may fire again only when all nodes downstream have finished (R4), and
+//! each of these waits for the tokens of all others that send to it.
 //!
-//! Two sources without a period may share a cluster only if the same conditions hold them back, after the same number of
-//! firings. Otherwise one would wait for the conditions of the other: with `a -> [x, z.p]` and `b -> z.q`, where `x`
+//! Two sources without a period may share a cluster only if the same conditions hold them back, after the same number
+//! of firings. Otherwise one would wait for the conditions of the other: with `a -> [x, z.p]` and `b -> z.q`, where `x`
 //! waits for room for its event, `a` is held back at once. `b` may fire once more: its token waits at `z` then.
 
 use super::{
@@ -24,7 +24,7 @@ pub enum HeldBack {
     Sender(NodeId),
 }
 
-/// What holds a source back, and after how many firings.
+/// Conditions that hold a source back, and after how many firings.
 pub type Holding = BTreeMap<HeldBack, usize>;
 
 /// Ways of the synchronous tokens of a graph, between *stops*: nodes, which have their own numbers, and boundaries of
@@ -68,8 +68,8 @@ impl Ways {
         ways
     }
 
-    /// What holds a source back. `own` holds the guards of each node itself, `pulled` those with which nodes fire because
-    /// their consumers do, and `stays` the nodes whose tokens may stay on their connections.
+    /// Conditions that hold a source back. `own` holds the guards of each node itself, `pulled` those with which nodes
+    /// fire because their consumers do, and `stays` the nodes whose tokens may stay on their connections.
     pub fn holding(
         &self,
         source: NodeId,
@@ -78,15 +78,21 @@ impl Ways {
         pulled: &BTreeMap<NodeId, BTreeSet<usize>>,
         stays: &[NodeId],
     ) -> Holding {
-        let lags = self.lags(source.index());
+        let [down, up] = self.lags(source.index());
+        let least = |down: Option<usize>, up: Option<usize>| down.into_iter().chain(up).min();
+        // The firing that is awaited upstream waits for what the one before it has sent.
+        let stays = stays.iter().map(|node| {
+            let (down, up) = (down[node.index()], up[node.index()].map(|lag| lag + 1));
+            (HeldBack::Sender(*node), least(down, up))
+        });
         let own = own.iter_enumerated().flat_map(|(node, own)| own.iter().map(move |guard| (node, guard)));
         let own = own.map(|(node, guard)| (self.entries.get(guard).copied().unwrap_or(node.index()), guard));
         let pulled = pulled.iter().flat_map(|(node, set)| set.iter().map(|guard| (node.index(), guard)));
         let paced = own.chain(pulled).filter(|(_, guard)| guards[**guard] != Guard::React);
-        let held_back = paced.map(|(stop, guard)| (HeldBack::Guard(*guard), stop));
+        let paced = paced.map(|(stop, guard)| (HeldBack::Guard(*guard), least(down[stop], up[stop])));
         let mut holding = Holding::new();
-        for (what, stop) in held_back.chain(stays.iter().map(|node| (HeldBack::Sender(*node), node.index()))) {
-            if let Some(lag) = lags[stop] {
+        for (what, lag) in paced.chain(stays) {
+            if let Some(lag) = lag {
                 let least = holding.entry(what).or_insert(lag);
                 *least = lag.min(*least);
             }
@@ -94,10 +100,10 @@ impl Ways {
         holding
     }
 
-    /// For each stop, after how many firings of a source the source waits for it. What is downstream has to finish. That
-    /// waits for what is upstream of it, and each node there has to finish its previous firing first.
-    fn lags(&self, source: usize) -> Vec<Option<usize>> {
-        // Stops that are reached downstream, and then upstream.
+    /// For each stop, after how many firings of a source the source waits for it. What is downstream has to finish.
+    /// That waits for what is upstream of it, and each node there has to finish its previous firing first. Returns those
+    /// of the stops that are reached downstream, and then upstream.
+    fn lags(&self, source: usize) -> [Vec<Option<usize>>; 2] {
         let mut least = [vec![None; self.down.len()], vec![None; self.down.len()]];
         let mut ends = VecDeque::from([(source, false, 0)]);
         while let Some((stop, is_up, lag)) = ends.pop_front() {
@@ -114,7 +120,6 @@ impl Ways {
                 }
             }
         }
-        let [down, up] = least;
-        down.into_iter().zip(up).map(|(down, up)| down.into_iter().chain(up).min()).collect()
+        least
     }
 }

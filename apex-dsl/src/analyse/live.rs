@@ -86,7 +86,8 @@ fn begins(graph: &Graph, from: PortId) -> bool {
         NodeKind::Start | NodeKind::Watchdog | NodeKind::SetBack | NodeKind::Delay(_) | NodeKind::Receiver(_) => true,
         _ => false,
     };
-    by_itself || graph.port(from).tells_of_activity() || graph.port(from).standard == Some(Standard::Timeout)
+    let port = graph.port(from);
+    by_itself || port.tells_of_activity() || port.comes_with_time || port.standard == Some(Standard::Timeout)
 }
 
 /// Returns `true` if a node may send on a port when it fires.

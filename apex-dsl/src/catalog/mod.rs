@@ -26,7 +26,7 @@ pub use constants::{Constant, is_path};
 pub use docs::{first_sentence, linkless};
 pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
 pub use reach::Site;
-pub use signature::{ArgSig, MachineSig, ParamSig, PortSig, ReturnSig, Signature, SignatureId, SlotSig};
+pub use signature::{ArgSig, MachineSig, ParamSig, PortSig, ReturnSig, Signature, SignatureId, SlotSig, WaitSig};
 pub use structs::{Field, Struct, Structure};
 pub use traits::Trait;
 pub use tree::{DefId, ModuleId, Need};

@@ -2,7 +2,7 @@
 
 use super::{DefaultValue, Need, Type};
 use crate::{index::id, syntax::tree::PortKind, units};
-use std::{collections::BTreeMap, path::PathBuf};
+use std::{collections::BTreeMap, path::PathBuf, time::Duration};
 
 id! {
     /// Number of a node signature in [`Catalog::signatures`](super::Catalog::signatures).
@@ -68,9 +68,27 @@ pub struct MachineSig {
     /// The numbers of the events that its `exit`s and `entry`s trigger, which are the arguments of the methods by which
     /// `reset`, `cancel` and `resume` move it to another state.
     pub moved: Vec<usize>,
+    /// The times after which it leaves states by itself.
+    pub waits: Vec<WaitSig>,
+}
+
+/// A time after which a state machine leaves a state by itself.
+#[derive(Debug, Clone)]
+pub struct WaitSig {
+    /// The time since the state was entered.
+    pub after: Duration,
+    /// The method that is called then.
+    pub method: String,
+    /// The numbers of the events that it may trigger, which are the arguments of the method.
+    pub events: Vec<usize>,
 }
 
 impl MachineSig {
+    /// Returns `true` if an event may be triggered because of the time that it has been in a state.
+    pub fn is_timed(&self, event: usize) -> bool {
+        self.waits.iter().any(|wait| wait.events.contains(&event))
+    }
+
     /// All states, also those with states inside, by path, each with the numbers of the innermost states in it.
     pub fn all_states(&self) -> BTreeMap<&str, Vec<usize>> {
         let mut found: BTreeMap<&str, Vec<usize>> = BTreeMap::new();

@@ -94,9 +94,10 @@ fn list_timers(lines: &mut Lines<'_>, view: ProgramView<'_>) {
     for (number, (node, bit)) in view.wiring.timers.iter().enumerate() {
         lines.add(&format!("timer {number} of {}: raises {bit}", view.graph.path(*node)));
     }
-    for (number, Timeout { node, after, needs }) in view.wiring.timeouts.iter().enumerate() {
+    for (number, Timeout { node, wait, after, needs }) in view.wiring.timeouts.iter().enumerate() {
         let needs = if needs.is_empty() { String::new() } else { format!(", needs {}", numbers(needs)) };
-        lines.add(&format!("timeout {number}: {} active for {after:?}{needs}", view.graph.path(*node)));
+        let stays = if wait.is_some() { "in a state" } else { "active" };
+        lines.add(&format!("timeout {number}: {} {stays} for {after:?}{needs}", view.graph.path(*node)));
         lines.inside(|lines| lines.ops(&view.program.timeouts[number]));
     }
     for (number, Silence { guard, nodes, .. }) in view.wiring.silences.iter().enumerate() {

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     catalog::{Catalog, Type},
-    machine::{Machine, Move, Sending, Slot, Token},
+    machine::{Arm, Machine, Move, Sending, Slot, Token, Wait},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens as _, format_ident, quote};
@@ -27,7 +27,15 @@ pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
     let texts = &machine.states;
     let known = machine.memories.iter().map(|memory| &states[memory.states[0]]);
     let (places, moves) = (1 + machine.memories.len(), moves(machine, &states, catalog));
-    let methods = machine.slots.iter().map(|slot| method(machine, slot, &states, catalog));
+    let methods = machine.slots.iter().map(|slot| {
+        let docs = format!("What it does about a token at `{}`.", slot.name);
+        method(machine, &Machine::method(&slot.name), &docs, slot, &states, catalog)
+    });
+    let expired = machine.waits.iter().enumerate().map(|(number, wait)| {
+        let docs = format!("What it does {} after a state was entered.", wait.slot.name);
+        method(machine, &Wait::method(number), &docs, &wait.slot, &states, catalog)
+    });
+    let Waits { field, first: waits_first, function } = waits(machine);
     let begin = begin(machine, catalog);
     let slots = machine.slots.iter().map(|slot| &slot.ty).chain((!machine.begin().is_empty()).then_some(&UNIT));
     let slots = slots.enumerate().map(|(i, ty)| {
@@ -46,6 +54,7 @@ pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
             now: [#states_name; #places],
             /// The same before the last `cancel`.
             left: Option<[#states_name; #places]>,
+            #field
         }
         /// The states of the machine.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,12 +63,14 @@ pub fn item(machine: &Machine, catalog: &Catalog) -> TokenStream {
             /// The state that it is in.
             pub fn state(&self) -> #states_name { self.now[0] }
             #(#methods)*
+            #(#expired)*
+            #function
             #begin
             const FIRST: [#states_name; #places] = [#states_name::#first, #(#states_name::#known,)*];
             #moves
         }
         impl ::apex_rt::Construct<()> for #name {
-            fn construct((): ()) -> Self { Self { now: Self::FIRST, left: None } }
+            fn construct((): ()) -> Self { Self { now: Self::FIRST, left: None, #waits_first } }
         }
         const _: () = { #(#slots)* #(#events)* };
     }
@@ -103,8 +114,57 @@ fn event_arg(name: &str) -> Ident {
     format_ident!("event_{name}")
 }
 
-fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -> TokenStream {
-    let (name, states_name) = (ident(&Machine::method(&slot.name)), states_name(machine));
+/// Code for the times of the states of a machine.
+struct Waits {
+    /// Field for the times that have begun or ended since the program asked.
+    field: TokenStream,
+    /// Its value at the start.
+    first: TokenStream,
+    /// The method by which the program asks.
+    function: TokenStream,
+}
+
+fn waits(machine: &Machine) -> Waits {
+    let count = machine.waits.len();
+    if count == 0 {
+        return Waits { field: quote!(), first: quote!(), function: quote!() };
+    }
+    let first = in_state(machine, 0);
+    Waits {
+        field: quote! {
+            /// The times that have begun (`true`) or ended since the last call of `waits`.
+            waits: [Option<bool>; #count],
+        },
+        first: quote! { waits: [#(#first),*], },
+        function: quote! {
+            /// The times of its states that have begun (`true`) or ended since the last call.
+            #[inline]
+            pub fn waits(&mut self) -> [Option<bool>; #count] {
+                ::core::mem::replace(&mut self.waits, [None; #count])
+            }
+        },
+    }
+}
+
+/// The times of the states that a machine is in, which begin, and the others, which end.
+fn in_state(machine: &Machine, state: usize) -> Vec<TokenStream> {
+    let begins = |wait: &Wait| wait.states.contains(&state);
+    machine.waits.iter().map(begins).map(|begins| quote!(Some(#begins))).collect()
+}
+
+/// The times that begin and end with a transition.
+fn waited(machine: &Machine, arm: &Arm) -> TokenStream {
+    let Some(target) = arm.target else { return quote!() };
+    let turns = machine.waits.iter().enumerate().filter_map(|(number, wait)| {
+        let begins = arm.begins.contains(&number);
+        let ends = wait.states.contains(&arm.state) && !wait.states.contains(&target);
+        (begins || ends).then(|| quote! { self.waits[#number] = Some(#begins); })
+    });
+    turns.collect()
+}
+
+fn method(machine: &Machine, name: &str, docs: &str, slot: &Slot, states: &[Ident], catalog: &Catalog) -> TokenStream {
+    let (name, states_name) = (ident(name), states_name(machine));
     let token = slot.uses_token().then(|| {
         let ty = token_type(&slot.ty, catalog);
         quote!(token: &#ty,)
@@ -129,9 +189,9 @@ fn method(machine: &Machine, slot: &Slot, states: &[Ident], catalog: &Catalog) -
             quote! { self.now[0] = #states_name::#target; #(self.now[#kept] = self.now[0];)* }
         });
         let sends = arm.sends.iter().map(|sending| send(machine, sending));
-        quote! { #states_name::#state #guard => { #target #(#sends)* } }
+        let waited = waited(machine, arm);
+        quote! { #states_name::#state #guard => { #target #waited #(#sends)* } }
     });
-    let docs = format!("What it does about a token at `{}`.", slot.name);
     quote! {
         #[doc = #docs]
         #[inline]
@@ -182,6 +242,13 @@ fn moves(machine: &Machine, states: &[Ident], catalog: &Catalog) -> TokenStream 
         }
     };
     let (leave, enter) = (sends(&machine.exits), sends(&machine.entries));
+    let wait = (!machine.waits.is_empty()).then(|| {
+        let arms = states.iter().enumerate().map(|(number, state)| {
+            let waits = in_state(machine, number);
+            quote! { #states_name::#state => [#(#waits),*], }
+        });
+        quote! { self.waits = match self.now[0] { #(#arms)* }; }
+    });
     let [restart, cancel, resume] = [Move::Restart, Move::Cancel, Move::Resume].map(|how| ident(how.method()));
     quote! {
         /// It is left. Its first state is entered at `start`.
@@ -189,6 +256,7 @@ fn moves(machine: &Machine, states: &[Ident], catalog: &Catalog) -> TokenStream 
         pub fn #restart(&mut self, #(mut #args),*) {
             #leave
             (self.now, self.left) = (Self::FIRST, None);
+            #wait
         }
         /// It goes back to its first state, and remembers where it was.
         pub fn #cancel(&mut self, #(#args),*) {
@@ -208,7 +276,7 @@ fn moves(machine: &Machine, states: &[Ident], catalog: &Catalog) -> TokenStream 
             let moves = to[0] != self.now[0];
             if moves { #leave }
             self.now = to;
-            if moves { #enter }
+            if moves { #wait #enter }
         }
     }
 }

@@ -151,6 +151,8 @@ impl Writer<'_> {
             }
             Op::Move { node, how } => self.move_machine(*node, *how),
             Op::ShowStates => generator.initial_states(),
+            Op::TimeStates(node) => self.time_states(*node),
+            Op::LeaveState { node, wait, call } => generator.leave_state(view, *node, *wait, call),
             Op::StartTimeout(timeout) => {
                 let after = super::types::nanos(view.wiring.timeouts[*timeout].after);
                 quote! { core.start_timeout(#timeout, #after, ctx); }
@@ -228,11 +230,19 @@ impl Writer<'_> {
         }
     }
 
+    fn time_states(&self, node: NodeId) -> TokenStream {
+        let (generator, view) = (self.generator, self.view);
+        let Some(first) = view.wiring.first_wait(node) else {
+            return generator.bug(view.graph.nodes[node].span, "the states of a machine have no timeouts");
+        };
+        let (place, first) = (generator.node_place(view.graph, node), Literal::usize_unsuffixed(first));
+        let times = view.program.lower.waits(node).iter().map(|wait| super::types::nanos(wait.after));
+        quote! { core.time_states(#first, #place.waits(), [#(#times),*], ctx); }
+    }
+
     fn move_machine(&self, node: NodeId, how: Move) -> TokenStream {
         let (generator, graph) = (self.generator, self.view.graph);
-        let machine = self.view.program.lower.signature(node).and_then(|signature| signature.machine.as_ref());
-        let moved = machine.map_or(&[][..], |machine| &machine.moved);
-        let events = moved.iter().map(|port| PortId { node, port: *port });
+        let events = self.view.program.lower.moved(node);
         let events = events.map(|event| generator.event(event, self.view.program.lower.is_sent_event(event)));
         let (place, method) = (generator.node_place(graph, node), ident(how.method()));
         generator.states_told(graph, node, quote! { #place.#method(#(#events),*); })

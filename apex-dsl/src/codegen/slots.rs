@@ -177,6 +177,18 @@ impl Generator<'_> {
         self.recorded_slot(graph, node, self.states_told(graph, node, call))
     }
 
+    /// The call of the method of a machine that has been in a state for some time.
+    pub fn leave_state(&self, view: ProgramView<'_>, node: NodeId, wait: usize, call: &SlotCall) -> TokenStream {
+        let args = call.args.iter().map(|arg| match *arg {
+            Arg::Event { event, sent } => self.event(event, sent),
+            _ => self.context(view, node),
+        });
+        let method = ident(&view.program.lower.waits(node)[wait].method);
+        let (place, late) = (self.node_place(view.graph, node), self.late(view, node, call.deadline));
+        let contained = self.contained(view, node, call.failing, quote!(#place.#method(#(#args),*)));
+        self.recorded_slot(view.graph, node, self.states_told(view.graph, node, quote! { #contained; #late }))
+    }
+
     /// The context for a node, which knows whether it is active.
     pub fn context(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         if view.analysis.active.contains(&node) {

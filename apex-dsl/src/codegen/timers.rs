@@ -278,8 +278,9 @@ impl Generator<'_> {
 
     /// The event of a timeout is triggered, with the activity of the node.
     fn timeout_arm(&self, view: ProgramView<'_>, index: usize) -> Arm {
-        let (graph, node) = (view.graph, view.wiring.timeouts[index].node);
-        let docs = format!(" `timeout` of `{}`, {}.", graph.path(node), self.line(graph.nodes[node].span));
+        let (graph, Timeout { node, wait, .. }) = (view.graph, &view.wiring.timeouts[index]);
+        let word = if wait.is_some() { "after" } else { "timeout" };
+        let docs = format!(" `{word}` of `{}`, {}.", graph.path(*node), self.line(graph.nodes[*node].span));
         Arm { number: index, docs, code: self.ops(view, &view.program.timeouts[index]) }
     }
 }

@@ -234,6 +234,8 @@ pub struct Port {
     pub standard: Option<Standard>,
     /// `true` for an event of a state machine that may come when `reset`, `cancel` or `resume` moves it.
     pub comes_with_moves: bool,
+    /// A state machine may send on it when it has been in a state for some time.
+    pub comes_with_time: bool,
     /// Documentation.
     pub docs: String,
 }
@@ -350,6 +352,7 @@ impl Port {
             parameter: None,
             standard: None,
             comes_with_moves: false,
+            comes_with_time: false,
             docs: String::new(),
         }
     }

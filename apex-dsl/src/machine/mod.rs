@@ -6,11 +6,11 @@ mod translate;
 pub use translate::translation;
 
 use crate::{
-    catalog::{ArgSig, Catalog, MachineSig, PortSig, Signature, SignatureId, SlotSig, Type},
+    catalog::{ArgSig, Catalog, MachineSig, PortSig, Signature, SignatureId, SlotSig, Type, WaitSig},
     graph::{Condition, Graph, Node, NodeId, NodeKind, Value},
     syntax::tree::PortKind,
 };
-use std::{collections::BTreeMap, path::PathBuf};
+use std::{collections::BTreeMap, path::PathBuf, time::Duration};
 
 /// A resolved state machine.
 #[derive(Debug, Clone)]
@@ -34,6 +34,8 @@ pub struct Machine {
     pub memories: Vec<Memory>,
     /// Its slots.
     pub slots: Vec<Slot>,
+    /// The times after which it leaves states by itself.
+    pub waits: Vec<Wait>,
     /// Its events, with the types of their tokens.
     pub events: Vec<(String, Type)>,
 }
@@ -83,6 +85,17 @@ pub struct Slot {
     pub arms: Vec<Arm>,
 }
 
+/// A time for which the machine may be in a state.
+#[derive(Debug, Clone)]
+pub struct Wait {
+    /// The time since the state was entered.
+    pub after: Duration,
+    /// Its innermost states.
+    pub states: Vec<usize>,
+    /// Transitions then, as if a token without a value had come to a slot.
+    pub slot: Slot,
+}
+
 /// A state whose last innermost state is remembered.
 #[derive(Debug, Clone)]
 pub struct Memory {
@@ -105,6 +118,8 @@ pub struct Arm {
     pub target: Option<usize>,
     /// Events that are triggered: first those of exits, then of the transition, then of entries.
     pub sends: Vec<Sending>,
+    /// The times that begin, because their states are entered. Those of states that it leaves end.
+    pub begins: Vec<usize>,
 }
 
 /// An event that a transition triggers.
@@ -175,7 +190,11 @@ impl Machine {
             computed: true,
             ports,
             slots,
-            machine: Some(MachineSig { states: self.states.clone(), moved: self.moved() }),
+            machine: Some(MachineSig {
+                states: self.states.clone(),
+                moved: self.moved(),
+                waits: self.waits.iter().enumerate().map(|(number, wait)| wait.signature(number)).collect(),
+            }),
             ..Signature::default()
         }
     }
@@ -204,6 +223,17 @@ impl Machine {
     /// The method of a slot. The prefix keeps it apart from all other methods.
     pub fn method(slot: &str) -> String {
         format!("on_{slot}")
+    }
+}
+
+impl Wait {
+    fn signature(&self, number: usize) -> WaitSig {
+        WaitSig { after: self.after, method: Self::method(number), events: self.slot.events() }
+    }
+
+    /// The method that is called when the time with this number is over.
+    pub fn method(number: usize) -> String {
+        format!("after_{}", number + 1)
     }
 }
 

@@ -16,11 +16,11 @@ pub fn translation(machine: &Machine) -> String {
             let _ = writeln!(text, "  {} -> [{}];", slot.name, consumers.join(", "));
         }
     }
-    for slot in &machine.slots {
+    for slot in machine.slots.iter().chain(machine.waits.iter().map(|wait| &wait.slot)) {
         for (number, arm) in slot.arms.iter().enumerate() {
             let state = &machine.states[arm.state];
             let guard = machine.condition(slot, arm).map(|condition| format!("   // if {condition}"));
-            let event = format!("{state}.{}_{}", slot.name, number + 1);
+            let event = format!("{state}.{}_{}", slot.name.replace(' ', "_"), number + 1);
             if let Some(target) = arm.target {
                 let guard = guard.as_deref().unwrap_or_default();
                 let _ = writeln!(text, "  {event} => {}.enter;{guard}", machine.states[target]);

@@ -118,7 +118,13 @@ impl Lowering<'_> {
     /// Operations before the first reaction.
     pub fn first(&self) -> Ops {
         let watches = self.lower.graph.nodes.ids().filter_map(|node| self.watch_silence(node));
-        watches.chain([Op::ShowStates]).chain(self.begin()).collect()
+        let waits = self.lower.graph.nodes.ids().filter_map(|node| self.time_states(node));
+        watches.chain([Op::ShowStates]).chain(waits).chain(self.begin()).collect()
+    }
+
+    /// The times of the states of a machine follow its moves.
+    pub fn time_states(&self, node: NodeId) -> Option<Op> {
+        (!self.lower.waits(node).is_empty()).then_some(Op::TimeStates(node))
     }
 
     /// `reset`: nothing is active, no token under way carries activity, and `start` is triggered again.
@@ -147,14 +153,14 @@ impl Lowering<'_> {
 
     /// Moves a state machine to another state, and sends its events. Nothing for other nodes.
     pub fn move_machine(&self, node: NodeId, how: Move) -> Ops {
-        let is_machine = self.lower.signature(node).is_some_and(|signature| signature.machine.is_some());
-        if !is_machine {
+        if self.lower.machine(node).is_none() {
             return vec![];
         }
         // Its other events may still be on their way.
         let comes = |end: PortId| self.lower.graph.port(end).comes_with_moves;
         let mut ops = self.clear(node, &comes);
         ops.push(Op::Move { node, how });
+        ops.extend(self.time_states(node));
         ops.extend(self.emit_from(node, &comes));
         ops
     }

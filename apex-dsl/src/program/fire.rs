@@ -257,6 +257,13 @@ impl Lowering<'_> {
         Some(SlotCall { args: args.collect(), failing, deadline: self.deadline(slot.node) })
     }
 
+    /// The call of a machine after a time in a state.
+    pub fn wait_call(&self, node: NodeId, wait: usize) -> SlotCall {
+        let events = &self.lower.waits(node)[wait].events;
+        let args = events.iter().map(|port| self.event_arg(PortId { node, port: *port })).collect();
+        SlotCall { args, failing: self.failing(node, false), deadline: self.deadline(node) }
+    }
+
     fn event_arg(&self, event: PortId) -> Arg {
         Arg::Event { event, sent: self.lower.is_sent_event(event) }
     }

@@ -3,7 +3,7 @@
 use super::{Flag, Spot};
 use crate::{
     analyse::{Analysis, ClusterId, Delivery, Links, is_source},
-    catalog::{Catalog, Signature},
+    catalog::{Catalog, MachineSig, Signature, WaitSig},
     claims::Decided,
     graph::{ConnectionId, Graph, Node, NodeId, NodeKind, PortId},
     syntax::tree::PortKind,
@@ -105,10 +105,19 @@ impl<'a> Lower<'a> {
         !matches!(self.graph.nodes[node].kind, Relay | Interrupt(_) | Sender(_) | Receiver(_))
     }
 
+    /// The state machine that a node is.
+    pub fn machine(self, node: NodeId) -> Option<&'a MachineSig> {
+        self.signature(node).and_then(|signature| signature.machine.as_ref())
+    }
+
+    /// The times after which a state machine leaves states by itself.
+    pub fn waits(self, node: NodeId) -> &'a [WaitSig] {
+        self.machine(node).map_or(&[], |machine| &machine.waits)
+    }
+
     /// Events that the moves of a state machine trigger.
     pub fn moved(self, node: NodeId) -> impl Iterator<Item = PortId> + 'a {
-        let machine = self.signature(node).and_then(|signature| signature.machine.as_ref());
-        machine.into_iter().flat_map(|machine| &machine.moved).map(move |port| PortId { node, port: *port })
+        self.machine(node).into_iter().flat_map(|machine| &machine.moved).map(move |port| PortId { node, port: *port })
     }
 
     /// Place of the activity of a node.
@@ -154,7 +163,8 @@ impl<'a> Lower<'a> {
     pub fn has_start(self) -> bool {
         let started = |n: &Node| n.starts_active || matches!(n.kind, NodeKind::Start);
         let graph = self.graph;
-        graph.nodes.iter().any(started) || graph.nodes.ids().any(|node| self.watches_silence(node).is_some())
+        let timed = |node: NodeId| self.watches_silence(node).is_some() || !self.waits(node).is_empty();
+        graph.nodes.iter().any(started) || graph.nodes.ids().any(timed)
     }
 
     /// Returns `true` if a port takes or sends an array of tokens at once.

@@ -84,6 +84,10 @@ pub enum Op {
     Move { node: NodeId, how: Move },
     /// Shows observers the initial states of state machines.
     ShowStates,
+    /// Starts and stops the times of the states of a machine, which may have moved.
+    TimeStates(NodeId),
+    /// Calls the method of a machine that has been in a state for as long as its `after` with this number says.
+    LeaveState { node: NodeId, wait: usize, call: SlotCall },
 
     // Time
     /// Starts the time of a timeout.

@@ -124,6 +124,13 @@ impl<'p> Lines<'p> {
             }
             Op::Move { node, how } => self.add(&format!("{} {}", how.method(), path(*node))),
             Op::ShowStates => {}
+            Op::TimeStates(node) => self.add(&format!("time the states of {}", path(*node))),
+            Op::LeaveState { node, wait, call } => {
+                let args: Vec<String> = call.args.iter().map(|arg| self.arg(arg)).collect();
+                let method = &self.program.lower.waits(*node)[*wait].method;
+                let after = after_call(call.failing, call.deadline);
+                self.add(&format!("call {}.{method}({}){after}", path(*node), args.join(", ")));
+            }
             Op::StartTimeout(timeout) => self.add(&format!("start timeout {timeout}")),
             Op::StopTimeout(timeout) => self.add(&format!("stop timeout {timeout}")),
             Op::Advance(timer) => self.add(&format!("advance timer {timer}")),

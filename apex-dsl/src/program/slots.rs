@@ -1,6 +1,6 @@
 //! Lowering of slots and timeouts, and of what is sent when a firing ends.
 
-use super::{Carries, Flag, Lowering, Op, Ops, Served};
+use super::{Carries, Flag, Lowering, Op, Ops, Served, Timeout};
 use crate::{
     analyse::{Delivery, ordered},
     catalog::ArgSig,
@@ -111,10 +111,12 @@ impl Lowering<'_> {
             // `enable` of a node that nothing disables is called only for the activity that it carries.
             (NodeKind::Library(_), Some(_)) => vec![],
             (NodeKind::Library(_), None) if graph.nodes[node].can_be_disabled() => {
-                let call = Op::Call { slot, taken, call: self.slot_call(c.to) };
-                vec![Op::If { flag: Flag::Enabled(node), is: true, then: vec![call] }]
+                let call = self.call_and_time(node, Op::Call { slot, taken, call: self.slot_call(c.to) });
+                vec![Op::If { flag: Flag::Enabled(node), is: true, then: call }]
             }
-            (NodeKind::Library(_), None) => vec![Op::Call { slot, taken, call: self.slot_call(c.to) }],
+            (NodeKind::Library(_), None) => {
+                self.call_and_time(node, Op::Call { slot, taken, call: self.slot_call(c.to) })
+            }
             (NodeKind::Probe, _) => vec![Op::SeeSlot { slot, taken }],
             (NodeKind::Exit(code), _) => vec![Op::Exit(*code)],
             (NodeKind::Reset, _) => vec![Op::Reset],
@@ -134,10 +136,22 @@ impl Lowering<'_> {
         }
     }
 
-    /// The timeout with this number has come: its event is triggered, with the activity of the node.
+    /// A call, after which the times of the states of a machine follow.
+    fn call_and_time(&self, node: NodeId, call: Op) -> Ops {
+        [call].into_iter().chain(self.time_states(node)).collect()
+    }
+
+    /// The timeout with this number has come: its event is triggered, with the activity of the node. A machine leaves
+    /// its state.
     pub fn expired(&self, number: usize) -> Ops {
-        let (graph, node) = (self.lower.graph, self.wiring.timeouts[number].node);
+        let (graph, Timeout { node, wait, .. }) = (self.lower.graph, &self.wiring.timeouts[number]);
+        let node = *node;
         let mut ops = vec![Op::StopTimeout(number)];
+        if let Some(wait) = *wait {
+            ops.extend(self.leave_state(node, wait));
+            ops.extend(self.deliver(&self.lower.links.sends[node]));
+            return ops;
+        }
         ops.extend(self.clear_events(node));
         ops.extend(self.trigger(node, Standard::Timeout));
         ops.extend(self.leave(node, &|end| {
@@ -145,6 +159,16 @@ impl Lowering<'_> {
             sent && self.lower.is_sent_event(end)
         }));
         ops.extend(self.deliver(&self.lower.links.sends[node]));
+        ops
+    }
+
+    fn leave_state(&self, node: NodeId, wait: usize) -> Ops {
+        let events = &self.lower.waits(node)[wait].events;
+        let triggers = |end: PortId| events.contains(&end.port);
+        let mut ops = self.clear(node, &triggers);
+        let call = Op::LeaveState { node, wait, call: self.wait_call(node, wait) };
+        ops.extend(self.call_and_time(node, call));
+        ops.extend(self.leave(node, &|end| self.lower.is_sent_event(end) && triggers(end)));
         ops
     }
 

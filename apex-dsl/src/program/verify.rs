@@ -222,6 +222,7 @@ impl Effects {
                     self.called(&call.args, call.failing, call.deadline);
                     self.written.extend(program.lower.moved(node));
                 }
+                Op::LeaveState { call, .. } => self.called(&call.args, call.failing, call.deadline),
                 Op::Move { node, .. } => self.written.extend(program.lower.moved(*node)),
                 Op::Cancel(cancel) => self.written.extend(cancel.cancelled.map(|(event, _)| event)),
                 Op::Interrupt(slot) => self.interrupts.insert(*slot),

@@ -86,12 +86,14 @@ impl Slot {
     }
 }
 
-/// The `timeout` of a node: how long it may be active.
+/// The `timeout` of a node: how long it may be active. Or the `after` of a state: how long a machine may be in it.
 #[derive(Debug)]
 pub struct Timeout {
     /// The node.
     pub node: NodeId,
-    /// Longest time for which it may be active.
+    /// Number of the `after` in the machine; `None` if it is the `timeout` of a node.
+    pub wait: Option<usize>,
+    /// The longest time.
     pub after: Duration,
     /// The conditions under which its event can be triggered.
     pub needs: Vec<usize>,
@@ -172,10 +174,15 @@ impl Wiring {
         });
         let mut timers: Vec<(NodeId, usize)> = timers.collect();
         timers.sort_unstable();
-        let timeouts = graph.nodes.ids().filter_map(|node| {
+        let timeouts = graph.nodes.ids().flat_map(|node| {
+            let active = lower.timeout(node).map(|after| (None, after));
+            let waits = lower.waits(node).iter().enumerate().map(|(number, wait)| (Some(number), wait.after));
+            active.into_iter().chain(waits).map(move |(wait, after)| (node, wait, after))
+        });
+        let timeouts = timeouts.map(|(node, wait, after)| {
             let holding = analysis.asynchronous.holding_back(graph, links, node);
             let needs = holding.filter_map(|connection| bits.free(connection)).collect();
-            Some(Timeout { node, after: lower.timeout(node)?, needs })
+            Timeout { node, wait, after, needs }
         });
         let timeouts = timeouts.collect();
         let silences = analysis.silences.iter().filter_map(|silence| {
@@ -199,7 +206,16 @@ impl Wiring {
 
     /// The number of a node's timeout.
     pub fn timeout(&self, node: NodeId) -> Option<usize> {
-        self.timeouts.binary_search_by_key(&node, |timeout| timeout.node).ok()
+        self.timeout_of(node, None)
+    }
+
+    /// The number of the first `after` of a state machine.
+    pub fn first_wait(&self, machine: NodeId) -> Option<usize> {
+        self.timeout_of(machine, Some(0))
+    }
+
+    fn timeout_of(&self, node: NodeId, wait: Option<usize>) -> Option<usize> {
+        self.timeouts.binary_search_by_key(&(node, wait), |timeout| (timeout.node, timeout.wait)).ok()
     }
 
     /// The timers have an agenda: few of them are as fast looked at themselves.

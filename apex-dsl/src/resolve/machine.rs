@@ -5,17 +5,20 @@ use super::{
     Known,
     condition::Conditions,
     everywhere, suggest, unknown,
-    value::{Evaluated, Scope, Wanted, evaluate},
+    value::{Evaluated, Scope, Wanted, evaluate, time},
 };
 use crate::{
     catalog::Type,
     graph::Condition,
-    machine::{Arm, Machine, Memory, Sending, Slot, Token},
+    machine::{Arm, Machine, Memory, Sending, Slot, Token, Wait},
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Action, FsmItem, Ident, PortItem, PortKind, StateItem, Transition},
+    syntax::tree::{Action, Cause, FsmItem, Ident, PortItem, PortKind, StateItem, Transition},
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    time::Duration,
+};
 
 /// Largest number of innermost states. A larger machine would not be readable.
 const MAX_STATES: usize = 1_000;
@@ -30,7 +33,7 @@ pub fn resolve(
     scope: &Scope<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Machine> {
-    let mut opener = Opener { item, ports: BTreeMap::new(), states: vec![], scope, diagnostics };
+    let mut opener = Opener { item, ports: BTreeMap::new(), states: vec![], waits: vec![], scope, diagnostics };
     opener.add_ports(ty);
     for state in &item.states {
         opener.open(state, None);
@@ -59,6 +62,8 @@ struct Opener<'a> {
     ports: BTreeMap<&'a str, (&'a PortItem, Type)>,
     /// All states, outer ones before those inside.
     states: Vec<Open<'a>>,
+    /// The transitions with `after`, each with its state and its time.
+    waits: Vec<(usize, &'a Transition, Duration)>,
     scope: &'a Scope<'a>,
     diagnostics: &'a mut Diagnostics,
 }
@@ -95,6 +100,21 @@ impl<'a> Opener<'a> {
         }
         self.states.push(Open { item, parent });
         let index = self.states.len() - 1;
+        for transition in &item.transitions {
+            if let Cause::After(after) = &transition.cause {
+                let after = time(after, self.scope).and_then(|time| match time.is_zero() {
+                    false => Ok(time),
+                    true => {
+                        let message = "the time must be greater than zero";
+                        Err(Box::new(Diagnostic::error("out-of-range", after.span, message)))
+                    }
+                });
+                match after {
+                    Ok(after) => self.waits.push((index, transition, after)),
+                    Err(error) => self.diagnostics.push(*error),
+                }
+            }
+        }
         for inner in &item.states {
             self.open(inner, Some(index));
         }
@@ -141,6 +161,7 @@ impl<'a> Opener<'a> {
             exits: exits.iter().map(|actions| self.moved_from_outside(actions)).collect(),
             memories: vec![],
             slots: slots.into_iter().map(|(name, ty)| Slot { name, ty, arms: vec![] }).collect(),
+            waits: vec![],
             events,
         };
         self.check_names();
@@ -154,7 +175,8 @@ impl<'a> Opener<'a> {
         for (number, &leaf) in leaves.iter().enumerate() {
             for around in self.around(leaf) {
                 for transition in &self.states[around].item.transitions {
-                    let Some(slot) = machine.slots.iter().position(|s| s.name == transition.slot.text) else {
+                    let named = transition.slot();
+                    let Some(slot) = machine.slots.iter().position(|s| named.is_some_and(|n| n.text == s.name)) else {
                         continue;
                     };
                     let arms = self.arms((number, leaf), transition, &leaves, &mut machine.memories);
@@ -163,6 +185,17 @@ impl<'a> Opener<'a> {
                     machine.slots[slot].arms.extend(arms);
                 }
             }
+        }
+        for (state, transition, after) in self.waits.clone() {
+            let is_in = |leaf: &usize| *leaf == state || self.is_inside(*leaf, state);
+            let states: Vec<usize> = (0..leaves.len()).filter(|number| is_in(&leaves[*number])).collect();
+            let mut arms = vec![];
+            for &number in &states {
+                arms.extend(self.arms((number, leaves[number]), transition, &leaves, &mut machine.memories));
+            }
+            reached.extend(arms.iter().filter_map(|arm| arm.target));
+            let slot = Slot { name: format!("after {after:?}"), ty: Type::unit(), arms };
+            machine.waits.push(Wait { after, states, slot });
         }
         for (number, &leaf) in leaves.iter().enumerate().filter(|(n, _)| !reached.contains(n)) {
             let message = format!("no transition leads to the state `{}`", machine.states[number]);
@@ -198,17 +231,17 @@ impl<'a> Opener<'a> {
         for state in &self.states {
             let mut taken: BTreeMap<&str, Span> = BTreeMap::new();
             for transition in &state.item.transitions {
-                let slot = &transition.slot;
-                match self.ports.get(slot.text.as_str()) {
-                    Some((port, _)) if port.kind == PortKind::Slot => {}
-                    _ => errors.push(self.unknown(slot, PortKind::Slot)),
-                }
                 if let Some(target) = &transition.target
                     && !states.contains(&target.text.as_str())
                 {
                     errors.push(self.unknown_state(target));
                 }
                 errors.extend(self.nothing_to_resume(transition));
+                let Some(slot) = transition.slot() else { continue };
+                match self.ports.get(slot.text.as_str()) {
+                    Some((port, _)) if port.kind == PortKind::Slot => {}
+                    _ => errors.push(self.unknown(slot, PortKind::Slot)),
+                }
                 if let Some(first) = taken.get(slot.text.as_str()) {
                     let message = format!("unreachable transition: an earlier one already takes every `{}`", slot.text);
                     errors.push(Diagnostic::warning("never-taken", slot.span, message).also(*first, "this one"));
@@ -217,7 +250,26 @@ impl<'a> Opener<'a> {
                 }
             }
         }
+        errors.extend(self.too_late());
         errors.into_iter().for_each(|e| self.diagnostics.push(e));
+    }
+
+    /// Warnings of times that never come, because the state is left before.
+    fn too_late(&self) -> Vec<Diagnostic> {
+        let mut warnings = vec![];
+        for (number, (state, transition, after)) in self.waits.iter().enumerate() {
+            let Cause::After(time) = &transition.cause else { continue };
+            let leaves = |(other, (of, transition, before)): &(usize, &(usize, &Transition, Duration))| {
+                of == state && transition.target.is_some() && (*before, *other) < (*after, number)
+            };
+            let earlier = self.waits.iter().enumerate().filter(leaves).min_by_key(|(_, wait)| wait.2);
+            if let Some((_, (_, Transition { cause: Cause::After(first), .. }, before))) = earlier {
+                let message = format!("unreachable transition: the state is left after {before:?}");
+                let warning = Diagnostic::warning("never-taken", time.span, message);
+                warnings.push(warning.also(first.span, "by this one"));
+            }
+        }
+        warnings
     }
 
     /// The error about `resume` with a state that has no states inside.
@@ -274,13 +326,13 @@ impl<'a> Opener<'a> {
             |this: &Self, name: &Ident| this.states.iter().position(|state| state.item.name.text == name.text);
         let Some(named) = transition.target.as_ref().and_then(|name| position(self, name)) else {
             let sends = self.sendings(&transition.actions.iter().collect::<Vec<_>>(), Some(transition));
-            return vec![Arm { state: number, guard, remembered: None, target: None, sends }];
+            return vec![Arm { state: number, guard, remembered: None, target: None, sends, begins: vec![] }];
         };
         let first = leaves.iter().position(|leaf| *leaf == self.innermost(named));
         let inside: Vec<usize> = (0..leaves.len()).filter(|state| self.is_inside(leaves[*state], named)).collect();
         if transition.resumes.is_none() || inside.is_empty() {
-            let sends = self.moved(leaf, named, self.innermost(named), transition);
-            return vec![Arm { state: number, guard, remembered: None, target: first, sends }];
+            let (sends, begins) = self.moved(leaf, named, self.innermost(named), transition);
+            return vec![Arm { state: number, guard, remembered: None, target: first, sends, begins }];
         }
         let of = self.path(named);
         let memory = memories.iter().position(|memory| memory.of == of).unwrap_or_else(|| {
@@ -288,22 +340,31 @@ impl<'a> Opener<'a> {
             memories.len() - 1
         });
         let arm = |state: usize| {
-            let sends = self.moved(leaf, named, leaves[state], transition);
-            Arm { state: number, guard: guard.clone(), remembered: Some((memory, state)), target: Some(state), sends }
+            let (sends, begins) = self.moved(leaf, named, leaves[state], transition);
+            let remembered = Some((memory, state));
+            Arm { state: number, guard: guard.clone(), remembered, target: Some(state), sends, begins }
         };
         inside.into_iter().map(arm).collect()
     }
 
     fn guard(&mut self, transition: &Transition) -> Option<Condition> {
-        let ty = self.ports.get(transition.slot.text.as_str()).map(|(_, ty)| ty.clone());
+        let (guard, name) = (transition.guard.as_ref()?, &transition.slot()?.text);
+        let ty = self.ports.get(name.as_str()).map(|(_, ty)| ty.clone());
         let unit = Type::unit();
-        let (name, ty) = (&transition.slot.text, ty.as_ref().unwrap_or(&unit));
-        let read = Conditions { name, token: name, ty, scope: self.scope }.read(transition.guard.as_ref()?);
+        let ty = ty.as_ref().unwrap_or(&unit);
+        let read = Conditions { name, token: name, ty, scope: self.scope }.read(guard);
         read.map_err(|error| self.diagnostics.push_once(*error)).ok()
     }
 
-    /// Tokens that a transition from `leaf` to the innermost state `inner` of the state `named` sends, in order.
-    fn moved(&mut self, leaf: usize, named: usize, inner: usize, transition: &'a Transition) -> Vec<Sending> {
+    /// Tokens that a transition from `leaf` to the innermost state `inner` of the state `named` sends, in order, and
+    /// the times that begin with it.
+    fn moved(
+        &mut self,
+        leaf: usize,
+        named: usize,
+        inner: usize,
+        transition: &'a Transition,
+    ) -> (Vec<Sending>, Vec<usize>) {
         let mut actions: Vec<&Action> = vec![];
         let (around, entered) = (self.around(leaf), self.around(inner));
         // States around both the old and the new state are kept. The old state and the named target are not, so that a
@@ -318,7 +379,9 @@ impl<'a> Opener<'a> {
         for state in entered.iter().rev().filter(|s| !kept.contains(s)) {
             actions.extend(&self.states[*state].item.entry);
         }
-        self.sendings(&actions, Some(transition))
+        let is_entered = |state: usize| entered.contains(&state) && !kept.contains(&state);
+        let begins = (0..self.waits.len()).filter(|wait| is_entered(self.waits[*wait].0)).collect();
+        (self.sendings(&actions, Some(transition)), begins)
     }
 
     /// Actions when an innermost state is entered, with all states around it.
@@ -388,7 +451,8 @@ impl<'a> Opener<'a> {
             }
             None if ty.is_unit() => Ok(Token::Unit),
             None => {
-                let came = cause.and_then(|t| self.ports.get(t.slot.text.as_str())).map(|(_, ty)| ty);
+                let slot = cause.and_then(Transition::slot);
+                let came = slot.and_then(|slot| self.ports.get(slot.text.as_str())).map(|(_, ty)| ty);
                 match came {
                     Some(came) if came.compare(ty) != crate::catalog::Match::Different && !came.is_unit() => {
                         Ok(Token::Same)

@@ -174,6 +174,7 @@ fn library_ports(signature: &Signature) -> Vec<Port> {
         parameter: None,
         standard: None,
         comes_with_moves: signature.machine.as_ref().is_some_and(|machine| machine.moved.contains(&i)),
+        comes_with_time: signature.machine.as_ref().is_some_and(|machine| machine.is_timed(i)),
         docs: p.docs.clone(),
     });
     let params = signature.params.iter().enumerate().flat_map(|(i, p)| {
@@ -187,6 +188,7 @@ fn library_ports(signature: &Signature) -> Vec<Port> {
             parameter: Some(i),
             standard: None,
             comes_with_moves: false,
+            comes_with_time: false,
             docs: p.docs.clone(),
         })
     });

@@ -8,7 +8,7 @@ use super::{
     names::{Constructor, GraphId, SourceSet, suggest},
     record::sending_port,
     structs,
-    value::{RustNames, Scope, Wanted, duration, element_of, evaluate},
+    value::{RustNames, Scope, Wanted, element_of, evaluate, time},
 };
 use crate::{
     catalog::{Catalog, Type},
@@ -213,12 +213,7 @@ impl Writer<'_> {
     }
 
     fn time(&mut self, expr: &Expr) -> Option<Duration> {
-        let time = match self.value(expr)? {
-            Value::Duration(time) => Ok(time),
-            Value::Number(n) => duration(n, expr),
-            _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "expected a time, for example `50ms`"))),
-        };
-        time.map_err(|error| self.diagnostics.push(*error)).ok()
+        time(expr, self.scope).map_err(|error| self.diagnostics.push(*error)).ok()
     }
 
     fn seen(&mut self, condition: &Condition) -> Option<Seen> {

@@ -468,6 +468,15 @@ fn minutes(error: Diagnostic, expr: &Expr) -> Diagnostic {
     }
 }
 
+/// The value of an expression that gives a time.
+pub fn time(expr: &Expr, scope: &Scope<'_>) -> Evaluated<Duration> {
+    match evaluate(expr, scope)? {
+        Value::Duration(time) => Ok(time),
+        Value::Number(n) => duration(n, expr),
+        _ => error("wrong-value", expr.span, "expected a time, for example `50ms`".to_owned()),
+    }
+}
+
 /// A time as a duration. Reports values with another dimension.
 pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
     if n.dimension.is_none() {

@@ -1158,12 +1158,23 @@ impl ::pest::Parser<Rule> for Grammar {
                             |state| {
                                 state
                                     .sequence(|state| {
-                                        self::r#on_kw(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#ident(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state.optional(|state| { self::r#guard(state) })
+                                        state
+                                            .sequence(|state| {
+                                                self::r#on_kw(state)
+                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                    .and_then(|state| { self::r#ident(state) })
+                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                    .and_then(|state| {
+                                                        state.optional(|state| { self::r#guard(state) })
+                                                    })
+                                            })
+                                            .or_else(|state| {
+                                                state
+                                                    .sequence(|state| {
+                                                        self::r#after_kw(state)
+                                                            .and_then(|state| { super::hidden::skip(state) })
+                                                            .and_then(|state| { self::r#expr(state) })
+                                                    })
                                             })
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| {
@@ -5785,6 +5796,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     self::r#state_kw(state)
                         .or_else(|state| { self::r#port_kind(state) })
                         .or_else(|state| { self::r#on_kw(state) })
+                        .or_else(|state| { self::r#after_kw(state) })
                         .or_else(|state| { self::r#hook_kw(state) })
                         .or_else(|state| { self::r#doc(state) })
                 }

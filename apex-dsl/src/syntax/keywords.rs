@@ -42,7 +42,7 @@ const fn keyword(text: &'static str, position: KeywordPosition, docs: &'static s
 }
 
 /// All keywords. A keyword with several positions has several entries.
-pub const KEYWORDS: [Keyword; 66] = [
+pub const KEYWORDS: [Keyword; 67] = [
     keyword(
         "use",
         KeywordPosition::Item,
@@ -85,6 +85,11 @@ pub const KEYWORDS: [Keyword; 66] = [
         "on",
         KeywordPosition::Machine,
         "A transition for the tokens of a slot: `on slot if guard => state -> event;`.",
+    ),
+    keyword(
+        "after",
+        KeywordPosition::Machine,
+        "A transition when the machine has been in the state for some time: `after 5s => state -> event;`.",
     ),
     keyword("entry", KeywordPosition::Machine, "Events that are triggered when the state is entered."),
     keyword("exit", KeywordPosition::Machine, "Events that are triggered when the state is left."),

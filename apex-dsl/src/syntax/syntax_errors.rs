@@ -42,7 +42,7 @@ pub fn in_machine(file: FileId, start: usize, text: &str) -> Diagnostic {
         "entry" | "exit" => Rule::entry_exit,
         _ => Rule::transition,
     };
-    let otherwise = "an `fsm` contains `slot`, `event` and `state`; a state contains `on slot if guard => state -> event;`, `entry -> event;`, `exit -> event;` and states";
+    let otherwise = "an `fsm` contains `slot`, `event` and `state`; a state contains `on slot if guard => state -> event;`, `after 5s => state -> event;`, `entry -> event;`, `exit -> event;` and states";
     again(rule, file, start, text, otherwise)
 }
 
@@ -202,6 +202,7 @@ fn name(rule: Rule) -> Option<&'static str> {
         Rule::hook_kw => "`entry` or `exit`",
         Rule::if_kw => "`if`",
         Rule::on_kw => "`on`",
+        Rule::transition => "`on` or `after`",
         Rule::state_kw => "`state`",
         Rule::test_kw => "`test`",
         Rule::tune_kw => "`tune`",

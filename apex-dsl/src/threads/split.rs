@@ -83,10 +83,10 @@ impl Draft {
     }
 }
 
-/// Key of a cell: the port that sends, the group of the receivers, and `true` for synchronous connections, which also
-/// transmit ⊥. Connections with the same key share the cell. A slot beside an input has a cell of its own: the sender
-/// is analysed as a node that sends to a slot.
-type Way = (PortId, usize, bool);
+/// Key of a cell: the port that sends, the group of the receivers, `true` for synchronous connections, which also
+/// transmit ⊥, and the boundaries where the tokens wait for others before. Connections with the same key share the
+/// cell. A slot beside an input has a cell of its own: the sender is analysed as a node that sends to a slot.
+type Way = (PortId, usize, bool, Vec<Crossing>);
 
 struct Splitter<'a> {
     whole: &'a Graph,
@@ -104,6 +104,13 @@ struct Splitter<'a> {
     ends: BTreeMap<Way, NodeId>,
 }
 
+/// The boundaries that a connection leaves, which it crosses in the sender's group, and those that it enters, in the
+/// receiver's.
+fn leaving(c: &Connection) -> (&[Crossing], &[Crossing]) {
+    let enters = c.crossings.iter().position(|side| matches!(side, Crossing::Enter(_))).unwrap_or(c.crossings.len());
+    c.crossings.split_at(enters)
+}
+
 impl Splitter<'_> {
     fn gather(&mut self) {
         for (index, c) in self.whole.connections.iter_enumerated() {
@@ -114,7 +121,9 @@ impl Splitter<'_> {
     }
 
     fn way(&self, c: &Connection, receiver: usize) -> Way {
-        (c.from, receiver, self.whole.is_synchronous(c))
+        let is_synchronous = self.whole.is_synchronous(c);
+        let leaving = if is_synchronous { leaving(c).0 } else { &[] };
+        (c.from, receiver, is_synchronous, leaving.to_vec())
     }
 
     fn place_nodes(&mut self) {
@@ -153,11 +162,7 @@ impl Splitter<'_> {
         if sender.is_none() && ends {
             return;
         }
-        // The boundaries that the connection leaves are crossed in the sender's group, those that it enters in the
-        // receiver's.
-        let enters =
-            c.crossings.iter().position(|side| matches!(side, Crossing::Enter(_))).unwrap_or(c.crossings.len());
-        let (leaving, entering) = c.crossings.split_at(enters);
+        let (leaving, entering) = leaving(c);
         let node = match self.ends.get(&self.way(c, receiver)) {
             Some(node) => *node,
             None => self.add_cell(index, receiver, leaving.to_vec()),

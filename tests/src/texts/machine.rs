@@ -112,6 +112,19 @@ fn state(maker: &mut Maker, name: &str, states: &[String], slots: &[Port], event
             text.push_str(&format!("on {}{guard}{target}{sent}; ", slot.name));
         }
     }
+    if maker.dice.one_in(3) {
+        let time = maker.dice.of(&["1ms", "5s", "2.5ms", "1h"]);
+        let target = if maker.dice.one_in(4) { String::new() } else { format!(" => {}", maker.dice.of(states)) };
+        let sent = match events {
+            [event, ..] if target.is_empty() || maker.dice.one_in(2) => {
+                maker.token(event.ty).map_or(String::new(), |value| format!(" -> {}({value})", event.name))
+            }
+            _ => String::new(),
+        };
+        if !target.is_empty() || !sent.is_empty() {
+            text.push_str(&format!("after {time}{target}{sent}; "));
+        }
+    }
     text + "}"
 }
 

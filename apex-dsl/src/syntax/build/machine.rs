@@ -55,10 +55,11 @@ impl Builder<'_> {
     }
 
     fn transition(&mut self, pair: Pair<'_, Rule>) -> Option<Transition> {
-        let (mut slot, mut guard, mut target, mut resumes, mut actions) = (None, None, None, None, vec![]);
+        let (mut cause, mut guard, mut target, mut resumes, mut actions) = (None, None, None, None, vec![]);
         for part in pair.into_inner() {
             match part.as_rule() {
-                Rule::ident => slot = Some(self.ident(&part)),
+                Rule::ident => cause = Some(Cause::Slot(self.ident(&part))),
+                Rule::expr => cause = Some(Cause::After(self.expr(part))),
                 Rule::guard => {
                     guard = part.into_inner().find(|p| p.as_rule() == Rule::expr).map(|p| self.expr(p));
                 }
@@ -74,7 +75,7 @@ impl Builder<'_> {
                 _ => {}
             }
         }
-        Some(Transition { slot: slot?, guard, target, resumes, actions })
+        Some(Transition { cause: cause?, guard, target, resumes, actions })
     }
 
     fn actions(&mut self, pair: Pair<'_, Rule>) -> Vec<Action> {

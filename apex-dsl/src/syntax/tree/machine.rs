@@ -29,7 +29,7 @@ pub struct StateItem {
     pub entry: Vec<Action>,
     /// Events that are triggered when it is left.
     pub exit: Vec<Action>,
-    /// Transitions for tokens, in order.
+    /// Transitions, in order.
     pub transitions: Vec<Transition>,
     /// States inside. The first of them is entered together with this state.
     pub states: Vec<StateItem>,
@@ -37,11 +37,11 @@ pub struct StateItem {
     pub extent: Span,
 }
 
-/// `on slot if guard => state -> event, event(value);`
+/// `on slot if guard => state -> event, event(value);`, `after 5s => state;`
 #[derive(Debug)]
 pub struct Transition {
-    /// The slot whose token causes it.
-    pub slot: Ident,
+    /// The reason for it.
+    pub cause: Cause,
     /// Condition for the transition.
     pub guard: Option<Expr>,
     /// The new state; `None` if the state remains the same.
@@ -50,6 +50,25 @@ pub struct Transition {
     pub resumes: Option<Span>,
     /// Events that are triggered.
     pub actions: Vec<Action>,
+}
+
+/// Reason for a transition.
+#[derive(Debug)]
+pub enum Cause {
+    /// A token at this slot.
+    Slot(Ident),
+    /// The machine has been in the state for so long.
+    After(Expr),
+}
+
+impl Transition {
+    /// The slot whose token causes it.
+    pub fn slot(&self) -> Option<&Ident> {
+        match &self.cause {
+            Cause::Slot(slot) => Some(slot),
+            Cause::After(_) => None,
+        }
+    }
 }
 
 /// `event`, `event(value)`
