@@ -493,8 +493,7 @@ impl Completer<'_> {
     }
 
     fn types(&self) -> Vec<Completion> {
-        let plain =
-            ["f32", "f64", "bool", "u8", "u16", "u32", "u64", "i8", "i16", "i32", "i64", "Duration", "Vec", "Option"];
+        let plain = "f32 f64 bool u8 u16 u32 u64 i8 i16 i32 i64 Duration Time Vec Option".split(' ');
         let plain = plain.map(|name| Completion::new(name, CompletionKind::Type, "", ""));
         let imported = self.view.texts.names(0).iter().filter_map(|(name, meaning)| match meaning {
             Resolution::Rust(path) if !self.view.catalog.types(path).is_empty() => Some(name.clone()),

@@ -4,6 +4,7 @@ use apex_macros::graph;
 use apex_rt::{Next, prelude::*};
 
 graph!("waits.afg");
+graph!("times.afg");
 
 fn at(seconds: i64) -> Time {
     Time::from_secs(seconds)

@@ -31,7 +31,7 @@ pub use structs::{Field, Struct, Structure};
 pub use traits::Trait;
 pub use tree::{DefId, ModuleId, Need};
 pub use ty::Ty;
-pub use types::{DURATION, Match, PRIMITIVES, STD, Type};
+pub use types::{DURATION, Match, PRIMITIVES, STD, TIME, Type};
 
 use items::{ArgKind, ItemKind, NodeItem, NodeMethods};
 use tree::{Def, Tree};

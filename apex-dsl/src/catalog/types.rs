@@ -48,6 +48,8 @@ pub const PRIMITIVES: [&str; 17] = [
 pub const STD: [&str; 4] = ["Vec", "Option", "String", "Box"];
 /// The type of durations, which source files can name without an import.
 pub const DURATION: &str = "Duration";
+/// The type of points in time, which source files can name without an import, too.
+pub const TIME: &str = "Time";
 const LISTS: [&str; 2] = ["Vec", "heapless::Vec"];
 /// Parts of `std` that `core` has under the same name.
 const CORE: [&str; 8] = ["time", "ops", "num", "cmp", "marker", "option", "result", "primitive"];
@@ -60,6 +62,14 @@ fn is_in_core(path: &str) -> bool {
 }
 
 impl Type {
+    /// The path of [`TIME`].
+    const RUNTIME_TIME: &str = "apex_rt::Time";
+
+    /// Returns `true` for points in time.
+    pub fn is_time(&self) -> bool {
+        matches!(self, Self::Named(name, _) if name == Self::RUNTIME_TIME)
+    }
+
     /// `()`
     pub fn unit() -> Self {
         Self::Tuple(vec![])
@@ -358,6 +368,9 @@ impl Catalog {
                 }
                 if path.len() == 1 && name == DURATION && args.is_empty() {
                     return Type::Named("core::time::Duration".to_owned(), args);
+                }
+                if path.len() == 1 && name == TIME && args.is_empty() {
+                    return Type::Named(Type::RUNTIME_TIME.to_owned(), args);
                 }
                 if path.len() > 1 || STD.contains(&name) {
                     return Type::Named(path.join("::"), args);

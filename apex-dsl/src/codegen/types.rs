@@ -215,6 +215,10 @@ pub fn constant(value: &Value, ty: &Type) -> TokenStream {
             quote!(::std::string::String::from(#text))
         }
         Value::Text(text) => quote!(#text),
+        Value::Duration(time) if ty.is_time() => {
+            let nanos = nanos(*time);
+            quote!(::apex_rt::Time::from_nanos(#nanos))
+        }
         Value::Duration(time) => duration(*time),
         Value::Path(segments, _) => path(segments),
         Value::Struct(given) => {

@@ -5,7 +5,7 @@ use super::{
     value::declared_unit,
 };
 use crate::{
-    catalog::{Catalog, DURATION, PRIMITIVES, STD, Type, is_path, library},
+    catalog::{Catalog, DURATION, PRIMITIVES, STD, TIME, Type, is_path, library},
     report::{Diagnostic, Diagnostics},
     source::Span,
     syntax::tree::{Endpoint, GraphItem, Ident, Instance, NodeBody, PathExpr, TypeExpr, TypeKind},
@@ -161,7 +161,10 @@ impl Checker<'_> {
             let found = self.catalog.types(&full);
             match found.first() {
                 Some(def) => return self.definition(*def, path, args),
-                None if is_generic(name) || name == DURATION || PRIMITIVES.contains(&name.as_str()) => {
+                None if is_generic(name)
+                    || [DURATION, TIME].contains(&name.as_str())
+                    || PRIMITIVES.contains(&name.as_str()) =>
+                {
                     return self.count(path, given, (0, 0));
                 }
                 None if STD.contains(&name.as_str()) => {

@@ -282,7 +282,7 @@ impl Wanted<'_> {
     }
 
     fn wrong(&self, value: &Value, ty: &Type, span: Span) -> Evaluated<Value> {
-        let wanted = if ty.name() == "Duration" { "time".to_owned() } else { format!("`{ty}`") };
+        let wanted = if ty.name() == "Duration" || ty.is_time() { "time".to_owned() } else { format!("`{ty}`") };
         let message = format!("`{}` is a {wanted}, but this is {}", self.name, describe(value));
         error("wrong-value", span, message)
     }
@@ -292,6 +292,7 @@ impl Wanted<'_> {
             return self.fit_measured(value, number, unit, expr);
         }
         match ty.name() {
+            _ if ty.is_time() => return self.fit_duration(value, ty, expr),
             "Duration" if !matches!(ty, Type::Def(..)) => return self.fit_duration(value, ty, expr),
             "f32" | "f64" => return self.fit_number(value, ty, expr),
             name if limits(name).is_some() => return self.fit_integer(value, ty, expr),
