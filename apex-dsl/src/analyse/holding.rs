@@ -101,8 +101,8 @@ impl Ways {
     }
 
     /// For each stop, after how many firings of a source the source waits for it. What is downstream has to finish.
-    /// That waits for what is upstream of it, and each node there has to finish its previous firing first. Returns those
-    /// of the stops that are reached downstream, and then upstream.
+    /// That waits for what is upstream of it, and each node there has to finish its previous firing first. Returns
+    /// those of the stops that are reached downstream, and then upstream.
     fn lags(&self, source: usize) -> [Vec<Option<usize>>; 2] {
         let mut least = [vec![None; self.down.len()], vec![None; self.down.len()]];
         let mut ends = VecDeque::from([(source, false, 0)]);
