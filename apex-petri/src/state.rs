@@ -578,8 +578,11 @@ impl<'a> State<'a> {
                     found = true;
                 }
             }
-            if found {
-                remembered.extend(self.graph.receivers(node).intersection(&nodes));
+            // The activity in a delay does not come back.
+            if found && !self.graph.nodes[node].is_delay() {
+                remembered.extend(
+                    self.graph.receivers(node).intersection(&nodes).filter(|n| !self.graph.nodes[**n].is_delay()),
+                );
                 self.set_active(node, false);
             }
             taken |= found;

@@ -186,19 +186,22 @@ fn interpreted_graphs_run_as_their_nets_may() {
 }
 
 /// Seeds about which the program, interpreted and compiled alike, and the net once disagreed.
-const FORMER: [u64; 27] = [
-    5412, 6739, 6971, 500_608, 502_980, 507_263, 516_058, 518_052, 2_001_006, 2_035_091, 2_041_023, 2_049_314,
-    2_072_645, 2_078_947, 2_080_385, 2_083_520, 2_094_618, 2_098_221, 3050, 3_004_335, 3_004_977, 3_011_621, 3_055_703,
-    3_058_440, 3_069_987, 3_077_650, 3_090_563,
+const FORMER: &[u64] = &[
+    3050, 5412, 6739, 6971, 500_608, 502_980, 507_263, 516_058, 518_052, 2_001_006, 2_035_091, 2_041_023, 2_049_314,
+    2_072_645, 2_078_947, 2_080_385, 2_083_520, 2_094_618, 2_098_221, 3_004_335, 3_004_977, 3_011_621, 3_055_703,
+    3_058_440, 3_069_987, 3_077_650, 3_090_563, 4_012_587,
 ];
 
 /// The same of graphs with timeouts in thread groups.
-const FORMER_OF_THREADS: [u64; 10] =
-    [503_825, 504_993, 1_301_522, 1_302_202, 1_302_283, 1_303_536, 1_308_026, 1_313_156, 3_003_749, 3_013_692];
+const FORMER_OF_THREADS: &[u64] = &[
+    503_825, 504_993, 1_301_522, 1_302_202, 1_302_283, 1_303_536, 1_308_026, 1_313_156, 3_003_749, 3_013_692,
+    4_005_890, 4_013_520,
+];
 
-/// Seeds about which they disagree: the output of a nested graph that leads back to its input, in which other outputs
-/// and an event come together, waits for the event although a delay has made it.
-const OPEN: [u64; 2] = [2_032_420, 3_085_122];
+/// Seeds about which they disagree. The first two: the output of a nested graph that leads back to its input, in which
+/// other outputs and an event come together, waits for the event although a delay has made it. The third: nodes that
+/// take ⊥ would have to act early at one moment and late at another.
+const OPEN: &[u64] = &[2_032_420, 3_085_122, 4_019_570];
 
 fn wrong(seeds: &[u64], made: impl Fn(u64) -> Case) -> Vec<u64> {
     let checker = Checker::new();
@@ -207,14 +210,14 @@ fn wrong(seeds: &[u64], made: impl Fn(u64) -> Case) -> Vec<u64> {
 
 #[test]
 fn former_disagreements_with_the_nets_are_settled() {
-    assert_eq!(wrong(&FORMER, |seed| generate(seed, true)), [0; 0]);
-    assert_eq!(wrong(&FORMER_OF_THREADS, |seed| on_threads(with_timeouts(generate(seed, true)))), [0; 0]);
+    assert_eq!(wrong(FORMER, |seed| generate(seed, true)), [0; 0]);
+    assert_eq!(wrong(FORMER_OF_THREADS, |seed| on_threads(with_timeouts(generate(seed, true)))), [0; 0]);
 }
 
 #[test]
-#[ignore = "open: one of 100,000 random graphs"]
+#[ignore = "open: one of 25,000 random graphs"]
 fn open_disagreements_with_the_nets() {
-    assert_eq!(wrong(&OPEN, |seed| generate(seed, true)), [0; 0]);
+    assert_eq!(wrong(OPEN, |seed| generate(seed, true)), [0; 0]);
 }
 
 #[test]

@@ -419,17 +419,22 @@ fn accumulate(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize>>
     loop {
         let mut changed = false;
         for &node in order {
-            let mut set = sets[node].clone();
+            let mut set = std::mem::take(&mut sets[node]);
+            let before = set.len();
             for &index in &links.inputs[node] {
                 let connection = &graph.connections[index];
                 // The token of an event does not bring the guards of the event's node, which fires on its own.
                 let token = match tokens.get(&index) {
                     Some(guard) => BTreeSet::from([*guard]),
+                    None if connection.crossings.is_empty() => {
+                        set.extend(&sets[connection.from.node]);
+                        continue;
+                    }
                     None => sets[connection.from.node].clone(),
                 };
                 set.extend(pass_sides(&connection.crossings, token, &mut sides, &mut changed));
             }
-            changed |= set.len() > sets[node].len();
+            changed |= set.len() > before;
             sets[node] = set;
         }
         if !changed {

@@ -132,7 +132,7 @@ struct Walk<'a> {
     tree: &'a Tree,
     /// Modules that have been searched, each with the rest of the path. Modules that import everything from each other
     /// are reached in many ways.
-    seen: BTreeSet<(ModuleId, Vec<String>)>,
+    seen: BTreeMap<ModuleId, Vec<Vec<String>>>,
     found: BTreeSet<DefId>,
 }
 
@@ -155,7 +155,7 @@ impl Walk<'_> {
             }
             _ => {}
         }
-        if self.seen.contains(&(module, path.to_vec())) {
+        if self.has_seen(module, path) {
             return;
         }
         let before = self.found.len();
@@ -168,12 +168,18 @@ impl Walk<'_> {
         }
     }
 
+    /// Returns `true` if the path was followed in this module before.
+    fn has_seen(&self, module: ModuleId, path: &[String]) -> bool {
+        self.seen.get(&module).is_some_and(|seen| seen.iter().any(|seen| seen == path))
+    }
+
     /// Follows `path` from the names in `module`.
     fn enter(&mut self, module: ModuleId, path: &[String], imports: usize) {
         let [first, rest @ ..] = path else { return };
-        if !self.seen.insert((module, path.to_vec())) {
+        if self.has_seen(module, path) {
             return;
         }
+        self.seen.entry(module).or_default().push(path.to_vec());
         let tree = self.tree;
         for entry in tree.modules[module].names.get(first).into_iter().flatten() {
             match &entry.target {
@@ -298,7 +304,7 @@ impl Tree {
 
     /// Definitions that `path` names in `module`.
     pub fn resolve(&self, module: ModuleId, path: &[String]) -> Vec<DefId> {
-        let mut walk = Walk { tree: self, seen: BTreeSet::new(), found: BTreeSet::new() };
+        let mut walk = Walk { tree: self, seen: BTreeMap::new(), found: BTreeSet::new() };
         walk.path(module, path, 0);
         walk.found.into_iter().collect()
     }

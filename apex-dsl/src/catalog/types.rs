@@ -322,7 +322,9 @@ impl Catalog {
 
     /// Looks up the names of a type that was written in a source file.
     pub fn type_in_text(&self, ty: &Ty, generics: &[String]) -> Type {
-        self.lookup(ty, generics, 0, &|path| (self.types(path), None))
+        // In Rust, `Time` may be any type.
+        let runtime = |path: &[String]| matches!(path, [name] if name == TIME).then(|| Type::RUNTIME_TIME.to_owned());
+        self.lookup(ty, generics, 0, &|path| (self.types(path), runtime(path)))
     }
 
     fn lookup(&self, ty: &Ty, generics: &[String], aliases: usize, resolve: &Resolve<'_>) -> Type {
@@ -368,9 +370,6 @@ impl Catalog {
                 }
                 if path.len() == 1 && name == DURATION && args.is_empty() {
                     return Type::Named("core::time::Duration".to_owned(), args);
-                }
-                if path.len() == 1 && name == TIME && args.is_empty() {
-                    return Type::Named(Type::RUNTIME_TIME.to_owned(), args);
                 }
                 if path.len() > 1 || STD.contains(&name) {
                     return Type::Named(path.join("::"), args);
