@@ -133,8 +133,9 @@ fn contents_are_counted() {
 
 #[test]
 fn what_is_not_a_recording_is_named() {
+    let database = if cfg!(feature = "sqlite") { "not a database of rosbag2" } else { "the feature `sqlite`" };
     for (bytes, why) in [
-        (&b"SQLite format 3\0"[..], "ros2 bag convert"),
+        (&b"SQLite format 3\0"[..], database),
         (&[0x28, 0xb5, 0x2f, 0xfd, 0], "`zstd -d`"),
         (&[0x1f, 0x8b, 8, 0], "`gunzip`"),
         (b"#ROSBAG V1.2\n", "rosbag fix"),
