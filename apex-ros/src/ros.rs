@@ -17,6 +17,7 @@ use apex_messages::rosgraph_msgs;
 use apex_rt::{
     Ports, Program, UntilStopped, drive_from,
     params::{ParamError, set_text},
+    tell_viewers,
 };
 use std::{env, str::FromStr as _, sync::Arc, thread};
 
@@ -99,6 +100,7 @@ impl Opening {
             Arc::new(move |text: &str| {
                 said(text);
                 log.add(text);
+                tell_viewers(text);
             })
         };
         let is_simulated = args.flag(SIM_TIME);
