@@ -8,6 +8,7 @@ use std::{
     fs,
     io::{self, Write as _},
     path::PathBuf,
+    process::Command,
     time::Duration,
 };
 
@@ -146,4 +147,31 @@ fn what_is_not_a_recording_is_named() {
         assert!(error.to_string().contains(why), "{error}");
     }
     assert!(Recording::open(&std::env::temp_dir()).is_err_and(|error| error.to_string() == "it is a folder"));
+}
+
+#[test]
+fn without_the_feature_sqlite_is_not_built() {
+    for (package, features, has) in
+        [("apex-cli", "", false), ("apex-nodes", "record", false), ("apex-bag", "sqlite", true)]
+    {
+        let tree = Command::new(env!("CARGO"))
+            .args([
+                "tree",
+                "--package",
+                package,
+                "--features",
+                features,
+                "--edges",
+                "normal",
+                "--prefix",
+                "none",
+                "--offline",
+            ])
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()
+            .expect("cargo runs");
+        let tree = String::from_utf8_lossy(&tree.stdout).into_owned();
+        assert!(tree.contains("ruzstd"), "{package}: {tree}");
+        assert_eq!(tree.contains("sqlite"), has, "{package}");
+    }
 }
