@@ -5,19 +5,13 @@ pub mod python;
 mod wait;
 
 use apex_ros::{Opening, Ros};
-use std::{
-    env,
-    net::TcpListener,
-    process::{Child, Command, Stdio},
-};
+use std::net::TcpListener;
 pub use wait::{Collected, within};
 use zenoh::{Config, Session, Wait as _};
 
-/// A router on this machine, at a port of its own: a session of this program, or the program that `APEX_ZENOH_ROUTER`
-/// names (`zenohd` of another version).
+/// A router on this machine, at a port of its own.
 pub struct Router {
     session: Option<Session>,
-    other: Option<Child>,
     pub address: String,
 }
 
@@ -30,16 +24,10 @@ impl Router {
 
     /// A router that does not run yet.
     pub fn at(address: &str) -> Self {
-        Self { session: None, other: None, address: address.to_owned() }
+        Self { session: None, address: address.to_owned() }
     }
 
     pub fn resume(&mut self) {
-        if let Some(program) = env::var_os("APEX_ZENOH_ROUTER") {
-            let mut router = Command::new(program);
-            router.args(["--listen", &self.address, "--no-multicast-scouting"]);
-            self.other = Some(router.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("a router"));
-            return;
-        }
         let mut config = Config::default();
         for (key, value) in [
             ("mode", "\"router\"".to_owned()),
@@ -52,9 +40,6 @@ impl Router {
     }
 
     pub fn stop(&mut self) {
-        if let Some(mut router) = self.other.take() {
-            router.kill().and_then(|()| router.wait()).expect("it ends");
-        }
         if let Some(session) = self.session.take() {
             session.close().wait().expect("it closes");
         }
