@@ -100,7 +100,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// What became of the messages of a topic.
+/// Fate of the messages of a topic.
 #[derive(Debug)]
 struct Outcome {
     sent: u32,

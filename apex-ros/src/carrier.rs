@@ -1,4 +1,4 @@
-//! What carries the messages of a node. The rest of the crate is the same over Zenoh and over others.
+//! Carriers of the messages of a node. The rest of the crate is the same over Zenoh and over others.
 
 use crate::{Distribution, Endpoint, Error, Graph, Token};
 use std::{any::Any, borrow::Cow, sync::Arc, time::Duration};
@@ -16,7 +16,7 @@ pub type HearRequest = Box<dyn Fn(Payload, Box<dyn Answer>) + Send + Sync>;
 /// Function that gets the responses to a request, or the reasons why there is none. It is dropped when no more come.
 pub type HearResponse = Box<dyn Fn(Result<Payload, String>) + Send + Sync>;
 
-/// What carries the messages of a node: Zenoh, or DDS. Messages are in CDR, with its head.
+/// Carrier of the messages of a node: Zenoh, or DDS. Messages are in CDR, with its head.
 ///
 /// The token of an endpoint has all that is known of it: node, name, type, hash and quality.
 pub trait Carrier: Send + Sync {
@@ -72,7 +72,7 @@ pub trait Carrier: Send + Sync {
     fn close(&self);
 }
 
-/// What has to fit so that two endpoints of the same name and type meet.
+/// Parts that have to fit so that two endpoints of the same name and type meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rules {
     /// Hashes of types.

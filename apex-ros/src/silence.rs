@@ -204,7 +204,7 @@ pub struct Situation {
     pub session: String,
     /// All tokens.
     pub graph: Graph,
-    /// What has to fit.
+    /// Parts that have to fit.
     pub rules: Rules,
 }
 

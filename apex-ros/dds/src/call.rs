@@ -26,7 +26,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Client of a service.
 pub struct Client {
     inner: Arc<Inner>,
-    /// What names a server.
+    /// Kind, name and type of a server.
     server: Endpoint,
     vendor: Vendor,
     writer: Writer,

@@ -1,4 +1,4 @@
-//! What is known of the other programs: endpoints by the discovery of DDS, and the nodes that have them.
+//! Knowledge of the other programs: endpoints by the discovery of DDS, and the nodes that have them.
 
 use crate::{
     name,

@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// Length of the name of a request in the messages of Cyclone DDS.
 pub const NAME: usize = 16;
 
-/// What names a request.
+/// Name of a request, which its response has, too.
 enum Name {
     /// Bytes at the beginning of the messages.
     Within([u8; NAME]),
