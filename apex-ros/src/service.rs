@@ -114,7 +114,7 @@ where
     }
 }
 
-/// Offers a service, and passes its requests to `hear` on a thread of the carrier. Requests that cannot be read are told.
+/// Offers a service, and passes its requests to `hear` on a thread of the carrier. Those that cannot be read are told.
 pub fn listen<S: Service + 'static>(
     ros: &Ros,
     name: &str,
