@@ -88,8 +88,8 @@ impl Known {
         }
     }
 
-    /// Waits until both endpoints of a client exchange messages with a server. Returns `false` if there is none, or none
-    /// does so in time. RustDDS does not carry requests within a program.
+    /// Waits until both endpoints of a client exchange messages with a server. Returns `false` if there is none, or it
+    /// does not do so in time. RustDDS does not carry requests within a program.
     pub fn is_served(&self, server: &Endpoint, writer: GUID, reader: GUID, patience: Duration) -> bool {
         let start = Instant::now();
         let mut state = self.state();

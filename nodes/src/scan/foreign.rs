@@ -145,13 +145,13 @@ mod tests {
         is_right(read("odom->base_link"));
         assert_eq!(read("map -> odom").map(|pose| pose.map(|pose| pose.x)), Ok(Some(5.0)));
         assert_eq!(read("map -> base_link"), Ok(None));
-        let why = read("").expect_err("which one?");
         let mut half = message.clone();
         half.transforms[0].transform.rotation.w = 0.0;
         let of_half = |part| super::one_of::<Pose2>(&mut Reader::new(&half.to_bytes())?, part);
         is_right(of_half("odom -> base_link"));
         let why = "`map -> odom`: the length of a quaternion is 0.707: that of a rotation is 1";
         assert_eq!(of_half("map -> odom"), Err(why.into()));
+        let why = read("").expect_err("which one?");
         let names = "`map -> odom`, `odom -> base_link`";
         assert_eq!(why, format!("it has the transforms {names}: name one behind the topic, as `: map -> odom`"));
     }
