@@ -19,7 +19,7 @@ pub(crate) trait FromPose: Sized {
 /// A height and a tilt are left out: the pose is seen from above.
 impl FromPose for Pose2 {
     fn from_pose(pose: &Pose) -> Result<Self, Reason> {
-        // What is not a rotation has no heading: zeros, which a program has not set, would look like that of the x axis.
+        // Zeros, which a program has not set, would look like the heading of the x axis.
         Rotation::try_from(&pose.orientation)?;
         Ok(pose.into())
     }
