@@ -1,4 +1,5 @@
-//! Reader of recordings: MCAP files, of Apex and of other programs, and bags of ROS 1.
+//! Reader of recordings: MCAP files, of Apex and of other programs, bags of ROS 1, and with the feature `sqlite` the
+//! databases of rosbag2.
 //!
 //! A [`Recording`] is read from its beginning, one message after the other, so that it needs neither an index nor
 //! statistics, and can be cut off. Chunks may be compressed (LZ4, Zstandard, bzip2) and are unpacked in Rust.
@@ -11,11 +12,15 @@ mod mcap;
 mod packed;
 mod records;
 mod ros1;
+#[cfg(feature = "sqlite")]
+mod sqlite;
 
 pub use contents::{Contents, Topic};
 pub use mcap::{CUT, Mcap};
 pub use packed::message;
 pub use ros1::{ENCODING as ROS1, Ros1};
+#[cfg(feature = "sqlite")]
+pub use sqlite::Sqlite;
 
 use std::{
     collections::BTreeMap,
@@ -59,6 +64,9 @@ pub enum Recording {
     Mcap(Box<Mcap>),
     /// Bag of ROS 1.
     Ros1(Ros1),
+    /// Database of rosbag2.
+    #[cfg(feature = "sqlite")]
+    Sqlite(Sqlite),
 }
 
 impl Recording {
@@ -73,9 +81,13 @@ impl Recording {
         }
         let refuse = |why: &str| Err(io::Error::new(io::ErrorKind::InvalidData, why));
         match magic.as_slice() {
-            [b'S', b'Q', b'L', b'i', b't', b'e', ..] => {
-                refuse("it is a database of rosbag2 (SQLite): convert it with `ros2 bag convert` or `rosbags-convert`")
-            }
+            #[cfg(feature = "sqlite")]
+            magic if magic == sqlite::MAGIC => Sqlite::open(path).map(Self::Sqlite),
+            #[cfg(not(feature = "sqlite"))]
+            [b'S', b'Q', b'L', b'i', b't', b'e', ..] => refuse(
+                "it is a database of rosbag2 (SQLite): build this program with the feature `sqlite`, or convert it with \
+                 `ros2 bag convert` or `rosbags-convert`",
+            ),
             magic if magic.starts_with(packed::MAGIC_OF_ZSTD) => {
                 refuse("it is compressed as a whole: `zstd -d` unpacks it")
             }
@@ -90,6 +102,8 @@ impl Recording {
         match self {
             Self::Mcap(file) => &file.channels,
             Self::Ros1(bag) => &bag.channels,
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(database) => &database.channels,
         }
     }
 
@@ -101,6 +115,8 @@ impl Recording {
         match self {
             Self::Mcap(file) => file.next_message(),
             Self::Ros1(bag) => bag.next_message(),
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(database) => Ok(database.next_message()),
         }
     }
 
@@ -109,6 +125,8 @@ impl Recording {
         match self {
             Self::Mcap(file) => file.cut.as_deref(),
             Self::Ros1(bag) => bag.cut.as_deref(),
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(database) => database.cut.as_deref(),
         }
     }
 
@@ -116,7 +134,7 @@ impl Recording {
     pub fn program(&self) -> Option<&str> {
         match self {
             Self::Mcap(file) => file.program.as_deref(),
-            Self::Ros1(_) => None,
+            _ => None,
         }
     }
 
@@ -126,7 +144,7 @@ impl Recording {
     pub fn zero(&self, first: u64) -> u64 {
         match self {
             Self::Mcap(file) if file.program.is_some() && !matches!(file.files, Some((2.., _))) => 0,
-            Self::Mcap(_) | Self::Ros1(_) => first,
+            _ => first,
         }
     }
 }

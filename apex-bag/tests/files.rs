@@ -8,6 +8,7 @@ use std::{
     fs,
     io::{self, Write as _},
     path::PathBuf,
+    process::Command,
     time::Duration,
 };
 
@@ -133,8 +134,9 @@ fn contents_are_counted() {
 
 #[test]
 fn what_is_not_a_recording_is_named() {
+    let database = if cfg!(feature = "sqlite") { "not a database of rosbag2" } else { "the feature `sqlite`" };
     for (bytes, why) in [
-        (&b"SQLite format 3\0"[..], "ros2 bag convert"),
+        (&b"SQLite format 3\0"[..], database),
         (&[0x28, 0xb5, 0x2f, 0xfd, 0], "`zstd -d`"),
         (&[0x1f, 0x8b, 8, 0], "`gunzip`"),
         (b"#ROSBAG V1.2\n", "rosbag fix"),
@@ -145,4 +147,31 @@ fn what_is_not_a_recording_is_named() {
         assert!(error.to_string().contains(why), "{error}");
     }
     assert!(Recording::open(&std::env::temp_dir()).is_err_and(|error| error.to_string() == "it is a folder"));
+}
+
+#[test]
+fn without_the_feature_sqlite_is_not_built() {
+    for (package, features, has) in
+        [("apex-cli", "", false), ("apex-nodes", "record", false), ("apex-bag", "sqlite", true)]
+    {
+        let tree = Command::new(env!("CARGO"))
+            .args([
+                "tree",
+                "--package",
+                package,
+                "--features",
+                features,
+                "--edges",
+                "normal",
+                "--prefix",
+                "none",
+                "--offline",
+            ])
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()
+            .expect("cargo runs");
+        let tree = String::from_utf8_lossy(&tree.stdout).into_owned();
+        assert!(tree.contains("ruzstd"), "{package}: {tree}");
+        assert_eq!(tree.contains("sqlite"), has, "{package}");
+    }
 }

@@ -1,8 +1,8 @@
 //! The endpoints of a node: their declaration, and everything that they share.
 
 use crate::{
-    Args, Distribution, Endpoint, Error, Kind, Qos, Token,
-    name::{Scope, key, wire_type},
+    Args, Carrier, Distribution, Endpoint, Error, Kind, NO_HASH, Qos, Token,
+    name::{Scope, wire_type},
     ros::Tell,
     silence::{Ours, Watch},
     time::RosTime,
@@ -10,8 +10,7 @@ use crate::{
 };
 use std::{
     any::Any,
-    collections::hash_map::DefaultHasher,
-    hash::{BuildHasher as _, Hash as _, Hasher as _, RandomState},
+    hash::{BuildHasher as _, RandomState},
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicU64, Ordering},
@@ -19,11 +18,10 @@ use std::{
     thread::{self, JoinHandle},
     time::{Duration, Instant},
 };
-use zenoh::{Session, Wait as _, liveliness::LivelinessToken};
 
 /// The endpoints of a node, and what they share.
 pub struct Endpoints {
-    pub zenoh: Session,
+    pub carrier: Arc<dyn Carrier>,
     pub domain: u32,
     pub scope: Scope,
     pub args: Args,
@@ -45,10 +43,8 @@ pub struct Endpoints {
 pub struct Declared {
     /// The endpoint, and what it has heard.
     pub ours: Arc<Ours>,
-    /// Key of its data.
-    pub key: String,
-    /// Identification in attachments.
-    pub id: [u8; 16],
+    /// Its token.
+    pub token: Token,
 }
 
 /// Time that threads have to end when a node ends: a publisher sends its last message.
@@ -56,23 +52,23 @@ const END: Duration = Duration::from_secs(1);
 
 impl Endpoints {
     pub fn new(
-        zenoh: Session,
+        carrier: Arc<dyn Carrier>,
         domain: u32,
         scope: Scope,
         args: Args,
-        distribution: Option<Distribution>,
+        distribution: Distribution,
         tell: Tell,
         is_simulated: bool,
     ) -> Self {
-        let seed = RandomState::new().hash_one(zenoh.zid().to_string());
+        let seed = RandomState::new().hash_one(carrier.session());
         Self {
             seed,
             voice: Arc::default(),
-            zenoh,
+            carrier,
             domain,
             scope,
             args,
-            distribution: distribution.unwrap_or_else(Distribution::of_environment),
+            distribution,
             time: if is_simulated { RosTime::simulated() } else { RosTime::wall() },
             watch: Arc::default(),
             tell,
@@ -84,7 +80,7 @@ impl Endpoints {
 
     /// Identification of the session in tokens.
     pub fn session_id(&self) -> String {
-        self.zenoh.zid().to_string()
+        self.carrier.session()
     }
 
     /// Full name of a topic or service, after remapping.
@@ -94,7 +90,7 @@ impl Endpoints {
 
     /// Returns an endpoint of this node.
     pub fn endpoint(&self, kind: Kind, full_name: &str, ty: &str, hash: &str, qos: Qos) -> Endpoint {
-        let hash = self.distribution.hash(hash).to_owned();
+        let hash = if self.carrier.rules().hashes { self.distribution.hash(hash) } else { NO_HASH }.to_owned();
         Endpoint { kind, name: full_name.to_owned(), wire_type: wire_type(ty), hash, qos }
     }
 
@@ -122,17 +118,10 @@ impl Endpoints {
             node,
             endpoint: Some(endpoint.clone()),
         };
-        self.keep(self.declare(&token)?);
-        let key = key(self.domain, &endpoint.name, &endpoint.wire_type, &endpoint.hash);
+        self.keep(self.carrier.show(&token)?);
         let ours = Arc::new(Ours::new(endpoint, quiet));
         self.watch.add(Arc::clone(&ours));
-        Ok(Declared { ours, key, id: identification(&token) })
-    }
-
-    /// Declares a token.
-    pub fn declare(&self, token: &Token) -> Result<LivelinessToken, Error> {
-        let what = format!("the token `{token}` cannot be declared");
-        self.zenoh.liveliness().declare_token(token.to_string()).wait().map_err(Error::zenoh(&what))
+        Ok(Declared { ours, token })
     }
 
     /// Returns the number of endpoints so far: the same in each run of a program.
@@ -163,22 +152,8 @@ impl Endpoints {
         while threads.iter().any(|thread| !thread.is_finished()) && start.elapsed() < END {
             thread::sleep(Duration::from_millis(1));
         }
-        // A session that is closed already is as good.
-        drop(self.zenoh.close().wait());
+        self.carrier.close();
     }
-}
-
-/// Identification of an endpoint: 16 bytes that depend on its token.
-fn identification(token: &Token) -> [u8; 16] {
-    let half = |salt: u8| {
-        let mut hasher = DefaultHasher::new();
-        (salt, token.to_string()).hash(&mut hasher);
-        hasher.finish().to_le_bytes()
-    };
-    let mut id = [0; 16];
-    id[..8].copy_from_slice(&half(0));
-    id[8..].copy_from_slice(&half(1));
-    id
 }
 
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

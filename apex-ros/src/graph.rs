@@ -1,11 +1,10 @@
-//! Programs that are there, by their liveliness tokens.
+//! Programs that are there, by their tokens.
 
 use crate::{Endpoint, Kind, Token};
 use std::{
     collections::HashMap,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
-use zenoh::sample::SampleKind;
 
 /// All nodes and endpoints that are there, those of other domains too.
 #[derive(Clone, Default)]
@@ -15,18 +14,17 @@ pub struct Graph(Arc<Mutex<HashMap<String, Token>>>);
 const MOST: usize = 100_000;
 
 impl Graph {
-    /// Changes the graph by a token that has come or gone. A text that is not a token is left out.
-    pub fn change(&self, key: &str, kind: SampleKind) {
+    /// Adds the token of a program, or changes it.
+    pub fn add(&self, key: &str, token: Token) {
         let mut tokens = self.tokens();
-        match (kind, key.parse()) {
-            (SampleKind::Put, Ok(token)) if tokens.len() < MOST => {
-                tokens.insert(key.to_owned(), token);
-            }
-            (SampleKind::Delete, _) => {
-                tokens.remove(key);
-            }
-            _ => {}
+        if tokens.len() < MOST || tokens.contains_key(key) {
+            tokens.insert(key.to_owned(), token);
         }
+    }
+
+    /// Removes a token that has gone.
+    pub fn remove(&self, key: &str) {
+        self.tokens().remove(key);
     }
 
     /// Returns the endpoints of a kind of the other programs.

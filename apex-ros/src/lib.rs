@@ -1,8 +1,9 @@
 //! Programs of Apex beside ROS 2, without ROS installed: topics, services, actions and parameters over Zenoh, as
-//! `rmw_zenoh` has them.
+//! `rmw_zenoh` has them. [`Carrier`] is what another middleware has to do in its place.
 mod action;
 mod args;
 mod attachment;
+mod carrier;
 mod distribution;
 mod endpoint;
 mod error;
@@ -10,6 +11,8 @@ mod graph;
 mod lifecycle;
 mod log;
 mod name;
+#[cfg(feature = "zenoh")]
+mod over_zenoh;
 mod params;
 mod params_file;
 mod publication;
@@ -17,6 +20,7 @@ mod qos;
 mod ring;
 mod ros;
 mod service;
+#[cfg(feature = "zenoh")]
 mod session;
 mod silence;
 mod subscription;
@@ -29,8 +33,13 @@ mod yaml;
 pub use action::{SendingGoals, ServingGoals};
 pub use args::{Args, Remapping};
 pub use attachment::Attachment;
+pub use carrier::{
+    Answer, Ask, Carrier, Hear, HearRequest, HearResponse, Kept, OpenCarrier, Payload, Publish, Rules, SendError,
+    endpoint_of,
+};
 pub use distribution::{Distribution, NO_HASH};
 pub use error::Error;
+pub use graph::Graph;
 pub use lifecycle::Managing;
 pub use name::{Scope, key, type_of_wire, wire_type};
 pub use params_file::FileParam;

@@ -1,23 +1,17 @@
 //! Publishers: from the events of a program to topics.
 
-use crate::{Attachment, Error, Kind, Qos, Reliability, Ros, endpoint::Declared, time::RosTime, time::calendar};
+use crate::{
+    Error, Kind, Qos, Ros,
+    carrier::{Publish, SendError},
+    time::RosTime,
+};
 use apex_messages::Message;
 use apex_rt::PortReceiver;
 use std::{
     marker::PhantomData,
-    sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicI64, Ordering},
-    },
-    time::Duration,
+    sync::{Arc, Mutex, PoisonError},
+    time::{Duration, Instant},
 };
-use zenoh::{
-    Wait as _,
-    bytes::ZBytes,
-    pubsub::Publisher as Plain,
-    qos::{CongestionControl, Reliability as Marker},
-};
-use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt as _, CacheConfig, MissDetectionConfig};
 
 /// A publisher before it begins.
 #[must_use = "it begins with `take` or `open`"]
@@ -36,23 +30,15 @@ pub struct PublishingAs<'a, M>(Publishing<'a>, PhantomData<fn() -> M>);
 
 /// A publisher of the message `M`. It ends when the node is dropped, or with itself.
 pub struct Publisher<M> {
-    way: Way,
-    id: [u8; 16],
-    number: AtomicI64,
+    way: Box<dyn Publish>,
     frame: Option<String>,
     time: RosTime,
     topic: String,
     message: PhantomData<fn(M)>,
 }
 
-/// Publisher of Zenoh, with or without a cache for subscriptions that come later.
-enum Way {
-    Plain(Plain<'static>),
-    Kept(AdvancedPublisher<'static>),
-}
-
-/// Time between two signs of the last message's number, by which its loss is noticed.
-const HEARTBEAT: Duration = Duration::from_millis(500);
+/// Time between two complaints about lost messages.
+const PAUSE: Duration = Duration::from_secs(10);
 
 impl<'a> Publishing<'a> {
     pub(crate) fn new(ros: &'a Ros, topic: &str) -> Self {
@@ -119,9 +105,8 @@ impl<'a> Publishing<'a> {
         let endpoints = &ros.endpoints;
         let declared = endpoints.add(Kind::Publisher, &topic, (M::NAME, M::HASH), qos, is_quiet)?;
         let topic = declared.ours.endpoint.name.clone();
-        let way = way(ros, &declared, qos)?;
-        let (id, number) = (declared.id, AtomicI64::new(1));
-        Ok(Publisher { way, id, number, frame, time: endpoints.time.clone(), topic, message: PhantomData })
+        let way = endpoints.carrier.publish(&declared.token)?;
+        Ok(Publisher { way, frame, time: endpoints.time.clone(), topic, message: PhantomData })
     }
 
     /// Publishes the tokens of an event by `send`, on a thread of its own.
@@ -144,12 +129,19 @@ impl<'a> Publishing<'a> {
             }
         };
         voice.at_silence(say_last.clone());
+        let mut told: Option<Instant> = None;
         ros.endpoints.spawn(&publisher.topic.clone(), move || {
             while let Some(token) = port.receive().as_ref() {
                 let Some(leave) = voice.leave() else { continue };
                 if let Err(error) = send(&publisher, token) {
-                    tell(&error.to_string());
-                    break;
+                    // Messages that are lost are told now and then.
+                    if !error.is_passing() || told.is_none_or(|told| told.elapsed() >= PAUSE) {
+                        told = Some(Instant::now());
+                        tell(&error.to_string());
+                    }
+                    if !error.is_passing() {
+                        break;
+                    }
                 }
                 drop(leave);
             }
@@ -186,37 +178,12 @@ impl<M: Message> Publisher<M> {
     /// Publishes a message. A header without stamp gets the present time.
     ///
     /// # Errors
-    /// The node has ended.
+    /// The node has ended, or the message is lost.
     pub fn send(&self, message: &M) -> Result<(), Error> {
         let bytes = self.time.write(message, self.frame.as_deref());
-        let number = self.number.fetch_add(1, Ordering::Relaxed);
-        let attachment = Attachment { number, time: calendar(), sender: self.id }.to_bytes();
-        let (payload, attachment) = (ZBytes::from(bytes), ZBytes::from(attachment.to_vec()));
-        let sent = match &self.way {
-            Way::Plain(publisher) => publisher.put(payload).attachment(attachment).wait(),
-            Way::Kept(publisher) => publisher.put(payload).attachment(attachment).wait(),
-        };
-        sent.map_err(Error::zenoh(&format!("`{}` cannot be published", self.topic)))
+        self.way.send(bytes).map_err(|error| match error {
+            SendError::Lost(reason) => Error::passing(format!("`{}`: a message is lost: {reason}", self.topic)),
+            SendError::Ended(reason) => Error::new(format!("`{}` cannot be published: {reason}", self.topic)),
+        })
     }
-}
-
-/// Declares the publisher of Zenoh.
-fn way(ros: &Ros, declared: &Declared, qos: Qos) -> Result<Way, Error> {
-    let what = format!("`{}` cannot be published", declared.ours.endpoint.name);
-    let is_reliable = qos.reliability == Reliability::Reliable;
-    let blocks = is_reliable && qos.depth.is_none();
-    let publisher = ros
-        .endpoints
-        .zenoh
-        .declare_publisher(declared.key.clone())
-        .congestion_control(if blocks { CongestionControl::Block } else { CongestionControl::Drop })
-        .reliability(if is_reliable { Marker::Reliable } else { Marker::BestEffort });
-    if !qos.is_kept_for_later() {
-        return publisher.wait().map(Way::Plain).map_err(Error::zenoh(&what));
-    }
-    let mut publisher = publisher.cache(CacheConfig::default().max_samples(qos.kept())).publisher_detection();
-    if is_reliable {
-        publisher = publisher.sample_miss_detection(MissDetectionConfig::default().sporadic_heartbeat(HEARTBEAT));
-    }
-    publisher.wait().map(Way::Kept).map_err(Error::zenoh(&what))
 }

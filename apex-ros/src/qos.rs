@@ -111,6 +111,7 @@ impl Qos {
     }
 
     /// Returns `true` if later subscriptions get the last messages.
+    #[cfg(feature = "zenoh")]
     pub(crate) fn is_kept_for_later(&self) -> bool {
         self.durability == Durability::TransientLocal
     }

@@ -1,25 +1,25 @@
 //! The node of a program in ROS 2.
 
 use crate::{
-    Args, Distribution, Error, Kind, Publishing, Qos, Subscribing,
+    Args, Carrier, Distribution, Error, Kind, Publishing, Qos, Subscribing,
+    carrier::OpenCarrier,
     endpoint::Endpoints,
     graph::Graph,
     log::Log,
     name::Scope,
     params::SIM_TIME,
     params_file::FileParam,
-    session,
     silence::{Situation, Watch},
     time::{RosClock, RosTime},
-    token::{SPACE, Token},
+    token::Token,
 };
 use apex_messages::rosgraph_msgs;
 use apex_rt::{
     Ports, Program, UntilStopped, drive_from,
     params::{ParamError, set_text},
+    tell_viewers,
 };
 use std::{env, str::FromStr as _, sync::Arc, thread};
-use zenoh::Wait as _;
 
 /// Function that is told reasons for silence, and of messages that cannot be read.
 pub(crate) type Tell = Arc<dyn Fn(&str) + Send + Sync>;
@@ -33,6 +33,7 @@ pub struct Opening {
     distribution: Option<Distribution>,
     seed: Option<u64>,
     tell: Tell,
+    carrier: Option<OpenCarrier>,
 }
 
 impl Opening {
@@ -52,6 +53,13 @@ impl Opening {
     #[must_use]
     pub fn router(self, address: &str) -> Self {
         Self { router: Some(address.to_owned()), ..self }
+    }
+
+    /// Sends and hears by another carrier than Zenoh: `open` gets the domain and the distribution. The crate
+    /// `apex-ros-dds` has one.
+    #[must_use]
+    pub fn over(self, open: impl FnOnce(u32, Distribution) -> Result<Arc<dyn Carrier>, Error> + 'static) -> Self {
+        Self { carrier: Some(Box::new(open)), ..self }
     }
 
     /// Writes as this distribution does, instead of that in `ROS_DISTRO`.
@@ -84,17 +92,19 @@ impl Opening {
         let args = Args::read(arguments, &self.node)?;
         let scope = Scope::new(args.namespace.as_deref().unwrap_or(""), args.node.as_deref().unwrap_or(&self.node))?;
         let domain = self.domain.map_or_else(domain, Ok)?;
-        let zenoh = session::open(self.router.as_deref())?;
+        let distribution = self.distribution.unwrap_or_else(Distribution::of_environment);
+        let carrier = self.carrier.unwrap_or_else(|| over_zenoh(self.router))(domain, distribution)?;
         let (log, said) = (Log::default(), self.tell);
         let tell: Tell = {
             let log = log.clone();
             Arc::new(move |text: &str| {
                 said(text);
                 log.add(text);
+                tell_viewers(text);
             })
         };
         let is_simulated = args.flag(SIM_TIME);
-        let mut endpoints = Endpoints::new(zenoh, domain, scope, args, self.distribution, tell, is_simulated);
+        let mut endpoints = Endpoints::new(carrier, domain, scope, args, distribution, tell, is_simulated);
         endpoints.seed = self.seed.unwrap_or(endpoints.seed);
         let endpoints = Arc::new(endpoints);
         let node = Token {
@@ -107,22 +117,29 @@ impl Opening {
             node: endpoints.scope.node.clone(),
             endpoint: None,
         };
-        let token = endpoints.declare(&node)?;
-        endpoints.keep(token);
+        endpoints.keep(endpoints.carrier.show(&node)?);
         let graph = Graph::default();
-        let change = {
-            let graph = graph.clone();
-            move |sample: zenoh::sample::Sample| graph.change(sample.key_expr().as_str(), sample.kind())
-        };
-        let all = endpoints.zenoh.liveliness().declare_subscriber(format!("{SPACE}/**")).history(true).callback(change);
-        endpoints.keep(all.wait().map_err(Error::zenoh("the others cannot be looked for"))?);
-        let ros = Ros { endpoints, log, graph, router: session::address(self.router.as_deref()) };
+        endpoints.keep(endpoints.carrier.look(graph.clone())?);
+        let ros = Ros { endpoints, log, graph };
         ros.watch()?;
         if is_simulated {
             ros.follow_clock()?;
         }
         Ok(ros)
     }
+}
+
+/// The carrier by default.
+fn over_zenoh(router: Option<String>) -> OpenCarrier {
+    #[cfg(feature = "zenoh")]
+    return Box::new(move |_, _| Ok(Arc::new(crate::over_zenoh::Zenoh::open(router.as_deref())?)));
+    #[cfg(not(feature = "zenoh"))]
+    Box::new(move |_, _| {
+        let router = router.map_or_else(String::new, |router| format!(" with the router `{router}`"));
+        Err(Error::new(format!(
+            "a node over Zenoh{router} needs the feature `zenoh` of `apex-ros`; other carriers are named with `over`"
+        )))
+    })
 }
 
 /// Domain in the environment; 0 if there is none.
@@ -142,7 +159,6 @@ pub struct Ros {
     pub(crate) endpoints: Arc<Endpoints>,
     pub(crate) log: Log,
     pub(crate) graph: Graph,
-    router: String,
 }
 
 impl Ros {
@@ -157,6 +173,7 @@ impl Ros {
             distribution: None,
             seed: None,
             tell: Arc::new(tell),
+            carrier: None,
         }
     }
 
@@ -258,18 +275,11 @@ impl Ros {
 
     /// Looks for reasons of silence in a thread.
     fn watch(&self) -> Result<(), Error> {
-        let Endpoints { zenoh, domain, watch, tell, .. } = &*self.endpoints;
-        let situation = Situation {
-            domain: *domain,
-            session: self.endpoints.session_id(),
-            graph: self.graph.clone(),
-            router: self.router.clone(),
-        };
-        let (zenoh, watch, tell): (_, Arc<Watch>, Tell) = (zenoh.clone(), Arc::clone(watch), Arc::clone(tell));
-        self.endpoints.spawn("ros-watch", move || {
-            let has_router = || zenoh.info().routers_zid().wait().next().is_some();
-            watch.run(&situation, has_router, &*tell);
-        })
+        let Endpoints { carrier, domain, watch, tell, .. } = &*self.endpoints;
+        let (domain, session, rules) = (*domain, self.endpoints.session_id(), carrier.rules());
+        let situation = Situation { domain, session, graph: self.graph.clone(), rules };
+        let (carrier, watch, tell): (_, Arc<Watch>, Tell) = (Arc::clone(carrier), Arc::clone(watch), Arc::clone(tell));
+        self.endpoints.spawn("ros-watch", move || watch.run(&situation, &*carrier, &*tell))
     }
 
     /// Takes the time of the simulation from `/clock`.

@@ -1,10 +1,11 @@
-//! Services: requests and responses, as queries of Zenoh and their replies.
+//! Services: requests and responses.
 
 use crate::{
-    Attachment, Error, Kind, Qos, Ros,
+    Error, Kind, Payload, Qos, Ros,
+    carrier::{Answer, Ask},
     ring::Ring,
     ros::Tell,
-    time::{RosTime, calendar},
+    time::RosTime,
 };
 use apex_messages::Service;
 use apex_rt::{PortReceiver, PortSender};
@@ -12,14 +13,10 @@ use std::{
     marker::PhantomData,
     sync::{
         Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, AtomicI64, Ordering},
+        atomic::{AtomicBool, Ordering},
+        mpsc::{self, RecvTimeoutError},
     },
     time::Duration,
-};
-use zenoh::{
-    Wait as _,
-    bytes::ZBytes,
-    query::{ConsolidationMode, Querier, Query, QueryTarget, Reply},
 };
 
 /// Requests that wait at a server. A client whose request makes room for another one gets no response.
@@ -46,9 +43,7 @@ pub struct Calling<'a, S> {
 
 /// Client of a service. It ends when the node is dropped, or with itself.
 pub struct Client<S> {
-    querier: Querier<'static>,
-    id: [u8; 16],
-    number: AtomicI64,
+    way: Box<dyn Ask>,
     name: String,
     timeout: Duration,
     time: RosTime,
@@ -119,7 +114,7 @@ where
     }
 }
 
-/// Offers a service, and passes its requests to `hear` on a thread of Zenoh. Requests that cannot be read are told.
+/// Offers a service, and passes its requests to `hear` on a thread of the carrier. Those that cannot be read are told.
 pub fn listen<S: Service + 'static>(
     ros: &Ros,
     name: &str,
@@ -130,37 +125,25 @@ pub fn listen<S: Service + 'static>(
     let declared = endpoints.add(Kind::Server, name, (S::NAME, S::HASH), Qos::DEFAULT, is_quiet)?;
     let name = declared.ours.endpoint.name.clone();
     let (tell, time) = (Arc::clone(&endpoints.tell), endpoints.time.clone());
-    let (key, what) = (Arc::from(declared.key.as_str()), format!("`{name}` cannot be served"));
-    let hear = move |query: Query| {
-        let request = time.read(&query.payload().map(ZBytes::to_bytes).unwrap_or_default());
-        match request {
-            Ok(request) => {
-                hear(request, Asked { query, key: Arc::clone(&key), time: time.clone(), service: PhantomData });
-            }
-            Err(reason) => tell(&format!("`{name}`: a request cannot be read: {reason}")),
-        }
+    let hear = move |request: Payload, back: Box<dyn Answer>| match time.read(&request.bytes()) {
+        Ok(request) => hear(request, Asked { back, time: time.clone(), service: PhantomData }),
+        Err(reason) => tell(&format!("`{name}`: a request cannot be read: {reason}")),
     };
-    let queryable = endpoints.zenoh.declare_queryable(declared.key).complete(true).callback(hear).wait();
-    endpoints.keep(queryable.map_err(Error::zenoh(&what))?);
+    endpoints.keep(endpoints.carrier.serve(&declared.token, Box::new(hear))?);
     Ok(())
 }
 
 /// Request that waits for its response.
 pub struct Asked<S> {
-    query: Query,
-    key: Arc<str>,
+    back: Box<dyn Answer>,
     time: RosTime,
     service: PhantomData<fn() -> S>,
 }
 
 impl<S: Service> Asked<S> {
-    /// Answers with the number and the client of the request. A client that has gone does not get it.
+    /// Answers. A client that has gone does not get it.
     pub fn answer(self, response: &S::Response) {
-        let Self { query, key, time, .. } = self;
-        let asked = query.attachment().and_then(|attachment| Attachment::read(&attachment.to_bytes()));
-        let (number, sender) = asked.map_or((0, [0; 16]), |asked| (asked.number, asked.sender));
-        let attachment = Attachment { number, time: calendar(), sender }.to_bytes();
-        drop(query.reply(&*key, time.write(response, None)).attachment(attachment.to_vec()).wait());
+        self.back.answer(self.time.write(response, None));
     }
 }
 
@@ -183,17 +166,9 @@ impl<S: Service + 'static> Calling<'_, S> {
         let endpoints = &self.ros.endpoints;
         let declared = endpoints.add(Kind::Client, &self.name, (S::NAME, S::HASH), Qos::DEFAULT, self.is_quiet)?;
         let name = declared.ours.endpoint.name.clone();
-        let querier = endpoints
-            .zenoh
-            .declare_querier(declared.key)
-            .target(QueryTarget::AllComplete)
-            .consolidation(ConsolidationMode::None)
-            .timeout(self.timeout)
-            .wait()
-            .map_err(Error::zenoh(&format!("`{name}` cannot be called")))?;
-        let (id, number, timeout, time) = (declared.id, AtomicI64::new(1), self.timeout, endpoints.time.clone());
-        let tell = Arc::clone(&endpoints.tell);
-        Ok(Client { querier, id, number, name, timeout, time, tell, told: Arc::default(), service: PhantomData })
+        let way = endpoints.carrier.call(&declared.token, self.timeout)?;
+        let (timeout, time, tell) = (self.timeout, endpoints.time.clone(), Arc::clone(&endpoints.tell));
+        Ok(Client { way, name, timeout, time, tell, told: Arc::default(), service: PhantomData })
     }
 
     /// Calls the service with the tokens of an event, one after the other, and puts the responses into a slot. A call
@@ -227,48 +202,39 @@ impl<S: Service> Client<S> {
     /// No node serves it, no response comes in time, or it cannot be read.
     pub fn ask(&self, request: &S::Request) -> Result<S::Response, Error> {
         let (name, seconds) = (&self.name, self.timeout.as_secs_f32());
-        let (payload, attachment) = self.request(request);
-        let replies = self.querier.get().payload(payload).attachment(attachment).wait();
-        let replies = replies.map_err(Error::zenoh(&format!("`{name}` cannot be called")))?;
-        let reply = match replies.recv_timeout(self.timeout) {
-            Ok(Some(reply)) => reply,
-            Ok(None) => return Err(Error::new(format!("`{name}`: no response has come within {seconds} s"))),
-            Err(_) => {
-                return Err(Error::new(format!("no node serves `{name}`, or its server ended before it answered")));
+        let (sender, responses) = mpsc::channel();
+        let hear = move |response| drop(sender.send(response));
+        let asked = self.way.ask(self.time.write(request, None), Box::new(hear));
+        asked.map_err(|reason| Error::new(format!("`{name}` cannot be called: {reason}")))?;
+        match responses.recv_timeout(self.timeout) {
+            Ok(Ok(response)) => self.response(&response.bytes()),
+            Ok(Err(why)) => Err(Error::new(format!("`{name}`: no response has come within {seconds} s: {why}"))),
+            Err(RecvTimeoutError::Timeout) => {
+                Err(Error::new(format!("`{name}`: no response has come within {seconds} s")))
             }
-        };
-        let sample = reply.into_result().map_err(|error| {
-            let why = String::from_utf8_lossy(&error.payload().to_bytes()).into_owned();
-            Error::new(format!("`{name}`: no response has come within {seconds} s: {why}"))
-        })?;
-        self.response(&sample.payload().to_bytes())
+            Err(RecvTimeoutError::Disconnected) => {
+                Err(Error::new(format!("no node serves `{name}`, or its server ended before it answered")))
+            }
+        }
     }
 
-    /// Calls the service. `then` gets the first response on a thread of Zenoh, or `None` if there will be none.
+    /// Calls the service. `then` gets the first response on a thread of the carrier, or `None` if there will be none.
     pub(crate) fn begin(&self, request: &S::Request, then: impl FnOnce(Option<S::Response>) + Send + 'static)
     where
         S: 'static,
     {
-        let (payload, attachment) = self.request(request);
         let (once, name) = (Once(Mutex::new(Some(then)), PhantomData), self.name.clone());
         let (time, tell, told) = (self.time.clone(), Arc::clone(&self.tell), Arc::clone(&self.told));
-        let hear = move |reply: Reply| {
-            let Ok(sample) = reply.into_result() else { return };
-            match time.read(&sample.payload().to_bytes()) {
+        let hear = move |response: Result<Payload, String>| {
+            let Ok(response) = response else { return };
+            match time.read(&response.bytes()) {
                 Ok(response) => once.call(Some(response)),
                 Err(_) if told.swap(true, Ordering::Relaxed) => {}
                 Err(reason) => tell(&format!("`{name}`: a response cannot be read: {reason}")),
             }
         };
-        // A session that is closed drops the function, which calls `then`.
-        drop(self.querier.get().payload(payload).attachment(attachment).callback(hear).wait());
-    }
-
-    /// Payload and attachment of a request.
-    fn request(&self, request: &S::Request) -> (Vec<u8>, Vec<u8>) {
-        let number = self.number.fetch_add(1, Ordering::Relaxed);
-        let attachment = Attachment { number, time: calendar(), sender: self.id }.to_bytes();
-        (self.time.write(request, None), attachment.to_vec())
+        // A carrier that is closed drops the function, which calls `then`.
+        drop(self.way.ask(self.time.write(request, None), Box::new(hear)));
     }
 
     fn response(&self, bytes: &[u8]) -> Result<S::Response, Error> {

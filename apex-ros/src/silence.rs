@@ -1,6 +1,8 @@
 //! Reasons for silence, in words: why nothing comes, and why no node listens.
 
-use crate::{Kind, NO_HASH, Token, action::action_of, graph::Graph, token::Endpoint};
+use crate::{
+    Carrier, Durability, Kind, NO_HASH, Reliability, Rules, Token, action::action_of, graph::Graph, token::Endpoint,
+};
 use std::{
     sync::{
         Arc, Condvar, Mutex, PoisonError,
@@ -47,13 +49,16 @@ const fn other_side(kind: Kind) -> (Kind, &'static str) {
 
 /// Returns the reason why an endpoint of `domain` meets none of the `others`, those of the other side; `None` if it
 /// meets one.
-pub fn reason(domain: u32, ours: &Endpoint, others: &[Token]) -> Option<String> {
+pub fn reason(domain: u32, rules: Rules, ours: &Endpoint, others: &[Token]) -> Option<String> {
     let (_, does) = other_side(ours.kind);
     let name = shown(&ours.name);
     let endpoints = || others.iter().filter_map(|token| Some((token, token.endpoint.as_ref()?)));
     let here = || endpoints().filter(|(token, it)| token.domain == domain && it.name == ours.name);
-    if here().any(|(_, it)| it.wire_type == ours.wire_type && it.hash == ours.hash) {
-        return None;
+    let fit: Vec<_> = here().filter(|(_, it)| it.wire_type == ours.wire_type && it.hash == ours.hash).collect();
+    if !fit.is_empty() {
+        let unfit = |(token, it): &(&Token, &Endpoint)| rules.quality.then(|| quality(token, ours, it))?;
+        let reasons: Option<Vec<String>> = fit.iter().map(unfit).collect();
+        return reasons.and_then(|reasons| reasons.into_iter().next());
     }
     if let Some((token, it)) = here().find(|(_, it)| it.wire_type == ours.wire_type) {
         let node = node(token);
@@ -94,6 +99,37 @@ pub fn reason(domain: u32, ours: &Endpoint, others: &[Token]) -> Option<String> 
         ),
         None => format!("no node {does} `{name}`"),
     })
+}
+
+/// Returns the reason for which the quality of service of two endpoints does not fit; `None` if it does.
+fn quality(token: &Token, ours: &Endpoint, theirs: &Endpoint) -> Option<String> {
+    let (offer, request) = match ours.kind {
+        Kind::Publisher => (ours, theirs),
+        Kind::Subscription => (theirs, ours),
+        Kind::Server | Kind::Client => return None,
+    };
+    let (node, name) = (node(token), shown(&ours.name));
+    let is_reliable = |it: &Endpoint| it.qos.reliability == Reliability::Reliable;
+    let is_kept = |it: &Endpoint| it.qos.durability == Durability::TransientLocal;
+    let said = |theirs: &str, here: &str, fix: &str| {
+        let does = other_side(ours.kind).1;
+        Some(format!("`{node}` {does} `{name}` {theirs}, and this program {here}: {fix}"))
+    };
+    match ours.kind {
+        Kind::Subscription if is_reliable(request) && !is_reliable(offer) => {
+            said("as best effort", "asks for reliable messages", "subscribe with `.best_effort()`")
+        }
+        Kind::Subscription if is_kept(request) && !is_kept(offer) => {
+            said("without keeping messages", "asks for those before", "subscribe without `.transient_local()`")
+        }
+        _ if is_reliable(request) && !is_reliable(offer) => {
+            said("as reliable", "publishes as best effort", "publish without `.best_effort()`")
+        }
+        _ if is_kept(request) && !is_kept(offer) => {
+            said("with the messages before", "keeps none", "publish with `.transient_local()`")
+        }
+        _ => None,
+    }
 }
 
 /// Name in messages: an action is known by the service for its goals.
@@ -168,8 +204,8 @@ pub struct Situation {
     pub session: String,
     /// All tokens.
     pub graph: Graph,
-    /// Address at which a router is looked for.
-    pub router: String,
+    /// Parts that have to fit.
+    pub rules: Rules,
 }
 
 impl Watch {
@@ -189,20 +225,13 @@ impl Watch {
         self.changed.1.notify_all();
     }
 
-    /// Looks at the endpoints until the end of the watch. `has_router` returns `true` while a router is connected.
-    pub fn run(&self, at: &Situation, has_router: impl Fn() -> bool, tell: &(dyn Fn(&str) + Send + Sync)) {
-        let (mut router, mut known) = (Known::default(), Vec::new());
+    /// Looks at the endpoints until the end of the watch.
+    pub fn run(&self, at: &Situation, carrier: &dyn Carrier, tell: &(dyn Fn(&str) + Send + Sync)) {
+        let (mut way, mut known) = (Known::default(), Vec::new());
         while !self.is_over.load(Ordering::Acquire) {
-            let (is_connected, now) = (has_router(), Instant::now());
-            let reason = (!is_connected).then(|| {
-                format!(
-                    "no router of Zenoh answers at `{}`: start one (`ros2 run rmw_zenoh_cpp rmw_zenohd`, or `zenohd`), \
-                     or name another one with `ZENOH_CONFIG_OVERRIDE='connect/endpoints=[\"tcp/HOST:7447\"]'`",
-                    at.router
-                )
-            });
-            let fine = || format!("a router answers at `{}`", at.router);
-            router.note(reason, fine, now).iter().for_each(|text| tell(text));
+            let (obstacle, now) = (carrier.obstacle(), Instant::now());
+            let is_connected = obstacle.is_none();
+            way.note(obstacle, || carrier.way_is_clear(), now).iter().for_each(|text| tell(text));
             let ours = self.all();
             known.resize_with(ours.len(), Known::default);
             for (ours, known) in ours.iter().zip(&mut known).filter(|(ours, _)| !ours.is_quiet) {
@@ -221,13 +250,13 @@ fn look(ours: &Ours, known: &mut Known, at: &Situation, is_connected: bool, now:
     let heard = ours.heard.load(Ordering::Relaxed);
     let is_silent = known.silence(heard, now);
     let others = at.graph.others(kind, &at.session);
-    let reason = reason(at.domain, endpoint, &others).or_else(|| {
+    let reason = reason(at.domain, at.rules, endpoint, &others).or_else(|| {
         let name = shown(&endpoint.name);
         is_silent.then(|| {
             format!("no message of `{name}` has come for {} s, and its publisher is there", SILENT.as_secs_f32())
         })
     });
-    // Without a router nothing is known about the others, and that has been said.
+    // Behind an obstacle nothing is known about the others, and that has been said.
     let reason = reason.filter(|_| is_connected || !others.is_empty());
     known.note(reason, || format!("a node {does} `{}` now", shown(&endpoint.name)), now)
 }
@@ -256,12 +285,13 @@ mod tests {
         }
     }
 
+    const ZENOH: Rules = Rules { hashes: true, quality: false };
     const SCAN: &str = "sensor_msgs/msg/LaserScan";
 
     #[test]
     fn each_silence_has_its_reason() {
         let ours = endpoint(Kind::Subscription, "/scan", SCAN, "RIHS01_64c191398013");
-        let why = |others: &[Token]| reason(0, &ours, others).unwrap_or_default();
+        let why = |others: &[Token]| reason(0, ZENOH, &ours, others).unwrap_or_default();
         assert_eq!(why(&[publisher(0, "/scan", SCAN, "RIHS01_64c191398013")]), "");
         for (others, expected) in [
             (vec![], "no node publishes `/scan`"),
@@ -292,8 +322,36 @@ mod tests {
             assert_eq!(why(&others), expected);
         }
         let humble = endpoint(Kind::Subscription, "/scan", SCAN, NO_HASH);
-        let why = reason(0, &humble, &[publisher(0, "/scan", SCAN, "RIHS01_64c191398013")]);
+        let why = reason(0, ZENOH, &humble, &[publisher(0, "/scan", SCAN, "RIHS01_64c191398013")]);
         assert!(why.is_some_and(|why| why.contains("this program is one of Humble")));
+    }
+
+    #[test]
+    fn quality_has_to_fit_where_it_is_compared() {
+        let with = |kind, qos| Endpoint { qos, ..endpoint(kind, "/scan", SCAN, NO_HASH) };
+        let token = |kind, qos| Token { endpoint: Some(with(kind, qos)), ..publisher(0, "/scan", SCAN, NO_HASH) };
+        let dds = Rules { hashes: false, quality: true };
+        let (reliable, best) = (Qos::DEFAULT, Qos::DEFAULT.best_effort());
+        let (hears, sends) = (Kind::Subscription, Kind::Publisher);
+        let why =
+            |ours, mine, theirs, other| reason(0, dds, &with(ours, mine), &[token(theirs, other)]).unwrap_or_default();
+        assert_eq!(why(hears, best, sends, reliable), "");
+        assert_eq!(
+            why(hears, reliable, sends, best),
+            "`/lidar` publishes `/scan` as best effort, and this program asks for reliable messages: subscribe with \
+             `.best_effort()`"
+        );
+        assert_eq!(
+            why(hears, reliable.transient_local(), sends, reliable),
+            "`/lidar` publishes `/scan` without keeping messages, and this program asks for those before: subscribe \
+             without `.transient_local()`"
+        );
+        assert!(why(sends, best, hears, reliable).ends_with("publish without `.best_effort()`"));
+        assert!(why(sends, reliable, hears, reliable.transient_local()).ends_with("publish with `.transient_local()`"));
+        let ours = with(hears, reliable);
+        let two = [token(sends, best), token(sends, reliable)];
+        assert_eq!(reason(0, dds, &ours, &two), None, "one of them is heard");
+        assert_eq!(reason(0, ZENOH, &ours, &two[..1]), None, "Zenoh compares nothing");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Subscriptions: from topics to the ports of a program.
 
 use crate::{
-    Error, Kind, Qos, Reliability, Ros,
+    Error, Kind, Payload, Qos, Ros,
     endpoint::Declared,
     ring::{Entrance, Ring},
     ros::Tell,
@@ -14,8 +14,6 @@ use std::{
     sync::{Arc, Mutex, PoisonError, atomic::Ordering},
     time::{Duration, Instant},
 };
-use zenoh::{Wait as _, bytes::ZBytes, sample::Sample};
-use zenoh_ext::{AdvancedSubscriberBuilderExt as _, HistoryConfig, RecoveryConfig};
 
 /// A subscription before it begins.
 #[must_use = "it begins with `feed` or `each`"]
@@ -111,7 +109,7 @@ impl<'a> Subscribing<'a> {
     }
 
     /// Calls `act` with each token until it returns `false`. If nothing waits, a small message goes to `at_once` on the
-    /// thread of Zenoh: this saves the way through another thread. A token that it refuses is left to `act`.
+    /// thread of the carrier: this saves the way through another thread. A token that it refuses is left to `act`.
     fn take<T: Message + 'static>(
         self,
         mut act: impl FnMut(T) -> bool + Send + 'static,
@@ -131,14 +129,14 @@ impl<'a> Subscribing<'a> {
         let here = Arc::clone(&reading);
         // Two publishers may come at once, on two threads.
         let turn = Mutex::new(());
-        let first = move |payload: &ZBytes, entrance: &Entrance<ZBytes>| {
-            let Some(at_once) = at_once.as_ref().filter(|_| payload.len() <= SMALL && here.is_ready()) else {
+        let first = move |payload: &Payload, entrance: &Entrance<Payload>| {
+            let Some(at_once) = at_once.as_ref().filter(|_| payload.size() <= SMALL && here.is_ready()) else {
                 return false;
             };
             let Ok(_turn) = turn.try_lock() else { return false };
             entrance.is_idle() && here.read(payload).is_some_and(|token| token.is_none_or(at_once))
         };
-        listen(ros, &declared, qos, entrance, first)?;
+        listen(ros, &declared, entrance, first)?;
         endpoints.spawn(&declared.ours.endpoint.name, move || {
             while let Some(payload) = ring.take() {
                 let Some(token) = reading.read(&payload) else { break };
@@ -168,7 +166,7 @@ impl<'a> Subscribing<'a> {
     }
 }
 
-/// Longest message that is read on the thread of Zenoh, on which those of other topics wait, in bytes.
+/// Longest message that is read on the thread of the carrier, on which those of other topics wait, in bytes.
 const SMALL: usize = 64 * 1024;
 
 /// Reads the tokens of a subscription.
@@ -189,7 +187,7 @@ impl<T> Reading<T> {
 
     /// Reads a token. There is none if the message does not have the part, or cannot be read, which is told. Returns
     /// `None` if the node ends.
-    fn read(&self, payload: &ZBytes) -> Option<Option<T>> {
+    fn read(&self, payload: &Payload) -> Option<Option<T>> {
         let zero = if self.is_clock { 0 } else { self.time.zero()? };
         let token = read(&self.form, payload, zero, &self.part).unwrap_or_else(|reason| {
             self.complaints.lock().unwrap_or_else(PoisonError::into_inner).add(&reason);
@@ -200,8 +198,8 @@ impl<T> Reading<T> {
 }
 
 /// Reads a token; `None` if the message does not have the part.
-fn read<T>(form: &Foreign<T>, payload: &ZBytes, zero: i64, part: &str) -> Result<Option<T>, Reason> {
-    let bytes = payload.to_bytes();
+fn read<T>(form: &Foreign<T>, payload: &Payload, zero: i64, part: &str) -> Result<Option<T>, Reason> {
+    let bytes = payload.bytes();
     let mut reader = Reader::new(&bytes)?.since(zero);
     let token = (form.read)(&mut reader, part)?;
     if token.is_some() && reader.left() > PADDING { Err("bytes are left over".into()) } else { Ok(token) }
@@ -211,30 +209,18 @@ fn read<T>(form: &Foreign<T>, payload: &ZBytes, zero: i64, part: &str) -> Result
 fn listen(
     ros: &Ros,
     declared: &Declared,
-    qos: Qos,
-    entrance: Entrance<ZBytes>,
-    first: impl Fn(&ZBytes, &Entrance<ZBytes>) -> bool + Send + Sync + 'static,
+    entrance: Entrance<Payload>,
+    first: impl Fn(&Payload, &Entrance<Payload>) -> bool + Send + Sync + 'static,
 ) -> Result<(), Error> {
     let ours = Arc::clone(&declared.ours);
-    let hear = move |sample: Sample| {
+    let hear = move |payload: Payload| {
         ours.heard.fetch_add(1, Ordering::Relaxed);
-        if !first(sample.payload(), &entrance) && entrance.put(sample.payload().clone()) {
+        if !first(&payload, &entrance) && entrance.put(payload) {
             ours.dropped.fetch_add(1, Ordering::Relaxed);
         }
     };
     let endpoints = &ros.endpoints;
-    let what = format!("`{}` cannot be subscribed", declared.ours.endpoint.name);
-    let subscriber = endpoints.zenoh.declare_subscriber(declared.key.clone()).callback(hear);
-    if !qos.is_kept_for_later() {
-        endpoints.keep(subscriber.wait().map_err(Error::zenoh(&what))?);
-        return Ok(());
-    }
-    let history = HistoryConfig::default().detect_late_publishers().max_samples(qos.kept());
-    let mut subscriber = subscriber.history(history);
-    if qos.reliability == Reliability::Reliable {
-        subscriber = subscriber.recovery(RecoveryConfig::default().heartbeat());
-    }
-    endpoints.keep(subscriber.wait().map_err(Error::zenoh(&what))?);
+    endpoints.keep(endpoints.carrier.subscribe(&declared.token, Box::new(hear))?);
     Ok(())
 }
 

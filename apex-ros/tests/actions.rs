@@ -544,7 +544,7 @@ fn peer() -> Option<Peer> {
         format!("{}={}", FibonacciGetResult::NAME, FibonacciGetResult::HASH),
         format!("{}={}", CancelGoal::NAME, CancelGoal::HASH),
     ];
-    Some(Peer::start(&python()?, "action_peer.py", &types.each_ref().map(String::as_str)))
+    Some(Peer::start(&*python()?, "action_peer.py", &types.each_ref().map(String::as_str)))
 }
 
 #[test]

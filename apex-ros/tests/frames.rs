@@ -26,7 +26,7 @@ fn transform(parent: &str, child: &str, pose: Pose3) -> Transform {
 #[test]
 fn scans_are_placed_by_the_transforms_of_others() {
     let Some(python) = python() else { return };
-    let peer = Peer::start(&python, "frames_peer.py", &[]);
+    let peer = Peer::start(&*python, "frames_peer.py", &[]);
     let ros = peer.node("robot");
     let mut ports = Ports::<Turned>::new();
     ros.subscribe("/tf").depth(100).feed(ports.input(|inputs| &mut inputs.moving)).expect("a topic");

@@ -242,7 +242,7 @@ fn a_manager_in_python_starts_and_stops_the_robot() {
     let Some(python) = python() else { return };
     let types =
         [format!("{}={}", ChangeState::NAME, ChangeState::HASH), format!("{}={}", GetState::NAME, GetState::HASH)];
-    let mut manager = Peer::start(&python, "lifecycle_peer.py", &types.each_ref().map(String::as_str));
+    let mut manager = Peer::start(&*python, "lifecycle_peer.py", &types.each_ref().map(String::as_str));
     let ros = manager.node("robot");
     ros.manage().by(|_| Outcome::Success).expect("services");
     within(10.0, "the state", || manager.does("state").iter().any(|line| line == "state 1 unconfigured"));

@@ -38,8 +38,11 @@ mod turtlebot {
 }
 
 #[test]
-fn the_project_is_built_without_zenoh() {
+fn the_project_is_built_without_zenoh_and_dds() {
     let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.lock");
     let lock = fs::read_to_string(lock).expect("the workspace has one");
-    assert!(lock.contains("name = \"apex-rt\"") && !lock.contains("name = \"zenoh"));
+    assert!(
+        lock.contains("name = \"apex-rt\"")
+            && ["zenoh", "rustdds"].iter().all(|it| !lock.contains(&format!("name = \"{it}")))
+    );
 }

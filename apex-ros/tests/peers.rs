@@ -14,17 +14,17 @@ use apex_messages::{
     tf2_msgs::TFMessage,
 };
 use apex_nodes::map::{Grid, Occupancy};
-use apex_ros::{Kind, Ros};
+use apex_ros::{Kind, Publisher, Ros};
 use apex_rt::Time;
 use common::{
     Collected,
-    python::{Peer, python},
+    python::{Interpreter, Peer, python, with_zenoh},
     within,
 };
-use std::{path::Path, process::Command, thread, time::Duration};
+use std::{process::Command, thread, time::Duration};
 
 /// The peer of this file.
-fn peer(python: &Path) -> Peer {
+fn peer(python: impl Into<Interpreter>) -> Peer {
     Peer::start(python, "peer.py", &[&format!("std_srvs/srv/SetBool={}", <SetBool as apex_messages::Service>::HASH)])
 }
 
@@ -88,7 +88,11 @@ fn header() -> Header {
 #[test]
 fn messages_come_back_from_python_bit_by_bit() {
     let Some(python) = python() else { return };
-    let peer = peer(&python);
+    all_come_back(&peer(&*python));
+}
+
+/// Lets the peer send messages of ten types back.
+fn all_come_back(peer: &Peer) {
     let ros = peer.node("robot");
     let scan = |count| LaserScan { header: header(), ranges: ODD.repeat(count), ..LaserScan::default() };
     echo(&ros, 0, &[scan(0), scan(1), scan(300)]);
@@ -134,7 +138,24 @@ fn messages_come_back_from_python_bit_by_bit() {
 #[test]
 fn services_and_late_maps_go_both_ways() {
     let Some(python) = python() else { return };
-    let mut peer = peer(&python);
+    answers_and_maps(&mut peer(&*python));
+}
+
+/// Routers of earlier versions: 1.6.2 is that of Jazzy and Kilted; 1.8, that of Humble and Lyrical, is between them.
+#[test]
+fn earlier_routers_carry_the_same() {
+    let Some(python) = python() else { return };
+    for version in ["1.6.2", "1.9.0"] {
+        let Some(earlier) = with_zenoh(&python, version) else { return };
+        let mut peer = peer(earlier);
+        all_come_back(&peer);
+        answers_and_maps(&mut peer);
+        tokens_are_seen(&mut peer);
+    }
+}
+
+/// Calls a service of the peer and answers one, and lets maps come late.
+fn answers_and_maps(peer: &mut Peer) {
     let ros = peer.node("robot");
     let flip = ros.call::<SetBool>("/flip").open().expect("a client");
     within(10.0, "the server", || ros.sees(Kind::Server, "/flip", "std_srvs/srv/SetBool"));
@@ -165,7 +186,24 @@ fn services_and_late_maps_go_both_ways() {
 #[test]
 fn tools_see_the_node_and_its_topics() {
     let Some(python) = python() else { return };
-    let mut peer = peer(&python);
+    let mut peer = peer(&*python);
+    let kept = tokens_are_seen(&mut peer);
+    let address = peer.address.trim_start_matches("tcp/");
+    let sdk = python.with_file_name("zenoh-ros2");
+    let mut listed = String::new();
+    within(20.0, "the list of zenoh-ros2-sdk", || {
+        let output = Command::new(&sdk)
+            .args(["--no-daemon", "--domain-id", "0", "--router", address, "--timeout", "2", "topic", "list", "-t"])
+            .output()
+            .expect("it runs");
+        listed = String::from_utf8_lossy(&output.stdout).into_owned();
+        listed.contains("/cmd_vel [geometry_msgs/msg/Twist]") && listed.contains("/scan [sensor_msgs/msg/LaserScan]")
+    });
+    drop(kept);
+}
+
+/// Waits for the tokens of a node with two topics, which is returned.
+fn tokens_are_seen(peer: &mut Peer) -> (Ros, Publisher<Twist>) {
     let ros = peer.node("robot");
     ros.subscribe("scan").best_effort().each(|_: LaserScan| {}).expect("a topic");
     let twist = ros.publish("cmd_vel").open::<Twist>().expect("a topic");
@@ -178,16 +216,5 @@ fn tools_see_the_node_and_its_topics() {
         let tokens = peer.does("tokens");
         wanted.iter().all(|wanted| tokens.iter().any(|token| token.ends_with(wanted.as_str())))
     });
-    let address = peer.address.trim_start_matches("tcp/");
-    let sdk = python.with_file_name("zenoh-ros2");
-    let mut listed = String::new();
-    within(20.0, "the list of zenoh-ros2-sdk", || {
-        let output = Command::new(&sdk)
-            .args(["--no-daemon", "--domain-id", "0", "--router", address, "--timeout", "2", "topic", "list", "-t"])
-            .output()
-            .expect("it runs");
-        listed = String::from_utf8_lossy(&output.stdout).into_owned();
-        listed.contains("/cmd_vel [geometry_msgs/msg/Twist]") && listed.contains("/scan [sensor_msgs/msg/LaserScan]")
-    });
-    drop(twist);
+    (ros, twist)
 }

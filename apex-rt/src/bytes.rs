@@ -10,7 +10,7 @@ use core::{
 use heapless::Vec;
 
 /// Version of the messages.
-pub const VERSION: u32 = 8;
+pub const VERSION: u32 = 9;
 /// Maximum length of an error message, in bytes.
 const MAX_TEXT: usize = 100;
 /// Size of the largest message besides the description, in bytes: kind, node, and error message.

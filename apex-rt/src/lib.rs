@@ -83,7 +83,7 @@ pub use observer::Observer;
 #[doc(hidden)]
 pub use observer::turned;
 #[cfg(feature = "std")]
-pub use observer::{StdErr, listen_to_problems};
+pub use observer::{StdErr, listen_to_problems, tell_viewers};
 pub use out::Out;
 pub use parallel::par_map;
 pub use params::Parameters;

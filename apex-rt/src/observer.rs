@@ -313,6 +313,37 @@ fn listeners() -> std::sync::MutexGuard<'static, std::vec::Vec<Listener>> {
     LISTENERS.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
+/// Number of problems that viewers get who come later.
+#[cfg(feature = "std")]
+const TOLD: usize = 100;
+
+/// Problems beside the programs: their number, and the newest ones.
+#[cfg(feature = "std")]
+static BESIDE: std::sync::Mutex<(u64, std::collections::VecDeque<std::string::String>)> =
+    std::sync::Mutex::new((0, std::collections::VecDeque::new()));
+
+/// Shows a problem that is not one of a node, as a network that is silent, to the viewers of the programs of this
+/// process: in the studio. Viewers that come later get the last hundred of them. Without the feature `studio` there are
+/// no viewers.
+#[cfg(feature = "std")]
+pub fn tell_viewers(problem: &str) {
+    let mut told = BESIDE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    told.0 += 1;
+    told.1.push_back(problem.into());
+    if told.1.len() > TOLD {
+        told.1.pop_front();
+    }
+}
+
+/// Returns the problems beside the programs after the first `seen` of them, and the number of all. It does not wait for
+/// a thread that tells one.
+#[cfg(feature = "studio")]
+pub(crate) fn told_viewers(seen: u64) -> (u64, std::vec::Vec<std::string::String>) {
+    let Ok(told) = BESIDE.try_lock() else { return (seen, std::vec::Vec::new()) };
+    let new = usize::try_from(told.0.saturating_sub(seen)).unwrap_or(usize::MAX).min(told.1.len());
+    (told.0, told.1.iter().skip(told.1.len() - new).cloned().collect())
+}
+
 /// Writes a problem to standard error, and passes it on.
 #[cfg(feature = "std")]
 macro_rules! tell {

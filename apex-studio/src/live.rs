@@ -270,6 +270,7 @@ impl Live {
                 let node = nodes.iter().max_by_key(|(_, count)| *count).map(|(node, _)| *node);
                 self.problem(node, "tokens cycle without time passing".to_owned());
             }
+            Report::Beside(text) => self.problem(None, text),
             Report::ClaimFailed(claim) => {
                 let claims = self.about.as_ref().map_or(&[][..], |about| &about.claims);
                 let claim = claims.get(claim as usize).map_or("?", String::as_str);
@@ -587,6 +588,16 @@ mod tests {
         live.note(Report::Fired(0));
         live.note(Report::Activity { node: 1, active: ms % 2 == 0 });
         live.note(Report::Failed { node: 0, error: ms.to_string() });
+    }
+
+    #[test]
+    fn a_problem_beside_the_program_is_one_of_no_node() {
+        let mut live = begun();
+        react(&mut live, 7);
+        live.note(Report::Beside("no node publishes `/scan`".to_owned()));
+        let last = live.problems.back().map(|problem| (problem.at, problem.node, &*problem.text));
+        assert_eq!((last, live.problem_count), (Some((0.007, None, "no node publishes `/scan`")), 2));
+        assert!(live.nodes.iter().all(|node| node.problems <= 1));
     }
 
     #[test]

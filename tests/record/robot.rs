@@ -1,8 +1,16 @@
 //! A robot whose devices are those of a recording of ROS 2.
 
 use crate::Folder;
-use apex_messages::{Message, nav_msgs::Odometry, sensor_msgs::LaserScan, std_msgs::Header};
+use apex_messages::{
+    Message,
+    geometry_msgs::{Quaternion, Transform, TransformStamped},
+    nav_msgs::Odometry,
+    sensor_msgs::LaserScan,
+    std_msgs::Header,
+    tf2_msgs::TFMessage,
+};
 use apex_nodes::{
+    frames::{Pose3, Transforms},
     io::BagTopic,
     nav::Twist,
     scan::{Pose2, Scan},
@@ -210,4 +218,61 @@ fn what_cannot_be_played_is_said_once() {
     fs::write(&path, &bytes[..bytes.len() / 2]).expect("a shorter file");
     let (poses, ended) = play::<Pose2>(file, "/odom");
     assert!(ended && poses.iter().all(Result::is_ok), "{poses:?}");
+}
+
+/// Transform with a quaternion of this length about the vertical axis.
+fn transform(parent: &str, child: &str, length: f64) -> TransformStamped {
+    TransformStamped {
+        header: Header::new(Time::ZERO, parent),
+        child_frame_id: child.to_owned(),
+        transform: Transform { rotation: Quaternion { w: length, ..ZERO }, ..Transform::default() },
+    }
+}
+
+/// Quaternion that a program has not set.
+const ZERO: Quaternion = Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 0.0 };
+
+/// Writes a bag with one message of `/tf` every 10 ms, each with these transforms.
+fn write_transforms(path: &Path, messages: &[Vec<TransformStamped>]) {
+    let mut writer = WriteOptions::new().create(fs::File::create(path).expect("room")).expect("a file");
+    let schema = writer.add_schema(TFMessage::NAME, "ros2msg", TFMessage::DEFINITION.as_bytes()).expect("room");
+    let channel_id = writer.add_channel(schema, "/tf", "cdr", &BTreeMap::new()).expect("room");
+    for (transforms, time) in messages.iter().zip((0..).step_by(10_000_000)) {
+        let header = MessageHeader { channel_id, sequence: 0, log_time: time, publish_time: time };
+        let message = TFMessage { transforms: transforms.clone() };
+        writer.write_to_known_channel(&header, &message.to_bytes()).expect("room");
+    }
+    writer.finish().expect("room");
+}
+
+#[test]
+fn each_message_with_what_is_not_a_rotation_is_named() {
+    let folder = Folder::new();
+    let path = folder.file("tf.mcap");
+    let good = || vec![transform("map", "odom", 1.0), transform("odom", "base", 1.0)];
+    write_transforms(
+        &path,
+        &[
+            good(),
+            vec![transform("map", "odom", 1.0), transform("odom", "base", 0.5)],
+            vec![transform("map", "odom", 0.0), transform("odom", "base", 1.0)],
+            good(),
+        ],
+    );
+    let file = path.to_str().expect("a readable path");
+    let wrong = |frames: &str, why: &str| {
+        format!("{file}: `/tf`: a message cannot be read: `{frames}`: the length of a quaternion is {why}")
+    };
+    let half = || wrong("odom -> base", "0.500: that of a rotation is 1");
+    let unset = || wrong("map -> odom", "0.000: its sender has not set it");
+    let (messages, ended) = play::<Transforms>(file, "/tf");
+    let counts: Vec<_> = messages.into_iter().map(|it| it.map(|it| it.transforms.len())).collect();
+    assert_eq!((counts, ended), (vec![Ok(2), Err(half()), Err(unset()), Ok(2)], true));
+    // What is not asked for may be wrong.
+    let (poses, ended) = play::<Pose2>(file, "/tf: odom -> base");
+    let poses: Vec<_> = poses.into_iter().map(|it| it.map(|pose| pose.theta)).collect();
+    assert_eq!((poses, ended), (vec![Ok(0.0), Err(half()), Ok(0.0), Ok(0.0)], true));
+    let (poses, ended) = play::<Pose3>(file, "/tf: map -> odom");
+    let poses: Vec<_> = poses.into_iter().map(|it| it.map(|pose| pose.x)).collect();
+    assert_eq!((poses, ended), (vec![Ok(0.0), Ok(0.0), Err(unset()), Ok(0.0)], true));
 }

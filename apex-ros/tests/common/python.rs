@@ -25,6 +25,41 @@ pub fn python() -> Option<PathBuf> {
     python
 }
 
+/// The same Python with another version of `eclipse-zenoh`, which lies in a folder of its own; `None` if it is not
+/// there, which is an error in CI.
+pub fn with_zenoh(python: &Path, version: &str) -> Option<Interpreter> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../target/zenoh-{version}"));
+    let other = Interpreter { python: python.to_owned(), packages: Some(folder) };
+    let asked = other.command().args(["-c", "import zenoh; print(zenoh.__file__)"]).output().expect("python runs");
+    let is_there = String::from_utf8_lossy(&asked.stdout).contains(&format!("zenoh-{version}"));
+    if !is_there {
+        let how = format!("`pip install --no-deps --target target/zenoh-{version} eclipse-zenoh=={version}`");
+        assert!(env::var_os("CI").is_none(), "`eclipse-zenoh` {version} is not there: {how}");
+        println!("skipped: `eclipse-zenoh` {version} is not there: {how}");
+    }
+    is_there.then_some(other)
+}
+
+/// Python, and a folder whose packages come before those of its own.
+pub struct Interpreter {
+    python: PathBuf,
+    packages: Option<PathBuf>,
+}
+
+impl From<&Path> for Interpreter {
+    fn from(python: &Path) -> Self {
+        Self { python: python.to_owned(), packages: None }
+    }
+}
+
+impl Interpreter {
+    fn command(&self) -> Command {
+        let mut command = Command::new(&self.python);
+        command.envs(self.packages.iter().map(|folder| ("PYTHONPATH", folder)));
+        command
+    }
+}
+
 /// The peer in Python, and what it says.
 pub struct Peer {
     child: Child,
@@ -35,11 +70,13 @@ pub struct Peer {
 
 impl Peer {
     /// Starts a script of this folder, which has the types of services and their hashes as arguments.
-    pub fn start(python: &Path, script: &str, types: &[&str]) -> Self {
+    pub fn start(python: impl Into<Interpreter>, script: &str, types: &[&str]) -> Self {
         let address = free_address();
         let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(script);
         // `-B`: what it imports leaves no files beside it.
-        let mut child = Command::new(python)
+        let mut child = python
+            .into()
+            .command()
             .arg("-B")
             .arg(script)
             .arg(&address)

@@ -135,6 +135,8 @@ pub enum Report {
     Dismissed(String),
     /// The token on this connection can never be taken any more.
     Stuck(u32),
+    /// A problem of the process that is not one of a node: a network that is silent, say.
+    Beside(String),
 }
 
 /// A message of a viewer.

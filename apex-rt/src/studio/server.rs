@@ -10,7 +10,7 @@ use super::{
     stream::shortened,
     viewer::Viewer,
 };
-use crate::{RemoteParams, record::Channel};
+use crate::{RemoteParams, observer::told_viewers, record::Channel};
 use core::time::Duration;
 use rtrb::Consumer;
 use std::{
@@ -38,6 +38,8 @@ const BEAT: Duration = Duration::from_secs(1);
 const FAREWELL: Duration = Duration::from_secs(1);
 /// Maximum length of a token as text, in bytes.
 const MAX_TEXT: usize = 16 << 10;
+/// Maximum length of a problem beside the program, in bytes.
+const MAX_PROBLEM: usize = 1000;
 /// Maximum length of a token that is converted to text, in bytes.
 const MAX_SHOWN: usize = 64 << 10;
 
@@ -112,6 +114,7 @@ impl Server {
             }
             self.answer(&mut viewers, &mut batch);
             self.values(&mut viewers);
+            tell_beside(&mut viewers);
             self.beat(&mut batch);
             if over {
                 message::write(&Report::Ended, &mut batch);
@@ -290,6 +293,16 @@ impl Server {
             let is = viewers.iter().any(|viewer| viewer.watches.iter().any(|watch| watch.0 == at));
             wanted.is.store(is, Relaxed);
         }
+    }
+}
+
+/// Tells viewers of the problems beside the program that they do not know.
+fn tell_beside(viewers: &mut [Viewer]) {
+    for viewer in viewers.iter_mut().filter(|viewer| viewer.is_admitted) {
+        let (told, new) = told_viewers(viewer.told);
+        viewer.told = told;
+        let reports = new.into_iter().map(|text| Report::Beside(shortened(text, MAX_PROBLEM)));
+        reports.for_each(|report| message::write(&report, &mut viewer.out));
     }
 }
 

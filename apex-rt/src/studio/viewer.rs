@@ -40,6 +40,8 @@ pub struct Viewer {
     sent: usize,
     /// Interval of each channel that it asked for, and the time of its last token.
     pub watches: Vec<(usize, Duration, Option<Instant>)>,
+    /// Number of problems beside the program that it was told.
+    pub told: u64,
     /// `true` if it wants calls to be measured.
     pub measures: bool,
     /// `true` if it wants to know of every token.
@@ -67,6 +69,7 @@ impl Viewer {
             out: vec![],
             sent: 0,
             watches: vec![],
+            told: 0,
             measures: false,
             follows: false,
             keeps: false,

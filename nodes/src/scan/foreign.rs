@@ -1,6 +1,7 @@
 //! Messages of other programs that hold a pose: odometry, estimates, transforms.
 
 use super::Pose2;
+use crate::frames::Rotation;
 use apex_messages::{
     Foreign, Message, Others, Reason,
     cdr::Reader,
@@ -18,6 +19,8 @@ pub(crate) trait FromPose: Sized {
 /// A height and a tilt are left out: the pose is seen from above.
 impl FromPose for Pose2 {
     fn from_pose(pose: &Pose) -> Result<Self, Reason> {
+        // Zeros, which a program has not set, would look like the heading of the x axis.
+        Rotation::try_from(&pose.orientation)?;
         Ok(pose.into())
     }
 }
@@ -56,17 +59,22 @@ fn frame(name: &str) -> &str {
     name.trim().trim_start_matches('/')
 }
 
+/// Frames of a transform: `odom -> base_link`.
+fn frames(of: &TransformStamped) -> String {
+    format!("{} -> {}", frame(&of.header.frame_id), frame(&of.child_frame_id))
+}
+
 /// Pose of the second frame of a transform in the first one.
 fn pose<T: FromPose>(of: &TransformStamped) -> Result<T, Reason> {
     let geometry_msgs::Vector3 { x, y, z } = of.transform.translation;
     T::from_pose(&Pose { position: Point { x, y, z }, orientation: of.transform.rotation.clone() })
+        .map_err(|reason| format!("`{}`: {reason}", frames(of)).into())
 }
 
 /// Reads the transform between the frames `part` (`odom -> base_link`).
 fn one_of<T: FromPose>(message: &mut Reader<'_>, part: &str) -> Result<Option<T>, Reason> {
     let transforms = TFMessage::read(message)?.transforms;
-    let name = |of: &TransformStamped| format!("{} -> {}", frame(&of.header.frame_id), frame(&of.child_frame_id));
-    let names: Vec<String> = transforms.iter().map(name).collect();
+    let names: Vec<String> = transforms.iter().map(frames).collect();
     match names.first() {
         Some(first) if part.is_empty() => {
             let names = names.join("`, `");
@@ -95,6 +103,16 @@ mod tests {
     fn read<M: Message>(message: &M, part: &str) -> Result<Option<Pose2>, Reason> {
         let known = poses().into_iter().find(|known| known.name == M::NAME).expect("known");
         (known.read)(&mut Reader::new(&message.to_bytes())?, part)
+    }
+
+    #[test]
+    fn what_is_not_a_rotation_has_no_heading() {
+        let unset = || Pose { orientation: Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 0.0 }, ..POSE };
+        let why = "the length of a quaternion is 0.000: its sender has not set it";
+        assert_eq!(read(&unset(), ""), Err(why.into()));
+        let mut odometry = Odometry::default();
+        odometry.pose.pose = unset();
+        assert_eq!(read(&odometry, ""), Err(why.into()));
     }
 
     fn is_right(found: Result<Option<Pose2>, Reason>) {
@@ -127,6 +145,12 @@ mod tests {
         is_right(read("odom->base_link"));
         assert_eq!(read("map -> odom").map(|pose| pose.map(|pose| pose.x)), Ok(Some(5.0)));
         assert_eq!(read("map -> base_link"), Ok(None));
+        let mut half = message.clone();
+        half.transforms[0].transform.rotation.w = 0.0;
+        let of_half = |part| super::one_of::<Pose2>(&mut Reader::new(&half.to_bytes())?, part);
+        is_right(of_half("odom -> base_link"));
+        let why = "`map -> odom`: the length of a quaternion is 0.707: that of a rotation is 1";
+        assert_eq!(of_half("map -> odom"), Err(why.into()));
         let why = read("").expect_err("which one?");
         let names = "`map -> odom`, `odom -> base_link`";
         assert_eq!(why, format!("it has the transforms {names}: name one behind the topic, as `: map -> odom`"));
