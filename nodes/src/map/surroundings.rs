@@ -198,7 +198,7 @@ mod tests {
             let map = Grid::new(BUILDING, Occupancy::Free).expect("small");
             let (ctx, pose, mut out) = (Ctx::new(Time::from_millis(ms)), Pose2::new(4.0 - x, 0.0, 0.0), Out::new());
             node.process(&ctx, &map, Some(&pose), &Pose2::default(), Some(&surroundings), &mut out);
-            out.get().expect("a map").cells().iter().any(|cell| *cell == Occupancy::Occupied)
+            out.get().expect("a map").cells().contains(&Occupancy::Occupied)
         };
         assert!(seen(0, 0.62, Occupancy::Occupied));
         assert!(seen(1000, 1.52, Occupancy::Free));
