@@ -7,13 +7,12 @@ use std::{fmt, time::Duration};
 pub(super) const STAGES: usize = 4;
 
 /// Phases of an order, each with the ends of the names of its nodes.
-const PHASES: [(&str, &[&str]); 18] = [
+const PHASES: [(&str, &[&str]); 17] = [
     ("waits for an order", &["mission_control"]),
     ("to a container", &["collect.travel.follow_path", "collect.travel.follow_turn"]),
     ("brings a load", &["bring.travel.follow_path", "bring.travel.follow_turn"]),
     ("backward on a way", &["travel.follow_back"]),
     ("looks for a way", &["travel.request", "travel.path_planner", "travel.pause"]),
-    ("lets persons pass", &["travel.let_pass"]),
     ("makes room", &["travel.give_way", "travel.make_room"]),
     ("without a pose", &["travel.onward", "travel.aside"]),
     ("looks at a container", &["drive.detected"]),
