@@ -116,7 +116,7 @@ fn is_seen_through(scan: &Scan, container: &Pose2) -> bool {
     count(View::Castor) == 0 && count(View::Through) >= 2
 }
 
-/// What a scan shows at the place of a castor.
+/// View of a scan at the place of a castor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum View {
     Castor,
