@@ -4,13 +4,18 @@ use apex_rt::{Ctx, Out, Time, node};
 
 /// Maximum number of remembered cells.
 const MOST: usize = 2000;
+/// Distance by which a camera may be farther from a cell that it sees free than from one in which it saw something, in
+/// m.
+const FARTHER: f32 = 0.2;
 
 /// Marks in a map of a building what a camera has seen around the robot, and remembers it.
 ///
 /// `surroundings` is a window such as the map of `HazardMap`, in the frame of `odometry`. `pose` is the pose of the
 /// robot in the frame of `map`, ⊥ while it is not known. Occupied cells in view are remembered until they are seen to
-/// be free, or for `memory`; at most 2000, of which a new one replaces the one that was seen the longest ago. Those of
-/// the last window are marked around the robot too, as a node such as `SweepStop` stops before them.
+/// be free, or for `memory`; at most 2000, of which a new one replaces the one that was seen the longest ago. Small
+/// things are only seen from near: a cell is free if it is seen so from about the distance from which something was
+/// seen in it, or from nearer. The occupied cells of the last window are marked around the robot too, as a node such as
+/// `SweepStop` stops before them.
 #[node]
 #[derive(Debug, Clone)]
 pub struct MarkSurroundings {
@@ -35,8 +40,17 @@ pub struct MarkSurroundings {
     /// Last position of the robot in the map, and the cells of the map.
     here: Point2,
     raster: Raster,
-    /// Remembered cells of the map in their order, and the times at which they were last seen.
-    known: Vec<(Cell, Time)>,
+    /// Remembered cells of the map in their order.
+    known: Vec<Known>,
+}
+
+/// Occupied cell.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    cell: Cell,
+    /// Time at which it was last seen, and distance from which it was.
+    at: Time,
+    distance: f32,
 }
 
 #[node]
@@ -51,7 +65,7 @@ impl MarkSurroundings {
         marked: &mut Out<Grid<Occupancy>>,
     ) {
         let memory = self.memory;
-        self.known.retain(|(_, at)| ctx.now().since(*at).as_secs_f32() <= memory);
+        self.known.retain(|known| ctx.now().since(known.at).as_secs_f32() <= memory);
         let pose = pose.filter(|pose| pose.is_usable() && odometry.is_usable());
         if let Some((surroundings, pose)) = surroundings.zip(pose) {
             self.look(surroundings, map.raster(), [pose, odometry], ctx.now());
@@ -60,8 +74,8 @@ impl MarkSurroundings {
         }
         let marked = marked.get_mut();
         marked.clone_from(map);
-        for (cell, _) in &self.known {
-            if let Some(cell) = marked.get_mut(*cell) {
+        for known in &self.known {
+            if let Some(cell) = marked.get_mut(known.cell) {
                 *cell = Occupancy::Occupied;
             }
         }
@@ -84,7 +98,7 @@ impl MarkSurroundings {
     #[slot]
     fn forget(&mut self) {
         let (here, raster, reach) = (self.here, self.raster, self.forgotten);
-        self.known.retain(|(cell, _)| (raster.centre(*cell) - here).norm() > reach);
+        self.known.retain(|known| (raster.centre(known.cell) - here).norm() > reach);
         self.last = Grid::default();
     }
 
@@ -92,15 +106,17 @@ impl MarkSurroundings {
     fn look(&mut self, window: &Grid<Occupancy>, raster: &Raster, [pose, odometry]: [&Pose2; 2], now: Time) {
         let Self { reach, view_angle, known, .. } = self;
         let is_in_view = |place: Point2| place.norm() <= *reach && place.angle().abs() <= 0.5 * *view_angle;
-        known.retain(|(cell, _)| {
-            let place = pose.to_inner(raster.centre(*cell));
-            !(is_in_view(place) && window.at(odometry.to_outer(place)) == Some(&Occupancy::Free))
+        known.retain(|known| {
+            let place = pose.to_inner(raster.centre(known.cell));
+            let is_seen = is_in_view(place) && place.norm() <= known.distance + FARTHER;
+            !(is_seen && window.at(odometry.to_outer(place)) == Some(&Occupancy::Free))
         });
         for place in occupied(window, odometry).filter(|place| is_in_view(*place)) {
             let Some(cell) = raster.cell(pose.to_outer(place)) else { continue };
-            match known.binary_search_by_key(&cell, |(cell, _)| *cell) {
-                Ok(place) => known[place].1 = now,
-                Err(place) => insert(known, place, (cell, now)),
+            let new = Known { cell, at: now, distance: place.norm() };
+            match known.binary_search_by_key(&cell, |known| known.cell) {
+                Ok(place) => known[place] = new,
+                Err(place) => insert(known, place, new),
             }
         }
     }
@@ -108,12 +124,12 @@ impl MarkSurroundings {
 
 /// Inserts a cell at its place; if there is no room, instead of the cell that was seen the longest ago, unless all were
 /// seen now.
-fn insert(known: &mut Vec<(Cell, Time)>, place: usize, new: (Cell, Time)) {
+fn insert(known: &mut Vec<Known>, place: usize, new: Known) {
     if known.len() < MOST {
         return known.insert(place, new);
     }
-    let oldest = known.iter().enumerate().min_by_key(|(_, (_, at))| *at).map(|(i, (_, at))| (i, *at));
-    if let Some((oldest, _)) = oldest.filter(|(_, at)| *at < new.1) {
+    let oldest = known.iter().enumerate().min_by_key(|(_, known)| known.at).map(|(i, known)| (i, known.at));
+    if let Some((oldest, _)) = oldest.filter(|(_, at)| *at < new.at) {
         known.remove(oldest);
         known.insert(place - usize::from(oldest < place), new);
     }
@@ -169,6 +185,27 @@ mod tests {
         assert_eq!(look(&mut node, 13_100, None), (0, false));
     }
 
+    /// A vehicle that had backed off from a small thing forgot it, and drove there again and again.
+    #[test]
+    fn what_was_seen_from_near_is_not_free_from_afar() {
+        let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0, 0.0, 1.5));
+        let mut seen = |ms: i64, x: f32, occupancy: Occupancy| {
+            // The thing is at (4, 0), the robot before it.
+            let free = Grid::new(*window(&[]).raster(), Occupancy::Free).expect("small");
+            let mut surroundings = free;
+            let cell = surroundings.raster().cell(Point2::new(x, 0.02)).expect("inside");
+            *surroundings.get_mut(cell).expect("inside") = occupancy;
+            let map = Grid::new(BUILDING, Occupancy::Free).expect("small");
+            let (ctx, pose, mut out) = (Ctx::new(Time::from_millis(ms)), Pose2::new(4.0 - x, 0.0, 0.0), Out::new());
+            node.process(&ctx, &map, Some(&pose), &Pose2::default(), Some(&surroundings), &mut out);
+            out.get().expect("a map").cells().contains(&Occupancy::Occupied)
+        };
+        assert!(seen(0, 0.62, Occupancy::Occupied));
+        assert!(seen(1000, 1.52, Occupancy::Free));
+        assert!(!seen(2000, 0.72, Occupancy::Free));
+        assert!(seen(3000, 1.82, Occupancy::Occupied) && !seen(4000, 1.92, Occupancy::Free));
+    }
+
     #[test]
     fn what_is_near_is_marked_out_of_view_too() {
         let window = window(&[(1.0, 0.2), (-1.0, 0.0), (0.1, 1.5)].map(|(x, y)| (x, y, Occupancy::Occupied)));
@@ -181,26 +218,27 @@ mod tests {
 
     #[test]
     fn a_full_memory_keeps_what_was_seen_last() {
-        let mut known = Vec::new();
-        let cell = |i: usize| Cell::new(i % 97, i / 97);
+        let mut known = Vec::<Known>::new();
+        let known_at =
+            |i: usize| Known { cell: Cell::new(i % 97, i / 97), at: Time::from_millis(i as i64 / 100), distance: 1.0 };
         let mut see = |i: usize| {
-            let new = (cell(i), Time::from_millis(i as i64 / 100));
-            match known.binary_search_by_key(&new.0, |(cell, _)| *cell) {
+            let new = known_at(i);
+            match known.binary_search_by_key(&new.cell, |known| known.cell) {
                 Ok(_) => panic!("each cell is new"),
                 Err(place) => insert(&mut known, place, new),
             }
         };
         (0..2 * MOST).rev().for_each(&mut see);
         assert_eq!(known.len(), MOST);
-        assert!(known.iter().all(|(_, at)| *at >= Time::from_millis(MOST as i64 / 100)));
-        let mut known = Vec::new();
+        assert!(known.iter().all(|known| known.at >= Time::from_millis(MOST as i64 / 100)));
+        let mut known = Vec::<Known>::new();
         for i in 0..3 * MOST {
-            let new = (cell(i), Time::from_millis(i as i64 / 100));
-            let place = known.binary_search_by_key(&new.0, |(cell, _)| *cell).expect_err("each cell is new");
+            let new = known_at(i);
+            let place = known.binary_search_by_key(&new.cell, |known| known.cell).expect_err("each cell is new");
             insert(&mut known, place, new);
         }
-        assert!(known.len() == MOST && known.is_sorted_by_key(|(cell, _)| *cell));
-        assert!(known.iter().all(|(_, at)| *at >= Time::from_millis(2 * MOST as i64 / 100)));
+        assert!(known.len() == MOST && known.is_sorted_by_key(|known| known.cell));
+        assert!(known.iter().all(|known| known.at >= Time::from_millis(2 * MOST as i64 / 100)));
     }
 
     #[test]

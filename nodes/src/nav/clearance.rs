@@ -15,6 +15,9 @@ const REACH: f32 = 1.25;
 /// Distance up to which floor ahead that is not known counts, in m: farther away it may not be seen yet.
 const SEEN: f32 = 1.0;
 
+/// Distance from hazards that planners keep in addition, in m: a follower is not exactly on its path.
+pub(super) const SLACK: f32 = 0.04;
+
 /// Distances that a tractor with a trailer keeps from hazards on the floor, and what of the floor its camera sees.
 /// Planner, follower and `SweepStop` judge the floor by it. Distances are those from the middles of cells.
 #[derive(Debug, Clone, Copy, PartialEq, Units)]

@@ -33,6 +33,8 @@ mod near;
 #[cfg(feature = "std")]
 mod outline;
 #[cfg(feature = "std")]
+mod passing;
+#[cfg(feature = "std")]
 mod path;
 mod payload;
 #[cfg(feature = "std")]
@@ -72,6 +74,8 @@ pub use lattice::{CurveDrive, CurvePlanner, CurveSearch, Floor, Goal, Ground, Se
 #[cfg(feature = "std")]
 pub use law::FollowingLaw;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
+#[cfg(feature = "std")]
+pub use passing::{AwaitPersons, PersonCosts};
 #[cfg(feature = "std")]
 pub use path::{Path, Projection};
 pub use payload::{Articulated, BackUp, ReactiveApproach};

@@ -7,6 +7,7 @@ mod detection;
 mod hypotheses;
 mod legs;
 mod motion;
+mod passersby;
 mod shape;
 mod tracker;
 mod walkers;
@@ -16,6 +17,7 @@ pub use detection::{Detections, MAX_DETECTIONS, MAX_PERSONS, Person, Persons, Vi
 pub use hypotheses::{Hypotheses, MAX_BRANCHES, MAX_DEPTH, MAX_HYPOTHESES, Model, Sensor};
 pub use legs::{Leg, LegDetector, LegPairs, Legs};
 pub use motion::Motion;
+pub use passersby::Passersby;
 pub use shape::{LEG_FEATURES, leg_features};
 pub use tracker::{PersonTracker, UntimelyDetections};
 pub use walkers::HideWalkers;

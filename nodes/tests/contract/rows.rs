@@ -180,7 +180,21 @@ pub const ROWS: &[Row] = &[
         make: || {
             let sizes = (1.2, 0.7, 0.43, 0.05);
             let mut node = PlannedApproach::construct((
-                0.8, 1.0, 0.5, 0.03, 0.2, PATSY, sizes.0, sizes.1, sizes.2, sizes.3, 0.05, 0.05, 0.05, 0.5,
+                0.8,
+                1.0,
+                0.5,
+                0.03,
+                0.2,
+                PATSY,
+                sizes.0,
+                sizes.1,
+                sizes.2,
+                sizes.3,
+                0.05,
+                0.05,
+                0.05,
+                Clearance::PATSY,
+                0.5,
             ));
             Box::new(move |ctx, i| {
                 fire(["reached", "missed"], |[a, b]| {

@@ -5,6 +5,7 @@
 
 pub mod accuracy;
 pub mod approach;
+mod beneath;
 mod cart;
 pub mod chart;
 pub mod clinic;
@@ -36,6 +37,7 @@ pub const CONTAINER_AHEAD: apex_nodes::scan::Container = apex_nodes::scan::Conta
     model: 0,
 };
 
+pub use beneath::Beneath;
 pub use cart::{Cart, LENGTH, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
 pub use drive::Drive;
 pub use evaluate::{Evaluate, Score, Statistics};

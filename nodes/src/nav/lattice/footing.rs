@@ -3,14 +3,13 @@ use crate::{
     map::{DistanceTransform, Grid},
     nav::{
         Clearance,
+        clearance::SLACK,
         near::Near,
         outline::{Axes, Part},
     },
     scan::{Point2, Pose2},
 };
 
-/// Distance from the hazards that the planner keeps in addition, in m: the follower is not exactly on its path.
-const SLACK: f32 = 0.04;
 /// Distance by which a hazard that is near at the start may come nearer, in m.
 const GRAZE: f32 = 0.005;
 /// Distance from the start up to which hazards that are near there count, in m.

@@ -36,8 +36,8 @@ const STEERING: [f32; 5] = [0.0, 0.5, -0.5, 1.0, -1.0];
 const BENDING: [f32; 2] = [0.15, 0.1];
 /// Angles between the vehicle and its trailer that it backs up with, in rad.
 const BENDS: [f32; 5] = [0.0, 0.35, -0.35, 0.7, -0.7];
-/// Cost per metre backward, and of each change of the direction, in m.
-const BACKWARD: [f32; 2] = [2.0, 1.0];
+/// Cost per metre backward, and of each change of the direction, in m: what a vehicle would drive forward in that time.
+const BACKWARD: [f32; 2] = [2.6, 2.0];
 /// Additional cost per metre backward and radian of the angle to the trailer, and per radian of its change, in m.
 const ANGLED: [f32; 2] = [0.33, 0.3];
 /// Estimated distance from the goal at which it is tried to get there by one curve, in m, and number of expansions
@@ -47,7 +47,7 @@ const TRIES: usize = 8;
 /// Number of lengths of the straight line at the end that are tried, the longest of them whole.
 const LINES: u8 = 4;
 /// Largest angle between the vehicle and its trailer at a goal with a straight line before it, in rad.
-const IN_LINE: f32 = 0.03;
+const IN_LINE: f32 = 0.02;
 /// Maximum number of expanded states, and part of it after a search that reached it at about the same place: what
 /// blocks the way may be gone, but then the way is mostly found soon.
 const MOST: usize = 60_000;

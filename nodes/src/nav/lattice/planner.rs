@@ -54,7 +54,7 @@ pub struct CurvePlanner {
     /// Additional cost of `other`.
     #[param(unit = "m", default = 0.0, range = 0.0..=1000.0)]
     other_cost: f32,
-    /// Longest straight line before a goal, on which the trailer comes into line with the vehicle: within 2° of the
+    /// Longest straight line before a goal, on which the trailer comes into line with the vehicle: within 1° of the
     /// goal's heading at the end. 0 if the trailer may be bent at the goal.
     #[param(unit = "m", default = 0.0, range = 0.0..=100.0)]
     straight: f32,

@@ -6,14 +6,16 @@ use crate::{
     map::{Grid, Occupancy},
     math::normalize_angle,
     nav::{
-        Twist,
-        latest::{any_far, both_fresh, fresh},
+        Clearance, Twist,
+        clearance::SLACK,
+        latest::{Latest, any_far, both_fresh, fresh},
+        near::{GRAZE, Near, Zone},
         twist::Halt,
     },
     scan::{FarFromOrigin, Point2, Pose2},
 };
 use apex_rt::{Ctx, Event, node};
-use libm::{fminf, sinf};
+use libm::{ceilf, fmaxf, sinf};
 
 /// Step of the prediction of the trailer, in m.
 const STEP: f32 = 0.1;
@@ -27,10 +29,6 @@ const LINES: (u8, f32) = (13, 0.25);
 const GAINS: [f32; 2] = [8.0, 5.0];
 /// Largest offset of the trailer's rear from the centre line at the end of a plan, in m.
 const STRAIGHT: f32 = 0.02;
-/// Distance between the places of the front that are looked up on the map, in m, and the distance that is kept from
-/// obstacles at its sides: a little more than the safety fields keep.
-const FRONT: f32 = 0.05;
-const BESIDE: f32 = 0.16;
 /// Largest offset from the curve, in m. Farther away, another one is planned.
 const OFF_CURVE: f32 = 0.2;
 
@@ -44,9 +42,9 @@ const OFF_CURVE: f32 = 0.2;
 /// `max_age`, the vehicle stands still.
 ///
 /// `ground` is a map in the frame of `base`, in which the place of the container is free. It may be ⊥, as clouds come
-/// less often than poses. If the front of the vehicle would meet an obstacle of it on the rest of the curve, another
-/// curve is planned that leads around, if there is one. That the vehicle stops before obstacles is the task of the
-/// safety fields behind this node.
+/// less often than poses. If the vehicle would not keep the `clearance` from the hazards of it on the rest of the
+/// curve, another curve is planned that leads around, if there is one. That the vehicle stops before hazards is the
+/// task of a [`SweepStop`](super::super::SweepStop) with the same clearance behind this node.
 #[node]
 #[derive(Debug, Clone)]
 pub struct PlannedApproach {
@@ -89,11 +87,17 @@ pub struct PlannedApproach {
     /// Maximum offset across.
     #[param(unit = "m", default = 0.05, range = 0.001..=1.0)]
     across: f32,
+    /// Distances kept from hazards.
+    #[param(default = Clearance::PATSY)]
+    clearance: Clearance,
     /// Maximum age of the poses.
     #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
     max_age: f32,
     container: Option<Pose2>,
     plan: Option<Plan>,
+    ground: Latest<Grid<Occupancy>>,
+    /// Hazards near the vehicle.
+    near: Near,
     halt: Halt,
 }
 
@@ -154,7 +158,8 @@ impl PlannedApproach {
             }
             _ => {}
         }
-        let Some(plan) = self.planned(base, trailer.theta, container, ground) else {
+        self.ground.update(ctx, ground, self.max_age);
+        let Some(plan) = self.planned(ctx, [base, trailer], container) else {
             missed.emit(());
             return self.halt.drive(Twist::ZERO);
         };
@@ -177,23 +182,26 @@ impl PlannedApproach {
     }
 
     /// The plan for the present pose, or `None` if there is no way.
-    fn planned(&self, base: &Pose2, trailer: f32, container: Pose2, ground: Option<&Grid<Occupancy>>) -> Option<Plan> {
-        if let Some(mut plan) = self.plan {
-            plan.driven = nearest(&plan.curve, plan.driven, base);
-            let off = base.relative_to(&plan.curve.at(plan.driven).0);
-            let moved = container.relative_to(&plan.container);
-            let is_same = moved.position().norm() <= self.replan && moved.theta.abs() <= self.replan;
-            if is_same && off.position().norm() <= OFF_CURVE && self.is_open(&plan.curve, plan.driven, ground) {
+    fn planned(&mut self, ctx: &Ctx, axes: [&Pose2; 2], container: Pose2) -> Option<Plan> {
+        let [base, trailer] = axes;
+        let Some(mut plan) = self.plan else { return self.plan(ctx, axes, container) };
+        plan.driven = nearest(&plan.curve, plan.driven, base);
+        let off = base.relative_to(&plan.curve.at(plan.driven).0);
+        let moved = container.relative_to(&plan.container);
+        let is_same = moved.position().norm() <= self.replan && moved.theta.abs() <= self.replan;
+        if is_same && off.position().norm() <= OFF_CURVE {
+            let zone = self.look(ctx, axes, 0.0);
+            if self.is_open(&zone, &plan.curve, plan.driven, trailer.theta) {
                 return Some(plan);
             }
-            // Near the goal only straight lines are left; without one, the old curve is the best that there is.
-            return self.plan(base, trailer, container, ground).or(Some(plan));
         }
-        self.plan(base, trailer, container, ground)
+        // Near the goal only straight lines are left; without one, the old curve is the best that there is.
+        self.plan(ctx, axes, container).or(Some(plan))
     }
 
-    /// Shortest curve beneath the container on which the trailer fits, around obstacles if that is possible.
-    fn plan(&self, base: &Pose2, trailer: f32, container: Pose2, ground: Option<&Grid<Occupancy>>) -> Option<Plan> {
+    /// Shortest curve beneath the container on which the trailer fits, around hazards if that is possible.
+    fn plan(&mut self, ctx: &Ctx, axes: [&Pose2; 2], container: Pose2) -> Option<Plan> {
+        let (zone, [base, trailer]) = (self.look(ctx, axes, SLACK), axes);
         let goal = self.vehicle.axis();
         let (mut best, mut open): (Option<Curve>, Option<Curve>) = (None, None);
         let is_shorter = |curve: &Curve, than: Option<Curve>| than.is_none_or(|than| curve.length() < than.length());
@@ -202,8 +210,8 @@ impl PlannedApproach {
             let begin = container.compose(&Pose2::new(goal - straight, 0.0, 0.0));
             for curve in curves(base, &begin, self.radius, straight) {
                 let [is_best, is_new] = [best, open].map(|than| is_shorter(&curve, than));
-                let is_open = is_new && self.is_open(&curve, 0.0, ground);
-                if (is_best || is_open) && self.fits(&curve, trailer, &container) {
+                let is_open = is_new && self.is_open(&zone, &curve, 0.0, trailer.theta);
+                if (is_best || is_open) && self.fits(&curve, trailer.theta, &container) {
                     best = if is_best { Some(curve) } else { best };
                     open = if is_open { Some(curve) } else { open };
                 }
@@ -212,17 +220,27 @@ impl PlannedApproach {
         open.or(best).map(|curve| Plan { container, curve, driven: 0.0 })
     }
 
-    /// Returns `true` if the front of the tractor meets no obstacle on the rest of a curve.
-    fn is_open(&self, curve: &Curve, driven: f32, ground: Option<&Grid<Occupancy>>) -> bool {
-        let Some(ground) = ground else { return true };
-        let (half, steps) = (0.5 * self.vehicle.width + BESIDE, libm::ceilf((curve.length() - driven) / FRONT));
-        let across = libm::ceilf(2.0 * half / FRONT);
-        (0..=steps as u16).all(|i| {
-            let pose = curve.at(fminf(driven + FRONT * f32::from(i), curve.length())).0;
-            (0..=across as u16).all(|k| {
-                let place = Point2::new(self.vehicle.front, half * (2.0 * f32::from(k) / across - 1.0));
-                ground.at(pose.to_outer(place)) != Some(&Occupancy::Occupied)
-            })
+    /// Finds the hazards near the vehicle. Returns the zone that has to be free of them, `slack` m wider than that of
+    /// the clearance.
+    fn look(&mut self, ctx: &Ctx, axes: [&Pose2; 2], slack: f32) -> Zone {
+        let (axes, vehicle, clearance) = (axes.map(|axis| *axis), self.vehicle, self.clearance.widened(slack));
+        let zone = clearance.zone(vehicle, false);
+        let ground = self.ground.young(ctx, self.max_age).into_iter();
+        let hazards = ground.flat_map(|map| clearance.hazards(map, vehicle, &axes, false));
+        self.near.find(&zone, &axes, f32::INFINITY, hazards);
+        zone
+    }
+
+    /// Returns `true` if the vehicle meets no hazard on the rest of a curve.
+    fn is_open(&self, zone: &Zone, curve: &Curve, driven: f32, mut heading: f32) -> bool {
+        let (vehicle, rest) = (&self.vehicle, fmaxf(curve.length() - driven, 0.0));
+        let steps = ceilf(rest / STEP);
+        (1..=steps as u16).all(|i| {
+            let way = rest * f32::from(i) / steps;
+            let (pose, curvature) = curve.at(driven + way);
+            let bend = normalize_angle(&(pose.theta - heading));
+            heading += vehicle.trailer_rotation(1.0, curvature, bend) * rest / steps;
+            !self.near.is_met(zone, &[pose, vehicle.trailer(&pose, heading)], way, GRAZE)
         })
     }
 
@@ -312,6 +330,7 @@ mod tests {
             0.05,
             0.05,
             0.05,
+            Clearance::PATSY,
             0.5,
         ))
     }

@@ -1,6 +1,6 @@
 use crate::{Cart, LENGTH, WIDTH, tractor};
 use apex_nodes::{
-    nav::{Articulated, PlannedApproach, ReactiveApproach, Twist},
+    nav::{Articulated, Clearance, PlannedApproach, ReactiveApproach, Twist},
     scan::Pose2,
 };
 use apex_rt::{Construct as _, Ctx, Event, Time};
@@ -102,6 +102,7 @@ impl Node {
                 0.05,
                 0.05,
                 0.05,
+                Clearance::PATSY,
                 0.5,
             ))),
         }

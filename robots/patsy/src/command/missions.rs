@@ -4,7 +4,8 @@ use lexopt::{Parser, prelude::Long};
 use patsy::{
     clinic::{FaultKind, Options, PEOPLE},
     missions::{
-        Row, Run, activity_table, fault_at, fault_of, faults_table, picture, run, run_with_outages, summary, timeline,
+        BudgetTable, Row, Run, activity_table, fault_at, fault_of, faults_table, picture, run, run_with_outages,
+        summary, timeline,
     },
     write_file,
 };
@@ -52,7 +53,7 @@ pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
     said?;
     let runs = runs.into_iter().collect::<Result<Vec<Run>, String>>()?;
     let (without, with) = runs.split_at(seeds.len());
-    say(&format!("\n{}\nActive nodes:\n{}\n", summary(without), activity_table(without)))?;
+    say(&format!("\n{}\n{}\nActive nodes:\n{}\n", summary(without), BudgetTable(without), activity_table(without)))?;
     if missions.faults {
         say(&format!("{}\n", faults_table(without, with)))?;
     }

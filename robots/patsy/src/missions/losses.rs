@@ -1,3 +1,7 @@
+use super::{
+    Spell,
+    budget::{Budget, STAGES as COUNT, phases},
+};
 use apex_nodes::nav::Twist;
 use apex_rt::{
     Time,
@@ -24,7 +28,7 @@ pub struct Losses {
 }
 
 /// Stage of a motion: the wanted one, and that after each limiter.
-const STAGES: [&str; 4] = ["wanted.out", "careful.caution.out", "careful.sweep.out", "careful.safety.out"];
+const STAGES: [&str; COUNT] = ["wanted.out", "careful.caution.out", "careful.sweep.out", "careful.safety.out"];
 const PLANNING: [&str; 5] = ["request", "path_planner", "pause", "give_way", "make_room"];
 const BLIND: [&str; 2] = ["onward", "aside"];
 
@@ -34,10 +38,16 @@ pub(super) struct Limits {
     /// Stage of each channel.
     stages: Vec<Option<usize>>,
     /// Speeds after each stage since a time, in m/s.
-    speeds: [f32; STAGES.len()],
+    speeds: [f32; COUNT],
     since: Time,
+    /// Phase in that time, and the present one.
+    phase: Option<usize>,
+    now: Option<usize>,
+    /// Phase of each node.
+    phases: Vec<Option<usize>>,
+    budget: Budget,
     /// Time lost to each limiter, in s.
-    lost: [f32; STAGES.len() - 1],
+    lost: [f32; COUNT - 1],
     bytes: Vec<u8>,
 }
 
@@ -45,7 +55,22 @@ impl Limits {
     pub fn new(channels: &[Channel]) -> Self {
         let stage = |name: &str| STAGES.iter().position(|stage| name.ends_with(stage));
         let stages = channels.iter().map(|channel| stage(channel.name)).collect();
-        Self { stages, speeds: [0.0; STAGES.len()], since: Time::ZERO, lost: [0.0; STAGES.len() - 1], bytes: vec![] }
+        Self {
+            stages,
+            speeds: [0.0; COUNT],
+            since: Time::ZERO,
+            phase: None,
+            now: None,
+            phases: phases(),
+            budget: Budget::default(),
+            lost: [0.0; COUNT - 1],
+            bytes: vec![],
+        }
+    }
+
+    /// Notes that a node has become active.
+    pub fn activated(&mut self, node: usize) {
+        self.now = self.phases.get(node).copied().flatten().or(self.now);
     }
 
     pub fn wants(&self, channel: usize) -> bool {
@@ -66,16 +91,19 @@ impl Limits {
     fn moved(&mut self, now: Time, stage: usize, speed: f32) {
         if stage == 0 {
             self.count(now.since(self.since));
-            (self.since, self.speeds) = (now, [speed; STAGES.len()]);
+            (self.since, self.phase, self.speeds) = (now, self.now, [speed; COUNT]);
         }
         self.speeds[stage..].fill(speed);
     }
 
     fn count(&mut self, time: Duration) {
-        let wanted = self.speeds[0];
+        let (wanted, time) = (self.speeds[0], time.as_secs_f32().min(PERIOD));
+        if let Some(phase) = self.phase {
+            self.budget.moved(phase, time, &self.speeds);
+        }
         if wanted > 0.0 {
             for (lost, pair) in self.lost.iter_mut().zip(self.speeds.windows(2)) {
-                *lost += time.as_secs_f32().min(PERIOD) * (pair[0] - pair[1]).max(0.0) / wanted;
+                *lost += time * (pair[0] - pair[1]).max(0.0) / wanted;
             }
         }
     }
@@ -89,6 +117,11 @@ impl Limits {
         };
         let [persons, hazards, field] = self.lost;
         Losses { persons, hazards, field, planning: active(&PLANNING), blind: active(&BLIND) }
+    }
+
+    /// Time of a run by phases, whose nodes were active for these times.
+    pub fn budget(&self, activity: &[(&str, Duration)], spells: &[Spell]) -> Budget {
+        self.budget.clone().with_times(activity, spells)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Runs of the vehicle in the simulated clinic, what came of them, and the cost of faults (thesis 8.2).
 
+mod budget;
 mod losses;
 mod outages;
 mod picture;
@@ -7,6 +8,7 @@ mod run;
 mod table;
 mod timeline;
 
+pub use budget::{Budget, BudgetTable};
 pub use losses::Losses;
 pub use outages::{fault_of, run_with_outages};
 pub use picture::picture;

@@ -1,4 +1,7 @@
-use super::losses::{Limits, Losses};
+use super::{
+    budget::Budget,
+    losses::{Limits, Losses},
+};
 use crate::{
     clinic::{Clinic, Drivers, Options, Report, Snapshot},
     vehicle::{Patsy, PatsyParts},
@@ -32,6 +35,8 @@ pub struct Run {
     pub timeline: Vec<Spell>,
     /// Time lost to each cause.
     pub losses: Losses,
+    /// Time by what the vehicle does.
+    pub budget: Budget,
     /// State at the beginning and at the end.
     pub ends: [Snapshot; 2],
     /// Walls of the building.
@@ -90,6 +95,7 @@ pub(super) fn run_seen(
         options: options.clone(),
         report: clinic.report(),
         losses: watch.limits.losses(&activity),
+        budget: watch.limits.budget(&activity, &watch.activity.spells),
         activity,
         timeline: watch.activity.spells,
         failures: watch.failures,
@@ -171,6 +177,9 @@ impl Watch {
 impl Observer for Watch {
     fn activity(&mut self, node: usize, active: bool) {
         self.activity.change(node, active);
+        if active {
+            self.limits.activated(node);
+        }
     }
 
     fn failed(&mut self, node: usize, error: &impl fmt::Display) {
