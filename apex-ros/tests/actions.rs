@@ -165,7 +165,7 @@ impl Asker {
     fn meets(&self) {
         let ros = self.running.ros.as_ref().expect("it runs");
         let goals = format!("{}/_action/send_goal", self.action);
-        within(5.0, "a server", || ros.sees(Kind::Server, &goals, FibonacciSendGoal::NAME));
+        within(15.0, "a server", || ros.sees(Kind::Server, &goals, FibonacciSendGoal::NAME));
         // A route comes a moment after the token.
         thread::sleep(Duration::from_millis(200));
     }
@@ -187,7 +187,7 @@ impl Asker {
         let result = [0, 1, 1, 2, 3, 5, 8, 13];
         self.results.expect(&[result]);
         // The result may overtake the last ones.
-        within(5.0, "feedback", || self.feedback.all().len() > 2);
+        within(15.0, "feedback", || self.feedback.all().len() > 2);
         let feedback = self.feedback.all();
         assert!(feedback.iter().all(|some| result.starts_with(some)), "{feedback:?}");
     }
@@ -216,7 +216,7 @@ fn a_goal_is_carried_out_by_another_node() {
     let _server = counting(router.node("counter"));
     let asker = Asker::ready(&router, "asker");
     asker.want(8);
-    asker.expect(5.0, &["accepted", "succeeded"]);
+    asker.expect(15.0, &["accepted", "succeeded"]);
     asker.expect_fibonacci_of_8();
 
     // Whoever comes late finds the state and the result.
@@ -230,9 +230,9 @@ fn a_goal_is_carried_out_by_another_node() {
             array.status_list.into_iter().for_each(|status| add((status.status, status.goal_info.goal_id)));
         })
         .expect("a topic");
-    within(5.0, "the state", || ids.all().len() == 1 && ids.all()[0].0 == 4);
+    within(15.0, "the state", || ids.all().len() == 1 && ids.all()[0].0 == 4);
     let get = late.call::<FibonacciGetResult>("/fibonacci/_action/get_result").open().expect("a client");
-    within(5.0, "a server", || late.sees(Kind::Server, "/fibonacci/_action/get_result", FibonacciGetResult::NAME));
+    within(15.0, "a server", || late.sees(Kind::Server, "/fibonacci/_action/get_result", FibonacciGetResult::NAME));
     for _ in 0..2 {
         let response = get.ask(&FibonacciGetResultRequest { goal_id: ids.all()[0].1.clone() }).expect("a result");
         assert_eq!((response.status, response.result.sequence.len()), (4, 8));
@@ -249,19 +249,19 @@ fn whoever_loses_its_activity_calls_its_goal_off() {
     let witness = router.node("witness").open().expect("a node");
     let states = states(&witness);
     asker.want(1000);
-    asker.expect(5.0, &["accepted"]);
-    within(5.0, "it is carried out", || states.all().last().is_some_and(|last| last == &[2]));
+    asker.expect(15.0, &["accepted"]);
+    within(15.0, "it is carried out", || states.all().last().is_some_and(|last| last == &[2]));
     asker.stop();
-    within(5.0, "it is called off", || states.all().last().is_some_and(|last| last == &[5]));
+    within(15.0, "it is called off", || states.all().last().is_some_and(|last| last == &[5]));
     assert!(states.all().contains(&vec![3]), "{:?}", states.all());
     let count = asker.feedback.all().len();
     asker.expect_no_more(&["accepted"]);
     assert_eq!(asker.feedback.all().len(), count);
     // The server is ready for the next one, and the end of a program is the end of its goals.
     asker.want(1000);
-    asker.expect(5.0, &["accepted", "accepted"]);
+    asker.expect(15.0, &["accepted", "accepted"]);
     drop(asker);
-    within(5.0, "it is called off", || states.all().last().is_some_and(|last| last == &[5, 5]));
+    within(15.0, "it is called off", || states.all().last().is_some_and(|last| last == &[5, 5]));
 }
 
 #[test]
@@ -270,19 +270,19 @@ fn a_second_goal_takes_the_place_of_the_first_or_is_refused() {
     let server = counting(router.node("counter"));
     let (first, second) = (Asker::ready(&router, "first"), Asker::ready(&router, "second"));
     first.want(1000);
-    first.expect(5.0, &["accepted"]);
+    first.expect(15.0, &["accepted"]);
     second.want(4);
-    second.expect(5.0, &["accepted", "succeeded"]);
-    first.expect(5.0, &["accepted", "aborted"]);
+    second.expect(15.0, &["accepted", "succeeded"]);
+    first.expect(15.0, &["accepted", "aborted"]);
     drop(server);
     let args = ["--ros-args", "-p", "serve.preempts:=false"];
     let _server = counting(router.node("counter").args(args));
     let (first, second) = (Asker::ready(&router, "third"), Asker::ready(&router, "fourth"));
     first.want(50);
-    first.expect(5.0, &["accepted"]);
+    first.expect(15.0, &["accepted"]);
     second.want(4);
-    second.expect(5.0, &["rejected"]);
-    first.expect(5.0, &["accepted", "succeeded"]);
+    second.expect(15.0, &["rejected"]);
+    first.expect(15.0, &["accepted", "succeeded"]);
 }
 
 #[test]
@@ -296,7 +296,7 @@ fn without_a_server_a_goal_is_lost_in_three_seconds_and_in_words() {
     let _server = counting(router.node("counter"));
     asker.meets();
     asker.want(3);
-    asker.expect(5.0, &["lost", "accepted", "succeeded"]);
+    asker.expect(15.0, &["lost", "accepted", "succeeded"]);
 }
 
 /// Services of an action, answered by functions.
@@ -386,7 +386,7 @@ fn a_slow_server_may_take_its_time() {
     let server = Odd::start(&router, || pause(1000, true), || pause(4000, response(6)));
     let asker = Asker::ready(&router, "asker");
     asker.want(3);
-    asker.expect(8.0, &["accepted", "aborted"]);
+    asker.expect(20.0, &["accepted", "aborted"]);
     asker.results.expect(&[[7]]);
     asker.expect_no_more(&["accepted", "aborted"]);
     assert_eq!((server.cancels.all().len(), asker.said.all()), (0, vec![]));
@@ -399,7 +399,7 @@ fn a_status_that_is_no_end_is_no_success() {
     let _server = Odd::start(&router, || true, || response(0));
     let asker = Asker::ready(&router, "asker");
     asker.want(3);
-    asker.expect(5.0, &["accepted", "lost"]);
+    asker.expect(15.0, &["accepted", "lost"]);
 }
 
 /// Answers each request twice.
@@ -454,7 +454,7 @@ fn a_server_that_answers_twice_is_heard_once() {
     for _ in 0..10 {
         asker.want(3);
         expected.extend(["accepted", "succeeded"]);
-        asker.expect(5.0, &expected);
+        asker.expect(15.0, &expected);
     }
     asker.expect_no_more(&expected);
     drop(kept);
@@ -487,8 +487,8 @@ fn a_server_that_is_killed_loses_its_goals_in_three_seconds_and_in_words() {
     let mut server = other(&router);
     asker.meets();
     asker.want(1000);
-    asker.expect(5.0, &["accepted"]);
-    within(5.0, "feedback", || !asker.feedback.all().is_empty());
+    asker.expect(15.0, &["accepted"]);
+    within(15.0, "feedback", || !asker.feedback.all().is_empty());
     server.kill().expect("it runs");
     server.wait().expect("it ends");
     let took = asker.expect(3.0, &["accepted", "lost"]);
@@ -498,14 +498,14 @@ fn a_server_that_is_killed_loses_its_goals_in_three_seconds_and_in_words() {
     let mut server = other(&router);
     asker.meets();
     asker.want(1000);
-    asker.expect(5.0, &["accepted", "lost", "accepted"]);
+    asker.expect(15.0, &["accepted", "lost", "accepted"]);
     server.kill().expect("it runs");
     server.wait().expect("it ends");
     let mut server = other(&router);
-    asker.expect(8.0, &["accepted", "lost", "accepted", "lost"]);
+    asker.expect(20.0, &["accepted", "lost", "accepted", "lost"]);
     asker.meets();
     asker.want(3);
-    asker.expect(8.0, &["accepted", "lost", "accepted", "lost", "accepted", "succeeded"]);
+    asker.expect(20.0, &["accepted", "lost", "accepted", "lost", "accepted", "succeeded"]);
     server.kill().expect("it runs");
     server.wait().expect("it ends");
 }
@@ -526,7 +526,7 @@ fn goals_of_a_run_with_a_seed_have_the_same_identifications() {
         asker.meets();
         for count in 1..=3 {
             asker.want(3);
-            within(5.0, "a goal", || ids.all().len() == count && asker.events.all().len() == count);
+            within(15.0, "a goal", || ids.all().len() == count && asker.events.all().len() == count);
         }
         ids.all()
     };
@@ -554,14 +554,14 @@ fn a_program_in_python_carries_goals_out() {
     let asker = Asker::of("py_fibonacci", opening, Duration::from_secs(10));
     asker.meets();
     asker.want(8);
-    asker.expect(5.0, &["accepted", "succeeded"]);
+    asker.expect(15.0, &["accepted", "succeeded"]);
     asker.expect_fibonacci_of_8();
     asker.want(66);
-    asker.expect(5.0, &["accepted", "succeeded", "rejected"]);
+    asker.expect(15.0, &["accepted", "succeeded", "rejected"]);
     asker.want(99);
-    asker.expect(5.0, &["accepted", "succeeded", "rejected", "accepted"]);
+    asker.expect(15.0, &["accepted", "succeeded", "rejected", "accepted"]);
     asker.stop();
-    within(5.0, "the cancel", || peer.says("cancel 0 0") && peer.says("ended 5"));
+    within(15.0, "the cancel", || peer.says("cancel 0 0") && peer.says("ended 5"));
     for line in ["goal 8 v4", "goal 66 v4", "goal 99 v4"] {
         assert!(peer.says(line), "{line}");
     }
@@ -575,9 +575,9 @@ fn a_program_in_python_has_its_goals_carried_out() {
     // Each line, by waiting for its answer.
     let does = |peer: &mut Peer, word: &str, answer: &str| {
         peer.does(word);
-        within(10.0, &format!("{answer} after {word}, but {:?}", peer.lines.all()), || peer.says(answer));
+        within(20.0, &format!("{answer} after {word}, but {:?}", peer.lines.all()), || peer.says(answer));
     };
-    within(10.0, "an answer", || {
+    within(20.0, "an answer", || {
         peer.does("result 9");
         thread::sleep(Duration::from_millis(200));
         peer.says("result 0")
@@ -589,7 +589,7 @@ fn a_program_in_python_has_its_goals_carried_out() {
     does(&mut peer, "goal 1 6", "refused");
     does(&mut peer, "goal 2 1000", "feedback 0 1 1");
     does(&mut peer, "cancel 2", "canceling 0 1");
-    within(5.0, "the states", || peer.says("states 4 5"));
+    within(15.0, "the states", || peer.says("states 4 5"));
     does(&mut peer, "result 2", "result 5");
     does(&mut peer, "cancel 2", "canceling 3 0");
     does(&mut peer, "cancel 7", "canceling 2 0");

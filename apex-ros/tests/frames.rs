@@ -43,7 +43,7 @@ fn scans_are_placed_by_the_transforms_of_others() {
     let sender = ros.publish("/tf").depth(100).open::<Transforms>().expect("a topic");
     let pose = Pose3::new([1.5, -2.5, 0.25], Rotation::new([0.6, 0.0, 0.0, 0.8]).expect("a rotation"));
     let all = Transforms { transforms: [transform("map", "odom", pose)].into_iter().collect() };
-    within(10.0, "the transform at the peer", || {
+    within(20.0, "the transform at the peer", || {
         sender.send(&all).expect("it is there");
         thread::sleep(Duration::from_millis(20));
         peer.says("tf map odom 1.5 -2.5 0.25 0.6 0.8 now")
@@ -59,8 +59,8 @@ fn odometry_is_a_transform_with_its_frames() {
     let all = Collected::new();
     receiver.subscribe("odom").of::<Odometry>().each::<Transforms>(all.collector()).expect("a topic");
     let odometry = sender.publish("odom").frame("odom").open::<Odometry>().expect("a topic");
-    within(5.0, "a subscription is seen", || sender.sees(Endpoint::Subscription, "odom", "nav_msgs/msg/Odometry"));
-    within(5.0, "odometry", || {
+    within(15.0, "a subscription is seen", || sender.sees(Endpoint::Subscription, "odom", "nav_msgs/msg/Odometry"));
+    within(15.0, "odometry", || {
         odometry.send(&(&Pose2::new(1.0, -2.0, 0.0)).into()).expect("it is there");
         thread::sleep(Duration::from_millis(20));
         !all.all().is_empty()

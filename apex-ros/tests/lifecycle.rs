@@ -31,7 +31,7 @@ where
     S::Request: Send,
 {
     let client = ros.call::<S>(name).timeout(Duration::from_secs(5)).open().expect("a client");
-    within(5.0, "a server", || ros.sees(Kind::Server, name, S::NAME));
+    within(15.0, "a server", || ros.sees(Kind::Server, name, S::NAME));
     client
 }
 
@@ -105,7 +105,7 @@ impl Running {
     }
 
     fn opens(&self) {
-        within(5.0, "it is to be configured", || self.seen.all().last() == Some(&"configure"));
+        within(15.0, "it is to be configured", || self.seen.all().last() == Some(&"configure"));
         self.opened.send(()).expect("it runs");
     }
 }
@@ -130,25 +130,25 @@ fn a_manager_starts_and_stops_the_robot() {
     // Its device is opened a moment later.
     thread::scope(|scope| {
         let configured = scope.spawn(|| manager.change("configure"));
-        within(5.0, "it is to be configured", || manager.state() == "configuring");
+        within(15.0, "it is to be configured", || manager.state() == "configuring");
         robot.opens();
         assert_eq!(configured.join().ok(), Some(true));
     });
     assert_eq!((manager.state().as_str(), robot.seen.all().len(), beats.all().len()), ("inactive", 1, 0));
     assert!(manager.change("activate"));
-    within(5.0, "it works", || robot.seen.all() == ["configure", "works"] && beats.all().len() > 10);
+    within(15.0, "it works", || robot.seen.all() == ["configure", "works"] && beats.all().len() > 10);
     assert!(manager.change("deactivate"));
     robot.seen.expect(&["configure", "works", "rests"]);
-    within(5.0, "its last word", || beats.all().last() == Some(&0));
+    within(15.0, "its last word", || beats.all().last() == Some(&0));
     let count = beats.all().len();
     thread::sleep(Duration::from_millis(200));
     assert_eq!(beats.all().len(), count, "it is silent");
     assert!(manager.change("activate"));
-    within(5.0, "it works again", || beats.all().len() > count);
+    within(15.0, "it works again", || beats.all().len() > count);
     assert!(!manager.change("cleanup"), "it is active");
     // Shut down, its program ends.
     assert!(manager.change("shutdown"));
-    within(5.0, "the end", || robot.driver.as_ref().is_some_and(JoinHandle::is_finished));
+    within(15.0, "the end", || robot.driver.as_ref().is_some_and(JoinHandle::is_finished));
     assert_eq!(manager.state(), "finalized");
     let expected = [
         "configure: unconfigured -> configuring",
@@ -162,7 +162,7 @@ fn a_manager_starts_and_stops_the_robot() {
         "shutdown: active -> shuttingdown",
         "transition_success: shuttingdown -> finalized",
     ];
-    within(5.0, "all transitions", || manager.events.all() == expected);
+    within(15.0, "all transitions", || manager.events.all() == expected);
 }
 
 #[test]
@@ -171,15 +171,15 @@ fn a_robot_that_breaks_has_to_be_configured_again() {
     let robot = Running::start(&router, true);
     robot.opens();
     let manager = Manager::new(&router);
-    within(5.0, "it has started by itself", || manager.state() == "active");
+    within(15.0, "it has started by itself", || manager.state() == "active");
     robot.broken.send(()).expect("it runs");
-    within(5.0, "it has stopped", || manager.state() == "unconfigured" && robot.seen.all().last() == Some(&"rests"));
+    within(15.0, "it has stopped", || manager.state() == "unconfigured" && robot.seen.all().last() == Some(&"rests"));
     let expected = [
         "deactivate: active -> deactivating",
         "transition_error: deactivating -> errorprocessing",
         "transition_success: errorprocessing -> unconfigured",
     ];
-    within(5.0, "the transitions", || manager.events.all() == expected);
+    within(15.0, "the transitions", || manager.events.all() == expected);
     thread::scope(|scope| {
         let configured = scope.spawn(|| manager.change("configure"));
         robot.opens();
@@ -188,7 +188,7 @@ fn a_robot_that_breaks_has_to_be_configured_again() {
     // A program that ends does not let its manager wait.
     thread::scope(|scope| {
         let cleaned = scope.spawn(|| manager.change("cleanup"));
-        within(5.0, "it is to be cleaned up", || manager.state() == "cleaningup");
+        within(15.0, "it is to be cleaned up", || manager.state() == "cleaningup");
         robot.stop.set();
         assert_eq!(cleaned.join().ok(), Some(false));
     });
@@ -245,11 +245,11 @@ fn a_manager_in_python_starts_and_stops_the_robot() {
     let mut manager = Peer::start(&*python, "lifecycle_peer.py", &types.each_ref().map(String::as_str));
     let ros = manager.node("robot");
     ros.manage().by(|_| Outcome::Success).expect("services");
-    within(10.0, "the state", || manager.does("state").iter().any(|line| line == "state 1 unconfigured"));
+    within(20.0, "the state", || manager.does("state").iter().any(|line| line == "state 1 unconfigured"));
     let mut change = |id: u8, events: [&str; 2]| {
         let lines = manager.does(&format!("change {id}"));
         assert!(lines.iter().any(|line| line == "changed 1"), "{lines:?}");
-        within(5.0, events[1], || events.iter().all(|event| manager.says(event)));
+        within(15.0, events[1], || events.iter().all(|event| manager.says(event)));
     };
     change(1, ["event 1 unconfigured configuring", "event 10 configuring inactive"]);
     change(3, ["event 3 inactive activating", "event 30 activating active"]);

@@ -36,11 +36,11 @@ fn echo<M: Message + Send + 'static>(ros: &Ros, index: usize, messages: &[M]) {
     let subscription = ros.subscribe(&pong).depth(1000).each(move |message: Raw<M>| add(message.0));
     subscription.expect("a topic");
     let ping = ros.publish(&format!("/ping_{index}")).depth(1000).open::<Raw<M>>().expect("a topic");
-    within(10.0, "the peer", || {
+    within(20.0, "the peer", || {
         ros.sees(Kind::Publisher, &pong, M::NAME) && ros.sees(Kind::Subscription, &format!("/ping_{index}"), M::NAME)
     });
     // A route for data comes a moment after the token.
-    within(10.0, "the first one comes back", || {
+    within(20.0, "the first one comes back", || {
         ping.send(&Raw::of(&messages[0])).expect("it is there");
         thread::sleep(Duration::from_millis(50));
         !back.all().is_empty()
@@ -50,7 +50,7 @@ fn echo<M: Message + Send + 'static>(ros: &Ros, index: usize, messages: &[M]) {
     for message in messages {
         ping.send(&Raw::of(message)).expect("it is there");
     }
-    within(10.0, M::NAME, || back.all().len() == messages.len());
+    within(20.0, M::NAME, || back.all().len() == messages.len());
     let sent: Vec<_> = messages.iter().map(|message| Raw::of(message).0).collect();
     assert!(back.all() == sent, "{}", M::NAME);
 }
@@ -158,17 +158,17 @@ fn earlier_routers_carry_the_same() {
 fn answers_and_maps(peer: &mut Peer) {
     let ros = peer.node("robot");
     let flip = ros.call::<SetBool>("/flip").open().expect("a client");
-    within(10.0, "the server", || ros.sees(Kind::Server, "/flip", "std_srvs/srv/SetBool"));
+    within(20.0, "the server", || ros.sees(Kind::Server, "/flip", "std_srvs/srv/SetBool"));
     for data in [true, false] {
         let response = flip.ask(&SetBoolRequest { data });
         assert_eq!(response, Ok(SetBoolResponse { success: !data, message: "flipped".to_owned() }));
     }
-    within(5.0, "both requests", || peer.says("request 1 1") && peer.says("request 0 2"));
+    within(15.0, "both requests", || peer.says("request 1 1") && peer.says("request 0 2"));
 
     ros.serve::<SetBool>("~/shout")
         .by(|request| SetBoolResponse { success: request.data, message: "HEY".to_owned() })
         .expect("a service");
-    within(10.0, "an answer", || peer.does("call").iter().any(|line| line == "response 1 HEY 7 same"));
+    within(20.0, "an answer", || peer.does("call").iter().any(|line| line == "response 1 HEY 7 same"));
 
     let maps = Collected::new();
     let add = maps.collector();
@@ -177,10 +177,10 @@ fn answers_and_maps(peer: &mut Peer) {
         .depth(1)
         .each(move |map: Grid<Occupancy>| add(map.cells().to_vec()))
         .expect("a topic");
-    within(10.0, "the map", || maps.all() == [[Occupancy::Occupied, Occupancy::Free]]);
+    within(20.0, "the map", || maps.all() == [[Occupancy::Occupied, Occupancy::Free]]);
     let publisher = ros.publish("/map_of_robot").frame("map").transient_local().depth(1).open().expect("a topic");
     publisher.send(&OccupancyGrid { data: vec![7, -1], ..OccupancyGrid::default() }).expect("it is there");
-    within(10.0, "the map at the peer", || peer.says("map map 7 -1"));
+    within(20.0, "the map at the peer", || peer.says("map map 7 -1"));
 }
 
 #[test]
@@ -212,7 +212,7 @@ fn tokens_are_seen(peer: &mut Peer) -> (Ros, Publisher<Twist>) {
         format!("/MS/%/%/robot/%scan/sensor_msgs::msg::dds_::LaserScan_/{}/2::,10:,:,:,,", LaserScan::HASH),
         format!("/MP/%/%/robot/%cmd_vel/geometry_msgs::msg::dds_::Twist_/{}/::,10:,:,:,,", Twist::HASH),
     ];
-    within(10.0, "the tokens", || {
+    within(20.0, "the tokens", || {
         let tokens = peer.does("tokens");
         wanted.iter().all(|wanted| tokens.iter().any(|token| token.ends_with(wanted.as_str())))
     });

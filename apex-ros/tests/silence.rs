@@ -27,17 +27,17 @@ fn a_router_that_does_not_run_is_missed_and_found() {
     assert!(told.all()[0].contains("rmw_zenohd`, or `zenohd`"), "{:?}", told.all());
     assert!(!has("no node publishes"), "without a router nothing is known about the others");
     router.resume();
-    within(5.0, "the router is found", || has("a router answers at"));
-    within(5.0, "no node publishes", || has("no node publishes `/scan`"));
+    within(15.0, "the router is found", || has("a router answers at"));
+    within(15.0, "no node publishes", || has("no node publishes `/scan`"));
     let (sender, _) = node(&router, "lidar");
     sender.publish("scan").open::<LaserScan>().expect("a topic");
-    within(5.0, "a node publishes", || has("a node publishes `/scan` now"));
+    within(15.0, "a node publishes", || has("a node publishes `/scan` now"));
     router.stop();
     within(SOON + 1.0, "the router has gone", || {
         told.all().iter().filter(|text| text.contains("no router of Zenoh")).count() == 2
     });
     router.resume();
-    within(5.0, "the router is back", || {
+    within(15.0, "the router is back", || {
         told.all().iter().filter(|text| text.contains("a router answers at")).count() == 2
     });
 }
@@ -80,7 +80,7 @@ fn a_publisher_that_falls_silent_is_noticed() {
     let (ros, told) = node(&router, "rover");
     let subscription = ros.subscribe("scan").each(|_: LaserScan| {}).expect("a topic");
     let publisher = lidar.publish("scan").open::<LaserScan>().expect("a topic");
-    within(5.0, "scans", || {
+    within(15.0, "scans", || {
         publisher.send(&LaserScan::default()).expect("it is there");
         thread::sleep(Duration::from_millis(20));
         subscription.heard() > 20
@@ -106,7 +106,7 @@ fn messages_that_cannot_be_read_are_told() {
     let mut turned = OccupancyGrid::default();
     turned.info.resolution = 0.05;
     turned.info.origin = Pose::from(&apex_nodes::scan::Pose2::new(0.0, 0.0, 0.5));
-    within(5.0, "a turned map", || {
+    within(15.0, "a turned map", || {
         publisher.send(&turned).expect("it is there");
         thread::sleep(Duration::from_millis(20));
         told.all().iter().any(|text| {

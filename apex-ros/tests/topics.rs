@@ -21,7 +21,7 @@ use std::{thread, time::Duration};
 /// Waits until another program subscribes.
 macro_rules! heard {
     ($ros:expr, $topic:expr, $ty:ty) => {
-        within(5.0, "a subscription is seen", || {
+        within(15.0, "a subscription is seen", || {
             $ros.sees(Kind::Subscription, $topic, <$ty as apex_messages::Message>::NAME)
         })
     };
@@ -39,7 +39,7 @@ fn scans_arrive_bit_by_bit_with_times_of_the_program() {
     let ranges = [f32::INFINITY, f32::NEG_INFINITY, f32::from_bits(0x7fc0_1234), -0.0, 1.5];
     let stamp = sender.clock().now();
     let scan = Scan { stamp, angle_increment: 0.1, ranges: ranges.into_iter().collect(), ..Scan::default() };
-    within(5.0, "a scan", || {
+    within(15.0, "a scan", || {
         publisher.send(&scan).expect("it is there");
         thread::sleep(Duration::from_millis(20));
         !tokens.all().is_empty() && !messages.all().is_empty()
@@ -73,7 +73,7 @@ fn tokens_are_read_from_and_written_as_other_messages() {
         child_frame_id: "base_link".to_owned(),
         transform: (&pose).into(),
     };
-    within(5.0, "all three", || {
+    within(15.0, "all three", || {
         odometry.send(&(&pose).into()).expect("it is there");
         stamped.send(&(&twist).into()).expect("it is there");
         transforms.send(&TFMessage { transforms: vec![transform.clone()] }).expect("it is there");
@@ -97,9 +97,9 @@ fn a_map_comes_to_those_who_are_late() {
     let map = |all: &Collected<OccupancyGrid>| all.all().iter().map(|map| map.data.clone()).collect::<Vec<_>>();
     receiver.subscribe("/map").transient_local().depth(1).each(maps.collector()).expect("a topic");
     receiver.subscribe("/map").depth(1).each(late.collector()).expect("a topic");
-    within(5.0, "the last map", || map(&maps) == [[3]]);
+    within(15.0, "the last map", || map(&maps) == [[3]]);
     publisher.send(&OccupancyGrid { data: vec![4], ..OccupancyGrid::default() }).expect("it is there");
-    within(5.0, "the next map", || map(&maps) == [[3], [4]] && map(&late) == [[4]]);
+    within(15.0, "the next map", || map(&maps) == [[3], [4]] && map(&late) == [[4]]);
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn names_are_remapped_and_domains_are_apart() {
     receiver.subscribe("/robot1/other").each::<f64>(here.collector()).expect("a topic");
     elsewhere.subscribe("/robot1/other").each::<f64>(there.collector()).expect("a topic");
     let publisher = sender.publish("value").open::<f64>().expect("a topic");
-    within(5.0, "a number", || {
+    within(15.0, "a number", || {
         publisher.send(&1.5).expect("it is there");
         thread::sleep(Duration::from_millis(20));
         !here.all().is_empty()
@@ -131,7 +131,7 @@ fn programs_of_humble_have_no_hashes() {
     receiver.subscribe("value").each::<f64>(here.collector()).expect("a topic");
     jazzy.subscribe("value").each::<f64>(there.collector()).expect("a topic");
     let publisher = sender.publish("value").open::<f64>().expect("a topic");
-    within(5.0, "a number", || {
+    within(15.0, "a number", || {
         publisher.send(&1.5).expect("it is there");
         thread::sleep(Duration::from_millis(20));
         !here.all().is_empty()

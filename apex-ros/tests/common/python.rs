@@ -102,7 +102,7 @@ impl Peer {
     pub fn does(&mut self, word: &str) -> Vec<String> {
         self.lines.clear();
         writeln!(self.input, "{word}").expect("it reads");
-        within(10.0, word, || self.says(&format!("done {word}")));
+        within(20.0, word, || self.says(&format!("done {word}")));
         self.lines.all()
     }
 
