@@ -94,8 +94,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 }
             }
             Op::CheckClaims => self.check_claims(),
-            // State machines are not made by any library yet.
-            Op::ShowStates | Op::Move { .. } => {}
+            // Programs with state machines are refused.
+            Op::ShowStates | Op::Move { .. } | Op::TimeStates(_) | Op::LeaveState { .. } => {}
             Op::Set(flag, value) => self.state.set(*flag, *value),
             Op::ForgetTokens => {
                 self.state.flags.retain(|flag| !matches!(flag, Flag::Gains(_) | Flag::Loses(_) | Flag::Carries(_)));

@@ -6,11 +6,10 @@
 use super::{
     Net, PlaceId, TransitionId, TransitionKind, free_for,
     route::{Loop, Segment, SegmentEnd, Side, echoes},
-    state::Token,
+    state::{Marking, Token},
     token_on,
 };
-use apex_dsl::index::IdVec;
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Tokens that have crossed a boundary early.
 #[derive(Clone)]
@@ -40,8 +39,6 @@ struct Route {
     free: PlaceId,
     gives: Vec<PlaceId>,
 }
-
-type Marking = IdVec<PlaceId, VecDeque<Token>>;
 
 impl Bypass {
     /// Initial state, without early tokens.

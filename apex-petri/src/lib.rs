@@ -12,6 +12,8 @@ mod build;
 mod bypass;
 mod clocks;
 mod demand_driven;
+mod expected;
+mod lent;
 mod pnml;
 mod replay;
 mod route;

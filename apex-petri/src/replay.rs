@@ -7,6 +7,7 @@
 use super::{
     Net, Origin, PlaceId, Script, State, Token, Transition, TransitionId, TransitionKind, connection_name,
     demand_driven::demand_driven,
+    expected::{Change, Expected},
     side_name,
     state::{Preview, unsupported},
 };
@@ -15,7 +16,7 @@ use apex_dsl::{
     graph::{ConnectionId, Graph, NodeId, NodeKind},
 };
 use std::{
-    collections::{BTreeMap, BTreeSet, VecDeque},
+    collections::{BTreeMap, BTreeSet},
     fmt,
     time::Duration,
 };
@@ -37,14 +38,6 @@ impl fmt::Display for Wrong {
     }
 }
 
-/// A change of activity that should be recorded.
-struct Change {
-    active: bool,
-    step: usize,
-    /// `true` for initial activity, which need not be recorded.
-    optional: bool,
-}
-
 /// Nodes whose unrecorded transitions may occur early or late: nodes with slots, which take ⊥, delays, which send, and
 /// relays, which take activity. Events may be blocked in one order and not in the other, and `cancel` may find activity
 /// before a relay or not.
@@ -62,6 +55,19 @@ pub fn undecided(graph: &Graph, net: &Net) -> BTreeSet<NodeId> {
     undecided.collect()
 }
 
+/// Undecided nodes that act as late as possible from a step on.
+#[derive(Default)]
+struct Hesitation {
+    nodes: BTreeSet<NodeId>,
+    from: usize,
+}
+
+impl Hesitation {
+    fn has(&self, node: NodeId, step: usize) -> bool {
+        step >= self.from && self.nodes.contains(&node)
+    }
+}
+
 /// A replay.
 pub struct Replay<'a> {
     graph: &'a Graph,
@@ -76,7 +82,7 @@ pub struct Replay<'a> {
     sources: BTreeMap<NodeId, (u32, bool)>,
     /// Sources that may fire when and as often as their consumers need their tokens.
     demand_driven: BTreeSet<NodeId>,
-    expected: BTreeMap<NodeId, VecDeque<Change>>,
+    expected: Expected,
     /// Changes of activity that were recorded before their cause.
     bypass: Vec<(NodeId, bool)>,
     /// Tokens that the last recorded call has taken.
@@ -84,9 +90,7 @@ pub struct Replay<'a> {
     /// `true` if the nodes run in several thread groups.
     has_groups: bool,
     /// Nodes that take ⊥ and delays that send only when something else needs it.
-    hesitant: BTreeSet<NodeId>,
-    /// Step from which on they do.
-    hesitates_from: usize,
+    hesitation: Hesitation,
 }
 
 impl<'a> Replay<'a> {
@@ -109,12 +113,11 @@ impl<'a> Replay<'a> {
             now: Duration::ZERO,
             agenda: net.transitions.ids().collect(),
             by_kind: net.transitions.iter_enumerated().map(|(i, t)| (t.kind, i)).collect(),
-            expected: BTreeMap::new(),
+            expected: Expected::default(),
             bypass: vec![],
             last: vec![],
             has_groups: graph.has_several_groups(),
-            hesitant: BTreeSet::new(),
-            hesitates_from: 0,
+            hesitation: Hesitation::default(),
         };
         replay.expect_changes(true);
         Ok(replay)
@@ -124,12 +127,12 @@ impl<'a> Replay<'a> {
     /// and the others as early as possible. A run is legal if it is legal for one choice.
     #[must_use]
     pub fn hesitating(mut self, nodes: BTreeSet<NodeId>, from: usize) -> Self {
-        (self.hesitant, self.hesitates_from) = (nodes, from);
+        self.hesitation = Hesitation { nodes, from };
         self
     }
 
     fn hesitates(&self, node: NodeId) -> bool {
-        self.step >= self.hesitates_from && self.hesitant.contains(&node)
+        self.hesitation.has(node, self.step)
     }
 
     /// Begins a reaction.
@@ -139,10 +142,8 @@ impl<'a> Replay<'a> {
         self.state.set_time(now);
         for (node, (_, fired)) in &mut self.sources {
             // An iteration that is still under way counts as the one of this reaction.
-            let notify = self
-                .by_kind
-                .get(&TransitionKind::Notify(*node))
-                .filter(|_| self.step >= self.hesitates_from && self.hesitant.contains(node));
+            let notify = self.by_kind.get(&TransitionKind::Notify(*node));
+            let notify = notify.filter(|_| self.hesitation.has(*node, self.step));
             let waits = notify.and_then(|t| self.net.transitions[*t].takes.first());
             let is_delay = matches!(self.graph.nodes[*node].kind, NodeKind::Delay(_));
             *fired = is_delay && waits.is_some_and(|place| self.state.is_marked(*place));
@@ -237,21 +238,21 @@ impl<'a> Replay<'a> {
     /// A change without a cause is reported by the next call, unless that is its cause.
     pub fn activity(&mut self, node: NodeId, active: bool) -> Result<(), Wrong> {
         self.step += 1;
-        if self.matches_expected(node, active) {
+        if self.expected.takes(node, active) {
             return Ok(());
         }
         // The activity may have come to a node that does not run because of ⊥, after nodes that remain as they are.
         while let Some(take) = self.deferred_for(node, active) {
             self.run(take);
             self.settle();
-            if self.matches_expected(node, active) {
+            if self.expected.takes(node, active) {
                 return Ok(());
             }
         }
         // A timeout takes the activity of its node along.
         let own = self.by_kind.get(&TransitionKind::TimeOut(node)).copied();
         while self.time_out(|timeout| Some(timeout) == own) {
-            if self.matches_expected(node, active) {
+            if self.expected.takes(node, active) {
                 return Ok(());
             }
         }
@@ -278,13 +279,12 @@ impl<'a> Replay<'a> {
                 return Err(self.wrong(what, format!("`{}` could still occur", t.name)));
             }
         }
-        let open = self.expected.iter().find_map(|(node, c)| c.iter().find(|c| !c.optional).map(|c| (*node, c)));
-        if let Some((node, change)) = open {
+        if let Some((node, change)) = self.expected.open() {
             let word = if change.active { "active" } else { "inactive" };
             let why = format!("`{}` became {word} in step {}, which is not recorded", self.name(node), change.step);
             return Err(self.wrong(what, why));
         }
-        self.expected.clear();
+        self.expected = Expected::default();
         Ok(())
     }
 
@@ -565,30 +565,16 @@ impl<'a> Replay<'a> {
 
     fn expect_changes(&mut self, optional: bool) {
         for (node, active) in self.state.take_changes() {
-            self.expected.entry(node).or_default().push_back(Change { active, step: self.step, optional });
+            self.expected.add(node, Change { active, step: self.step, optional });
         }
     }
 
-    /// Drops initial activity that was not recorded: it is recorded before anything else, or not at all. With several
-    /// thread groups it is kept, because each group begins on its own.
+    /// Drops initial activity that was not recorded. With several thread groups it is kept, because each group begins
+    /// on its own.
     fn forget_optional(&mut self) {
-        if self.has_groups {
-            return;
+        if !self.has_groups {
+            self.expected.forget_optional();
         }
-        self.expected.values_mut().for_each(|changes| changes.retain(|c| !c.optional));
-    }
-
-    fn matches_expected(&mut self, node: NodeId, active: bool) -> bool {
-        let Some(changes) = self.expected.get_mut(&node) else { return false };
-        // Initial activity that is missing in the record is skipped.
-        while changes.front().is_some_and(|c| c.optional && c.active != active) {
-            changes.pop_front();
-        }
-        let same = changes.front().is_some_and(|c| c.active == active);
-        if same {
-            changes.pop_front();
-        }
-        same
     }
 
     /// Reports activity that was recorded too early: it may be recorded just before the call that causes it, but not
@@ -605,7 +591,7 @@ impl<'a> Replay<'a> {
 
     fn match_early(&mut self, what: &str) -> Result<(), Wrong> {
         for (node, active) in std::mem::take(&mut self.bypass) {
-            if !self.matches_expected(node, active) {
+            if !self.expected.takes(node, active) {
                 self.bypass = vec![(node, active)];
                 return self.check_early(what, |_| false);
             }

@@ -83,10 +83,8 @@ fn causes(graph: &Graph) -> BTreeMap<Crossing, BTreeSet<SegmentEnd>> {
     let is_delay =
         |end: SegmentEnd| matches!(end, SegmentEnd::Node(node) if matches!(graph.nodes[node].kind, NodeKind::Delay(_)));
     let mut after: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
-    for segment in cut(graph, |_, side| Some(Side::whole(side))).iter().filter(|segment| to_input(graph, segment)) {
-        if !is_delay(segment.from) {
-            after.entry(segment.from).or_default().push(segment.to);
-        }
+    for segment in to_inputs(graph).into_iter().filter(|segment| !is_delay(segment.from)) {
+        after.entry(segment.from).or_default().push(segment.to);
     }
     let sides = graph.connections.iter().flat_map(|c| c.crossings.iter().copied()).collect::<BTreeSet<Crossing>>();
     let leaving = sides.into_iter().filter(|side| matches!(side, Crossing::Leave(_)));
@@ -161,7 +159,7 @@ pub fn echoes<'a>(segments: &[Segment], loops: &'a [Loop]) -> impl Iterator<Item
 fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<SegmentEnd>> {
     let mut after: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
     let mut before: BTreeMap<SegmentEnd, Vec<SegmentEnd>> = BTreeMap::new();
-    for segment in cut(graph, |_, side| Some(Side::whole(side))).iter().filter(|segment| to_input(graph, segment)) {
+    for segment in to_inputs(graph) {
         after.entry(segment.from).or_default().push(segment.to);
         before.entry(segment.to).or_default().push(segment.from);
     }
@@ -174,6 +172,13 @@ fn insides(graph: &Graph) -> BTreeMap<NodeId, BTreeSet<SegmentEnd>> {
         insides.insert(node, inside);
     }
     insides
+}
+
+/// The legs of all connections to inputs, where their tokens wait at each boundary for all others.
+fn to_inputs(graph: &Graph) -> Vec<Segment> {
+    let mut segments = cut(graph, |_, crossing| Some(Side::whole(crossing)));
+    segments.retain(|segment| to_input(graph, segment));
+    segments
 }
 
 fn to_input(graph: &Graph, segment: &Segment) -> bool {

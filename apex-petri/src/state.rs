@@ -5,7 +5,7 @@ use super::{
     build::has_process,
     bypass::Bypass,
     clocks::{self, Clocks},
-    free_for,
+    lent::Lent,
     route::{self, SegmentEnd, Side},
     token_on,
 };
@@ -76,13 +76,16 @@ pub struct Preview {
     pub modifies: bool,
 }
 
+/// Tokens at each place.
+pub type Marking = IdVec<PlaceId, VecDeque<Token>>;
+
 /// A coloured marking of a net.
 #[derive(Clone)]
 pub struct State<'a> {
     graph: &'a Graph,
     net: &'a Net,
     script: &'a Script<'a>,
-    marking: IdVec<PlaceId, VecDeque<Token>>,
+    marking: Marking,
     active: IdVec<NodeId, bool>,
     calls: IdVec<NodeId, usize>,
     taken: BTreeMap<NodeId, Taken>,
@@ -101,9 +104,7 @@ pub struct State<'a> {
     /// The delays of each loop, by the first one.
     loops: BTreeMap<NodeId, Vec<NodeId>>,
     bypass: Bypass,
-    /// Copies of tokens that lead into loops, and free legs of events on loops: how many of them delays have used
-    /// before they came.
-    lent: BTreeMap<PlaceId, usize>,
+    lent: Lent,
     clocks: Clocks,
 }
 
@@ -180,11 +181,7 @@ impl<'a> State<'a> {
             consumers,
             clocks: Clocks::new(graph, &sources),
             sources,
-            lent: route::echoes(&segments, &loops)
-                .map(|(place, _)| place)
-                .chain(loops.iter().flat_map(|on_loop| on_loop.events.iter().map(|leg| free_for(*leg))))
-                .map(|place| (place, 0))
-                .collect(),
+            lent: Lent::new(&segments, &loops),
             bypass: Bypass::new(&segments, &loops, net),
             loops: loops.into_iter().map(|on_loop| (on_loop.delays[0], on_loop.delays)).collect(),
         }
@@ -229,7 +226,7 @@ impl<'a> State<'a> {
     /// Lets the token that `place` lacks cross a boundary of a nested graph before the others have arrived, if it can.
     pub fn advance(&mut self, place: PlaceId) {
         self.bypass.advance(place, &mut self.marking);
-        self.take_back();
+        self.lent.take_back(&mut self.marking);
     }
 
     /// The place before the boundary, if tokens reach `place` through the boundary of a nested graph.
@@ -241,7 +238,7 @@ impl<'a> State<'a> {
     /// replaces.
     pub fn follow(&mut self) -> Vec<TransitionId> {
         let passed = self.bypass.follow(&mut self.marking);
-        self.take_back();
+        self.lent.take_back(&mut self.marking);
         passed
     }
 
@@ -254,26 +251,12 @@ impl<'a> State<'a> {
     /// been triggered, if nothing else holds them back: other nodes may fire first. The tokens have to follow.
     pub fn lend(&mut self, release: TransitionId) {
         let missing = self.missing(release);
-        if missing.iter().all(|place| self.lent.contains_key(place)) {
-            for place in missing {
-                self.marking[place].push_back(Token::default());
-                self.lent.entry(place).and_modify(|count| *count += 1);
-            }
-        }
+        self.lent.lend(missing, &mut self.marking);
     }
 
     /// A place of a token that delays have used before it came.
     pub fn borrowed(&self) -> Option<PlaceId> {
-        self.lent.iter().find(|(_, count)| **count > 0).map(|(place, _)| *place)
-    }
-
-    /// Takes back what was lent where the tokens have come.
-    fn take_back(&mut self) {
-        for (place, count) in &mut self.lent {
-            while *count > 0 && self.marking[*place].pop_front().is_some() {
-                *count -= 1;
-            }
-        }
+        self.lent.borrowed()
     }
 
     /// Returns `true` if `transition` may occur.
@@ -360,7 +343,7 @@ impl<'a> State<'a> {
         for place in &t.gives {
             self.marking[*place].push_back(colours.get(place).copied().unwrap_or_default());
         }
-        self.take_back();
+        self.lent.take_back(&mut self.marking);
     }
 
     fn set_active(&mut self, node: NodeId, active: bool) {

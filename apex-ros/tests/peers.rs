@@ -19,6 +19,7 @@ use apex_rt::Time;
 use common::{
     Collected,
     python::{Interpreter, Peer, python, with_zenoh},
+    raw::Raw,
     within,
 };
 use std::{process::Command, thread, time::Duration};
@@ -53,29 +54,6 @@ fn echo<M: Message + Send + 'static>(ros: &Ros, index: usize, messages: &[M]) {
     within(20.0, M::NAME, || back.all().len() == messages.len());
     let sent: Vec<_> = messages.iter().map(|message| Raw::of(message).0).collect();
     assert!(back.all() == sent, "{}", M::NAME);
-}
-
-/// Bytes of a message, with its name: floats that are not numbers can be compared.
-struct Raw<M>(Vec<u8>, std::marker::PhantomData<fn() -> M>);
-
-impl<M: Message> Raw<M> {
-    fn of(message: &M) -> Self {
-        Self(message.to_bytes(), std::marker::PhantomData)
-    }
-}
-
-impl<M: Message> Message for Raw<M> {
-    const NAME: &'static str = M::NAME;
-    const DEFINITION: &'static str = M::DEFINITION;
-    const HASH: &'static str = M::HASH;
-
-    fn write(&self, message: &mut apex_messages::cdr::Writer<'_>) {
-        M::from_bytes(&self.0).expect("its own bytes").write(message);
-    }
-
-    fn read(message: &mut apex_messages::cdr::Reader<'_>) -> Result<Self, apex_messages::Reason> {
-        M::read(message).map(|message| Self::of(&message))
-    }
 }
 
 const ODD: [f32; 6] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.0, f32::MIN_POSITIVE, 1.5];

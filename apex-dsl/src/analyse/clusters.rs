@@ -335,8 +335,8 @@ fn add_react_guards(
 ) -> IdVec<NodeId, BTreeSet<usize>> {
     let above = accumulate(view, guards, own);
     let plain = without_pace(view, guards, own);
-    let ways = Ways::new(view.graph, view.links, guards);
-    let stays: Vec<NodeId> = view.graph.nodes.ids().filter(|node| view.sends_what_stays(*node)).collect();
+    let stays = view.graph.nodes.ids().filter(|node| view.sends_what_stays(*node));
+    let ways = Ways::new(view.graph, view.links, guards, own, stays);
     let mut demand_driven = demand_driven(view, &above);
     let mut parts: BTreeMap<NodeId, usize> = plain.iter().map(|node| (*node, 0)).collect();
     loop {
@@ -349,7 +349,7 @@ fn add_react_guards(
         // Pulled nodes wait for what their consumers wait for.
         let sets = demand_driven.iter().filter_map(|group| Some((group, group.guards(guards, &above)?)));
         let pulled = sets.flat_map(|(group, set)| group.nodes.iter().map(move |node| (*node, set.clone()))).collect();
-        let holding = |node: &NodeId| (*node, ways.holding(*node, guards, own, &pulled, &stays));
+        let holding = |node: &NodeId| (*node, ways.holding(*node, &pulled));
         let holding: BTreeMap<NodeId, Holding> = sharing.iter().map(holding).collect();
         for &node in &sharing {
             let key = (view.regions[node], &above[node], &holding[&node], parts[&node]);

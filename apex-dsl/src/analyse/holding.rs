@@ -32,16 +32,25 @@ pub type Holding = BTreeMap<HeldBack, usize>;
 pub struct Ways {
     down: Vec<Vec<usize>>,
     up: Vec<Vec<usize>>,
-    /// For the token of each event, the stop where it comes in.
-    entries: BTreeMap<usize, usize>,
+    /// For each stop, the conditions that hold back what is there.
+    held: Vec<Vec<HeldBack>>,
 }
 
 impl Ways {
-    /// The ways of the tokens to inputs.
-    pub fn new(graph: &Graph, links: &Links, guards: &[Guard]) -> Self {
+    /// The ways of the tokens to inputs. `own` holds the guards of each node itself, `stays` the nodes whose tokens may
+    /// stay on their connections.
+    pub fn new(
+        graph: &Graph,
+        links: &Links,
+        guards: &[Guard],
+        own: &IdVec<NodeId, Vec<usize>>,
+        stays: impl Iterator<Item = NodeId>,
+    ) -> Self {
+        let mut ways = Self { down: vec![], up: vec![], held: vec![] };
+        ways.add_stops(graph.nodes.len());
+        // For the token of each event, the stop where it comes in.
+        let mut entries: BTreeMap<usize, usize> = BTreeMap::new();
         let mut sides: BTreeMap<Crossing, usize> = BTreeMap::new();
-        let count = graph.nodes.len();
-        let mut ways = Self { down: vec![vec![]; count], up: vec![vec![]; count], entries: BTreeMap::new() };
         let tokens: BTreeMap<ConnectionId, usize> = tokens(guards).collect();
         for &connection in links.inputs.iter().flatten() {
             let Connection { from, to, crossings, .. } = &graph.connections[connection];
@@ -50,49 +59,41 @@ impl Ways {
             if graph.flow(&graph.connections[connection]) != Flow::ToInput {
                 stops.push(from.node.index());
             }
-            for side in crossings {
-                let next = count + sides.len();
-                stops.push(*sides.entry(*side).or_insert(next));
-            }
+            stops.extend(crossings.iter().map(|side| *sides.entry(*side).or_insert_with(|| ways.add_stops(1))));
             stops.push(to.node.index());
-            ways.down.resize(count + sides.len(), vec![]);
-            ways.up.resize(count + sides.len(), vec![]);
             for pair in stops.windows(2) {
                 ways.down[pair[0]].push(pair[1]);
                 ways.up[pair[1]].push(pair[0]);
             }
-            if let Some(guard) = tokens.get(&connection) {
-                ways.entries.insert(*guard, stops[0]);
+            entries.extend(tokens.get(&connection).map(|guard| (*guard, stops[0])));
+        }
+        for (node, own) in own.iter_enumerated() {
+            for guard in own {
+                let stop = entries.get(guard).copied().unwrap_or(node.index());
+                ways.held[stop].push(HeldBack::Guard(*guard));
             }
         }
+        stays.for_each(|node| ways.held[node.index()].push(HeldBack::Sender(node)));
         ways
     }
 
-    /// Conditions that hold a source back. `own` holds the guards of each node itself, `pulled` those with which nodes
-    /// fire because their consumers do, and `stays` the nodes whose tokens may stay on their connections.
-    pub fn holding(
-        &self,
-        source: NodeId,
-        guards: &[Guard],
-        own: &IdVec<NodeId, Vec<usize>>,
-        pulled: &BTreeMap<NodeId, BTreeSet<usize>>,
-        stays: &[NodeId],
-    ) -> Holding {
-        let [down, up] = self.lags(source.index());
-        let least = |down: Option<usize>, up: Option<usize>| down.into_iter().chain(up).min();
-        // The firing that is awaited upstream waits for what the one before it has sent.
-        let stays = stays.iter().map(|node| {
-            let (down, up) = (down[node.index()], up[node.index()].map(|lag| lag + 1));
-            (HeldBack::Sender(*node), least(down, up))
-        });
-        let own = own.iter_enumerated().flat_map(|(node, own)| own.iter().map(move |guard| (node, guard)));
-        let own = own.map(|(node, guard)| (self.entries.get(guard).copied().unwrap_or(node.index()), guard));
-        let pulled = pulled.iter().flat_map(|(node, set)| set.iter().map(|guard| (node.index(), guard)));
-        let paced = own.chain(pulled).filter(|(_, guard)| guards[**guard] != Guard::React);
-        let paced = paced.map(|(stop, guard)| (HeldBack::Guard(*guard), least(down[stop], up[stop])));
+    /// Adds stops, and returns the number of the first one.
+    fn add_stops(&mut self, count: usize) -> usize {
+        let first = self.held.len();
+        self.down.resize(first + count, vec![]);
+        self.up.resize(first + count, vec![]);
+        self.held.resize(first + count, vec![]);
+        first
+    }
+
+    /// Conditions that hold a source back. `pulled` holds the guards with which nodes fire because their consumers do.
+    pub fn holding(&self, source: NodeId, pulled: &BTreeMap<NodeId, BTreeSet<usize>>) -> Holding {
         let mut holding = Holding::new();
-        for (what, lag) in paced.chain(stays) {
-            if let Some(lag) = lag {
+        for ((stop, is_up), lag) in self.lags(source.index()) {
+            let pulled = pulled.get(&NodeId::from(stop)).into_iter().flatten();
+            for what in self.held[stop].iter().copied().chain(pulled.map(|guard| HeldBack::Guard(*guard))) {
+                // The firing that is awaited upstream waits for what the one before it has sent.
+                let lag = lag + usize::from(is_up && matches!(what, HeldBack::Sender(_)));
                 let least = holding.entry(what).or_insert(lag);
                 *least = lag.min(*least);
             }
@@ -100,18 +101,17 @@ impl Ways {
         holding
     }
 
-    /// For each stop, after how many firings of a source the source waits for it. What is downstream has to finish.
-    /// That waits for what is upstream of it, and each node there has to finish its previous firing first. Returns
-    /// those of the stops that are reached downstream, and then upstream.
-    fn lags(&self, source: usize) -> [Vec<Option<usize>>; 2] {
-        let mut least = [vec![None; self.down.len()], vec![None; self.down.len()]];
+    /// Numbers of firings after which a source waits for the stops that are reached downstream (`false`), and then
+    /// upstream (`true`). A node downstream has to finish; it waits for the nodes upstream of it, and each of these has
+    /// to finish its previous firing first.
+    fn lags(&self, source: usize) -> BTreeMap<(usize, bool), usize> {
+        let mut lags: BTreeMap<(usize, bool), usize> = BTreeMap::new();
         let mut ends = VecDeque::from([(source, false, 0)]);
         while let Some((stop, is_up, lag)) = ends.pop_front() {
-            let known: &mut Option<usize> = &mut least[usize::from(is_up)][stop];
-            if known.is_some_and(|known| known <= lag) {
+            if lags.get(&(stop, is_up)).is_some_and(|known| *known <= lag) {
                 continue;
             }
-            *known = Some(lag);
+            lags.insert((stop, is_up), lag);
             self.up[stop].iter().for_each(|up| ends.push_front((*up, true, lag)));
             for down in self.down[stop].iter().copied() {
                 match is_up {
@@ -120,6 +120,6 @@ impl Ways {
                 }
             }
         }
-        least
+        lags
     }
 }

@@ -155,20 +155,12 @@ impl Generator<'_> {
         let NodeKind::Library(library) = &graph.nodes[node].kind else { return quote!() };
         let signature = &self.catalog.signatures[library.signature];
         let method = signature.slots.iter().find(|s| s.port == c.to.port);
-        let Some((SlotCall { args, failing, deadline }, slot)) = slot_call.zip(method) else {
+        let Some((slot_call, slot)) = slot_call.zip(method) else {
             return self.bug(c.span, "the slot has no method");
         };
-        let uses_token = args.iter().any(|arg| matches!(arg, Arg::OfSlot));
-        let args = args.iter().map(|arg| match *arg {
-            Arg::OfSlot => self.judged_slot(graph, connection, library, signature),
-            Arg::Event { event, sent } => self.event(event, sent),
-            _ => self.context(view, node),
-        });
-        let (place, method) = (self.node_place(graph, node), ident(&slot.method));
-        let call = quote!(#place.#method(#(#args),*));
-        let call = self.contained(view, node, *failing, call);
-        let late = self.late(view, node, *deadline);
-        let call = if uses_token {
+        let of_slot = || self.judged_slot(graph, connection, library, signature);
+        let [call, late] = self.called(view, node, &slot.method, slot_call, &of_slot);
+        let call = if slot_call.args.iter().any(|arg| matches!(arg, Arg::OfSlot)) {
             let token = self.slot_token(view, c.from, taken);
             quote! { if let Some(token) = #token { #call; } #late }
         } else {
@@ -179,14 +171,29 @@ impl Generator<'_> {
 
     /// The call of the method of a machine that has been in a state for some time.
     pub fn leave_state(&self, view: ProgramView<'_>, node: NodeId, wait: usize, call: &SlotCall) -> TokenStream {
-        let args = call.args.iter().map(|arg| match *arg {
+        let (graph, method) = (view.graph, &view.program.lower.waits(node)[wait].method);
+        let of_slot = || self.bug(graph.nodes[node].span, "no token has come after a time");
+        let [call, late] = self.called(view, node, method, call, &of_slot);
+        self.recorded_slot(graph, node, self.states_told(graph, node, quote! { #call; #late }))
+    }
+
+    /// The call of a method with the token of a slot, and what follows if it is late.
+    fn called(
+        &self,
+        view: ProgramView<'_>,
+        node: NodeId,
+        method: &str,
+        SlotCall { args, failing, deadline }: &SlotCall,
+        of_slot: &dyn Fn() -> TokenStream,
+    ) -> [TokenStream; 2] {
+        let args = args.iter().map(|arg| match *arg {
+            Arg::OfSlot => of_slot(),
             Arg::Event { event, sent } => self.event(event, sent),
             _ => self.context(view, node),
         });
-        let method = ident(&view.program.lower.waits(node)[wait].method);
-        let (place, late) = (self.node_place(view.graph, node), self.late(view, node, call.deadline));
-        let contained = self.contained(view, node, call.failing, quote!(#place.#method(#(#args),*)));
-        self.recorded_slot(view.graph, node, self.states_told(view.graph, node, quote! { #contained; #late }))
+        let (place, method) = (self.node_place(view.graph, node), ident(method));
+        let call = quote!(#place.#method(#(#args),*));
+        [self.contained(view, node, *failing, call), self.late(view, node, *deadline)]
     }
 
     /// The context for a node, which knows whether it is active.

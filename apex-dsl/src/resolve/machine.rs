@@ -101,18 +101,14 @@ impl<'a> Opener<'a> {
         self.states.push(Open { item, parent });
         let index = self.states.len() - 1;
         for transition in &item.transitions {
-            if let Cause::After(after) = &transition.cause {
-                let after = time(after, self.scope).and_then(|time| match time.is_zero() {
-                    false => Ok(time),
-                    true => {
-                        let message = "the time must be greater than zero";
-                        Err(Box::new(Diagnostic::error("out-of-range", after.span, message)))
-                    }
-                });
-                match after {
-                    Ok(after) => self.waits.push((index, transition, after)),
-                    Err(error) => self.diagnostics.push(*error),
+            let Cause::After(after) = &transition.cause else { continue };
+            match time(after, self.scope) {
+                Ok(time) if time.is_zero() => {
+                    let message = "the time must be greater than zero";
+                    self.diagnostics.push(Diagnostic::error("out-of-range", after.span, message));
                 }
+                Ok(time) => self.waits.push((index, transition, time)),
+                Err(error) => self.diagnostics.push(*error),
             }
         }
         for inner in &item.states {
@@ -209,7 +205,6 @@ impl<'a> Opener<'a> {
         ports.map(|p| (p.name.text.clone(), self.ports[p.name.text.as_str()].1.clone())).collect()
     }
 
-    /// Reports unknown slots and targets, and transitions that can never be taken.
     /// Number of transitions between innermost states.
     fn count(&self, leaves: &[usize]) -> usize {
         let inside = |name: &Ident| {
@@ -225,6 +220,7 @@ impl<'a> Opener<'a> {
         leaves.iter().flat_map(|leaf| self.around(*leaf)).map(|state| of_state[state]).sum()
     }
 
+    /// Reports unknown slots and targets, and transitions that can never be taken.
     fn check_names(&mut self) {
         let states: Vec<&str> = self.states.iter().map(|s| s.item.name.text.as_str()).collect();
         let mut errors = vec![];

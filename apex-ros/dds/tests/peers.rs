@@ -12,12 +12,11 @@ use apex_messages::{
 use apex_ros::{Kind, Ros};
 use apex_ros_dds::Vendor;
 use apex_rt::Time;
-use common::{Collected, domain, node, within};
+use common::{Collected, domain, node, raw::Raw, speaker::Speaker, within};
 use std::{
     env,
-    io::{BufRead as _, BufReader, Write as _},
     path::{Path, PathBuf},
-    process::{Child, ChildStdin, Command, Stdio},
+    process::Command,
     thread,
     time::Duration,
 };
@@ -41,72 +40,26 @@ fn python() -> Option<PathBuf> {
     python
 }
 
-/// The peer in Python, and what it says.
+/// The peer in Python, and its domain.
 struct Peer {
-    child: Child,
-    input: ChildStdin,
-    lines: Collected<String>,
+    speaker: Speaker,
     domain: u32,
 }
 
 impl Peer {
     fn start() -> Option<Self> {
         let domain = domain();
-        // `-B`: what it imports leaves no files beside it.
-        let mut child = Command::new(python()?)
-            .arg("-B")
-            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/dds_peer.py"))
-            .arg(domain.to_string())
-            .env("CYCLONEDDS_URI", SETTINGS)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("python runs");
-        let (input, output) = (child.stdin.take().expect("a pipe"), child.stdout.take().expect("a pipe"));
-        let lines = Collected::new();
-        let add = lines.collector();
-        thread::spawn(move || BufReader::new(output).lines().map_while(Result::ok).for_each(add));
-        let peer = Self { child, input, lines, domain };
-        within(20.0, "the peer is ready", || peer.says("ready"));
-        Some(peer)
+        let mut python = Command::new(python()?);
+        python.env("CYCLONEDDS_URI", SETTINGS);
+        Some(Self { speaker: Speaker::start(python, "dds_peer.py", &[&domain.to_string()]), domain })
     }
 
     fn says(&self, start: &str) -> bool {
-        self.lines.all().iter().any(|line| line.starts_with(start))
+        self.speaker.says(start)
     }
 
     fn node(&self, name: &str) -> Ros {
         node(name, self.domain, Vendor::Cyclone).open().expect("a node")
-    }
-}
-
-impl Drop for Peer {
-    fn drop(&mut self) {
-        drop(self.child.kill());
-        drop(self.child.wait());
-    }
-}
-
-/// Bytes of a message, with its name: floats that are not numbers can be compared.
-struct Raw<M>(Vec<u8>, std::marker::PhantomData<fn() -> M>);
-
-impl<M: Message> Raw<M> {
-    fn of(message: &M) -> Self {
-        Self(message.to_bytes(), std::marker::PhantomData)
-    }
-}
-
-impl<M: Message> Message for Raw<M> {
-    const NAME: &'static str = M::NAME;
-    const DEFINITION: &'static str = M::DEFINITION;
-    const HASH: &'static str = M::HASH;
-
-    fn write(&self, message: &mut apex_messages::cdr::Writer<'_>) {
-        M::from_bytes(&self.0).expect("its own bytes").write(message);
-    }
-
-    fn read(message: &mut apex_messages::cdr::Reader<'_>) -> Result<Self, apex_messages::Reason> {
-        M::read(message).map(|message| Self::of(&message))
     }
 }
 
@@ -179,7 +132,7 @@ fn services_nodes_and_late_messages_go_both_ways() {
         .by(|request| SetBoolResponse { success: request.data, message: "HEY".to_owned() })
         .expect("a service");
     within(20.0, "a response", || {
-        writeln!(peer.input, "call").expect("it reads");
+        peer.speaker.hears("call");
         thread::sleep(Duration::from_millis(200));
         peer.says("response True HEY 7 0x102030405060708")
     });

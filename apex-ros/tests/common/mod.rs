@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "each test uses a part of it")]
 
 pub mod python;
+pub mod raw;
+pub mod speaker;
 mod wait;
 
 use apex_ros::{Opening, Ros};

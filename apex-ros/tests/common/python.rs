@@ -1,13 +1,12 @@
 //! Programs in Python that talk as those of ROS 2 do.
 
-use super::{Collected, free_address, within};
+use super::{free_address, speaker::Speaker, within};
 use apex_ros::Ros;
 use std::{
     env,
-    io::{BufRead as _, BufReader, Write as _},
+    ops::Deref,
     path::{Path, PathBuf},
-    process::{Child, ChildStdin, Command, Stdio},
-    thread,
+    process::Command,
 };
 
 /// Python with the packages; `None` if there is none, which is an error in CI.
@@ -60,11 +59,9 @@ impl Interpreter {
     }
 }
 
-/// The peer in Python, and what it says.
+/// The peer in Python, and its address as a router of Zenoh.
 pub struct Peer {
-    child: Child,
-    input: ChildStdin,
-    pub lines: Collected<String>,
+    speaker: Speaker,
     pub address: String,
 }
 
@@ -72,36 +69,14 @@ impl Peer {
     /// Starts a script of this folder, which has the types of services and their hashes as arguments.
     pub fn start(python: impl Into<Interpreter>, script: &str, types: &[&str]) -> Self {
         let address = free_address();
-        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(script);
-        // `-B`: what it imports leaves no files beside it.
-        let mut child = python
-            .into()
-            .command()
-            .arg("-B")
-            .arg(script)
-            .arg(&address)
-            .args(types)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("python runs");
-        let (input, output) = (child.stdin.take().expect("a pipe"), child.stdout.take().expect("a pipe"));
-        let lines = Collected::new();
-        let add = lines.collector();
-        thread::spawn(move || BufReader::new(output).lines().map_while(Result::ok).for_each(add));
-        let peer = Self { child, input, lines, address };
-        within(20.0, "the peer is ready", || peer.says("ready"));
-        peer
-    }
-
-    pub fn says(&self, start: &str) -> bool {
-        self.lines.all().iter().any(|line| line.starts_with(start))
+        let speaker = Speaker::start(python.into().command(), script, &[&[address.as_str()], types].concat());
+        Self { speaker, address }
     }
 
     /// Lets the peer do something, and returns what it said.
     pub fn does(&mut self, word: &str) -> Vec<String> {
         self.lines.clear();
-        writeln!(self.input, "{word}").expect("it reads");
+        self.speaker.hears(word);
         within(20.0, word, || self.says(&format!("done {word}")));
         self.lines.all()
     }
@@ -111,9 +86,10 @@ impl Peer {
     }
 }
 
-impl Drop for Peer {
-    fn drop(&mut self) {
-        drop(self.child.kill());
-        drop(self.child.wait());
+impl Deref for Peer {
+    type Target = Speaker;
+
+    fn deref(&self) -> &Speaker {
+        &self.speaker
     }
 }

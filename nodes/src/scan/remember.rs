@@ -32,9 +32,9 @@ pub struct Containers {
 /// frame such as that of odometry, which is that of the output. A detection replaces those of the same container. Of
 /// more than 16 containers, the ones that were seen last are remembered.
 ///
-/// What was taken for a container, such as persons who stood together, or is no longer there, is forgotten when the
-/// beams of `scan` go through the places of its castors: those of a container at up to 4 m, of which no castor is seen.
-/// The scan is in the frame of the robot. Without it, nothing is forgotten earlier.
+/// A container of which no castor is seen from up to 4 m, although beams of `scan` go through the places of its
+/// castors, is forgotten: it is no longer there, or persons who stood together were taken for it. The scan is in the
+/// frame of the robot. Without it, nothing is forgotten earlier.
 #[node]
 #[derive(Debug, Clone)]
 pub struct RememberContainers {

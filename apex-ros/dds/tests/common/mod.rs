@@ -1,6 +1,10 @@
 //! Nodes over DDS on this machine, each test in a domain of its own.
 #![allow(dead_code, reason = "each test uses a part of it")]
 
+#[path = "../../../tests/common/raw.rs"]
+pub mod raw;
+#[path = "../../../tests/common/speaker.rs"]
+pub mod speaker;
 #[path = "../../../tests/common/wait.rs"]
 mod wait;
 
