@@ -264,6 +264,7 @@ export class Area {
 
   close() {
     this.menu.hidden = true;
+    this.menu.replaceChildren();
     this.items = [];
   }
 
