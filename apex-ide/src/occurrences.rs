@@ -260,7 +260,10 @@ impl<'a> Walker<'a, '_> {
 
     fn endpoint(&mut self, id: GraphId, end: &Endpoint) {
         match end {
-            Endpoint::Port(reference) => self.reference(id, reference),
+            Endpoint::Port(reference, given) => {
+                self.reference(id, reference);
+                given.iter().for_each(|value| self.expr(Some(id), value));
+            }
             Endpoint::All(all) => {
                 if let PortsOf::Node(name) = &all.of
                     && let Some(definition) = self.declared.graphs[&id].get(name.text.as_str()).copied()
@@ -268,7 +271,13 @@ impl<'a> Walker<'a, '_> {
                     self.used(name, definition);
                 }
             }
-            Endpoint::Instance(instance) => self.instance(Some(id), instance),
+            Endpoint::Instance(instance) => match instance.as_given() {
+                Some((port, value)) if self.declared.graphs[&id].contains_key(port.text.as_str()) => {
+                    self.reference(id, &PortRef { parts: vec![port.clone()], span: port.span });
+                    self.expr(Some(id), value);
+                }
+                _ => self.instance(Some(id), instance),
+            },
             Endpoint::List(ends, _) => ends.iter().for_each(|end| self.endpoint(id, end)),
         }
     }

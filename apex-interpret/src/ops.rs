@@ -258,10 +258,12 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         }
     }
 
-    /// The token of a slot, where it lies.
+    /// The token of a slot, or the value in place of it.
     fn slot_token(&self, slot: usize, taken: bool, place: &Place<'_, 'r>) -> Option<Value> {
-        let from = self.code.graph().connections[self.code.program.wiring.slots[slot].connection].from;
-        if taken { place.taken.clone() } else { self.state.tokens.get(&from).cloned() }
+        let connection = self.code.program.wiring.slots[slot].connection;
+        let from = self.code.graph().connections[connection].from;
+        let token = if taken { place.taken.as_ref() } else { self.state.tokens.get(&from) };
+        token.map(|token| self.state.given.get(&connection).unwrap_or(token).clone())
     }
 
     /// Returns `true` if a token waits for a slot.

@@ -3,7 +3,7 @@
 use crate::{Library, Node, Value, code::Code, conditions::Conditions, delay::Delay};
 use apex_dsl::{
     analyse::ClusterId,
-    graph::{NodeId, NodeKind, PortId},
+    graph::{ConnectionId, NodeId, NodeKind, PortId},
     program::Flag,
 };
 use apex_rt::{ProgramTime, Time, Timeout, Timer};
@@ -19,6 +19,8 @@ pub struct State {
     pub nodes: BTreeMap<NodeId, Box<dyn Node>>,
     /// Tokens that outlive a firing.
     pub tokens: BTreeMap<PortId, Value>,
+    /// Values that slots get in place of tokens.
+    pub given: BTreeMap<ConnectionId, Value>,
     /// Tokens that delays hold.
     pub held: BTreeMap<NodeId, Delay<Value>>,
     /// Activity of these tokens.
@@ -96,6 +98,11 @@ impl State {
                 _ => {}
             }
         }
+        let given = graph.connections.iter_enumerated().filter_map(|(id, c)| Some((id, c.to, c.given.as_ref()?)));
+        let given = given.map(|(id, to, given)| {
+            let token = library.token(Some(&given.value), &graph.port(to).ty);
+            Ok((id, token.ok_or_else(|| format!("the value in `{}` is not known", graph.connection_text(id)))?))
+        });
         let timers = wiring.timers.iter().map(|(node, _)| {
             let modifiers = &graph.nodes[*node].modifiers;
             Timer::new(nanos(modifiers.after, 0), nanos(modifiers.every, NEVER))
@@ -105,6 +112,7 @@ impl State {
         Ok(Self {
             nodes,
             tokens: BTreeMap::new(),
+            given: given.collect::<Result<_, String>>()?,
             held,
             held_activity,
             flags: enabled.collect(),

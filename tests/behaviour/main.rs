@@ -15,6 +15,7 @@ mod failures;
 mod figures;
 mod forms;
 mod handed;
+mod given;
 mod hygiene;
 mod inputs;
 mod large;

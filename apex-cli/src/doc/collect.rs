@@ -257,7 +257,7 @@ fn instances<'a>(end: &'a Endpoint, found: &mut Vec<&'a Instance>) {
     match end {
         Endpoint::Instance(instance) => found.push(instance),
         Endpoint::List(ends, _) => ends.iter().for_each(|end| instances(end, found)),
-        Endpoint::Port(_) | Endpoint::All(_) => {}
+        Endpoint::Port(..) | Endpoint::All(_) => {}
     }
 }
 

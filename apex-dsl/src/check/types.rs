@@ -10,7 +10,7 @@ use crate::{
 /// Reports connections whose ends certainly differ. All others are left to rustc.
 pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for connection in &graph.connections {
-        if connection.differs || compare(graph, connection) != Match::Different {
+        if connection.differs || connection.given.is_some() || compare(graph, connection) != Match::Different {
             continue;
         }
         let (from, to) = (token_type(graph, connection.from), graph.port(connection.to).ty.clone());

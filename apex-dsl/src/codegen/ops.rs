@@ -133,11 +133,7 @@ impl Writer<'_> {
             Op::Serve { slot, unless_exit } => generator.serve_one(view, *slot, *unless_exit),
             Op::ServeCircle(slots) => generator.serve_circle(view, slots),
             Op::Call { slot, taken, call } => generator.call_method(view, *slot, *taken, call.as_ref()),
-            Op::SeeSlot { slot, taken } => {
-                let slot = &view.wiring.slots[*slot];
-                let from = view.graph.connections[slot.connection].from;
-                generator.see(view.graph, slot.node, from, &generator.slot_token(view, from, *taken))
-            }
+            Op::SeeSlot { slot, taken } => generator.see_slot(view, *slot, *taken),
             Op::PutOut { slot, taken, room } => generator.put_out(view, *slot, *taken, *room),
             Op::Exit(code) => quote! { state.exit = Some(#code); },
             Op::Reset => quote! { Self::reset(nodes, state, core, ctx, observer); },

@@ -5,7 +5,7 @@ use super::{
     activity::ProgramView,
     clusters::inlined,
     numbered::{Arm, Numbered},
-    types::ident,
+    types::{constant, ident},
 };
 use crate::{
     analyse::Delivery,
@@ -121,13 +121,42 @@ impl Generator<'_> {
     /// Puts the token of a slot into the mailbox of an event of the program.
     pub fn put_out(&self, view: ProgramView<'_>, slot: usize, taken: bool, room: Option<usize>) -> TokenStream {
         let Slot { connection, node, .. } = view.wiring.slots[slot];
-        let from = view.graph.connections[connection].from;
-        let (port, token) = (ident(&view.graph.nodes[node].name), self.slot_token(view, from, taken));
+        let port = ident(&view.graph.nodes[node].name);
         let room = room.map(|bit| quote! { core.dispatcher.clear(#bit); });
-        let copy = self.clone(view.graph, from, &quote!(token));
-        quote! {
-            if let Some(token) = #token { let _ = events.#port.put(#copy); }
-            #room
+        let copy = self.copy_of_slot(view.graph, connection);
+        let put = self.with_slot_token(view, connection, taken, &quote! { let _ = events.#port.put(#copy); });
+        quote! { #put #room }
+    }
+
+    /// Keeps a copy of the token of a slot for the test.
+    pub fn see_slot(&self, view: ProgramView<'_>, slot: usize, taken: bool) -> TokenStream {
+        let Slot { connection, node, .. } = view.wiring.slots[slot];
+        let (probe, copy) = (self.probe(node), self.copy_of_slot(view.graph, connection));
+        self.with_slot_token(view, connection, taken, &quote! { outputs.#probe.saw(#copy); })
+    }
+
+    /// The token of a slot as a value of its own, from `token`.
+    fn copy_of_slot(&self, graph: &Graph, connection: ConnectionId) -> TokenStream {
+        let c = &graph.connections[connection];
+        match &c.given {
+            Some(given) => constant(&given.value, &graph.port(c.to).ty),
+            None => self.clone(graph, c.from, &quote!(token)),
+        }
+    }
+
+    /// Code that uses the token of a slot, which is `token` there.
+    fn with_slot_token(
+        &self,
+        view: ProgramView<'_>,
+        connection: ConnectionId,
+        taken: bool,
+        code: &TokenStream,
+    ) -> TokenStream {
+        let c = &view.graph.connections[connection];
+        let token = self.slot_token(view, c.from, taken);
+        match &c.given {
+            Some(_) => quote! { if #token.is_some() { #code } },
+            None => quote! { if let Some(token) = #token { #code } },
         }
     }
 
@@ -161,8 +190,8 @@ impl Generator<'_> {
         let of_slot = || self.judged_slot(graph, connection, library, signature);
         let [call, late] = self.called(view, node, &slot.method, slot_call, &of_slot);
         let call = if slot_call.args.iter().any(|arg| matches!(arg, Arg::OfSlot)) {
-            let token = self.slot_token(view, c.from, taken);
-            quote! { if let Some(token) = #token { #call; } #late }
+            let call = self.with_slot_token(view, connection, taken, &quote!(#call;));
+            quote! { #call #late }
         } else {
             quote! { #call; #late }
         };
@@ -228,7 +257,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Lets rustc judge a connection to a slot whose types the scan could not compare.
+    /// The token of a slot as an argument. Rustc judges a connection whose types the scan could not compare.
     fn judged_slot(
         &self,
         graph: &Graph,
@@ -236,8 +265,12 @@ impl Generator<'_> {
         library: &Library,
         signature: &Signature,
     ) -> TokenStream {
-        let Some(link) = self.link(graph, connection) else { return quote!(token) };
         let c = &graph.connections[connection];
+        if let Some(given) = &c.given {
+            let (value, span) = (constant(&given.value, &graph.port(c.to).ty), (self.place)(given.written.span));
+            return quote_spanned!(span=> &#value);
+        }
+        let Some(link) = self.link(graph, connection) else { return quote!(token) };
         let (node, index) = (self.node_type(graph, library), signature.ports[c.to.port].index);
         let span = (self.place)(c.span);
         quote_spanned!(span=> #link::<<#node as ::apex_rt::Slot<#index>>::Token>::pass(token))

@@ -97,9 +97,9 @@ impl Generator<'_> {
                 // Nothing ever comes: the text says what would.
                 None => to_rust(&port.ty, self.catalog).unwrap_or_else(|| quote!(())),
             },
-            NodeKind::Probe => match graph.connections.iter().find(|c| c.to.node == end.node) {
+            NodeKind::Probe => match graph.connections.iter().find(|c| c.to.node == end.node && c.given.is_none()) {
                 Some(connection) => self.token_type(graph, connection.from),
-                None => quote!(()),
+                None => to_rust(&port.ty, self.catalog).unwrap_or_else(|| quote!(())),
             },
             NodeKind::Boundary(_) if graph.is_body => self.body_input_type(graph, end.node),
             NodeKind::Library(library) => match to_rust(&port.ty, self.catalog) {

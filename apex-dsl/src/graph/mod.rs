@@ -10,7 +10,7 @@ use crate::{
     catalog::Type,
     index::{IdVec, id},
     source::Span,
-    syntax::tree::PortKind,
+    syntax::tree::{Expr, PortKind},
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -167,8 +167,19 @@ pub struct Wire {
     pub active: bool,
     /// `true` if its ends carry different types, which has been reported.
     pub differs: bool,
+    /// `port(value)` at its end.
+    pub given: Option<Box<Given>>,
     /// The arrow.
     pub span: Span,
+}
+
+/// A value that a slot gets in place of each token of a connection.
+#[derive(Debug, Clone)]
+pub struct Given {
+    /// The value.
+    pub value: Value,
+    /// The value as written.
+    pub written: Expr,
 }
 
 /// A connection between two nodes.
@@ -182,6 +193,8 @@ pub struct Connection {
     pub active: bool,
     /// `true` if its ends carry different types, which has been reported.
     pub differs: bool,
+    /// The value that comes in place of its tokens: its end is a slot then.
+    pub given: Option<Box<Given>>,
     /// Boundaries of nested graphs that it crosses, from its origin to its destination.
     pub crossings: Vec<Crossing>,
     /// `true` if it passes a slot or an event of a nested graph. It is asynchronous then, whatever its ends are.
@@ -287,7 +300,8 @@ impl Graph {
     pub fn connection_text(&self, connection: ConnectionId) -> String {
         let c = &self.connections[connection];
         let arrow = if c.active { "=>" } else { "->" };
-        format!("{} {arrow} {}", self.end_name(c.from), self.end_name(c.to))
+        let given = c.given.as_ref().map_or_else(String::new, |given| format!("({})", given.value.text()));
+        format!("{} {arrow} {}{given}", self.end_name(c.from), self.end_name(c.to))
     }
 
     /// The scopes of all nested graphs.

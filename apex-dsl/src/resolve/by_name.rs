@@ -117,7 +117,7 @@ impl Builder<'_> {
             if !named.contains(&target.place) && !self.suppressed.contains(&target.place) {
                 let (sender, taker) = (from.name(source), to.name(target));
                 let sender = Chosen { text: &sender, span: from.span, port: source };
-                self.wire(sender, Chosen { text: &taker, span: to.span, port: target }, arrow, true);
+                self.wire(sender, Chosen { text: &taker, span: to.span, port: target }, arrow, true, None);
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use super::{
     by_name::All,
+    given,
     instance::{Body, Builder},
     link::{Link, Side},
     mismatch,
@@ -10,17 +11,17 @@ use super::{
 };
 use crate::{
     catalog::{Match, Type},
-    graph::{self, NodeKind, Port, PortId, Wire, WireEnd},
+    graph::{self, Given, NodeKind, Port, PortId, Wire, WireEnd},
     report::Diagnostic,
     source::Span,
-    syntax::tree::{Arrow, Endpoint, GraphItem, Ident, PortKind, PortRef, PortsOf},
+    syntax::tree::{Arrow, Endpoint, Expr, GraphItem, Ident, PortKind, PortRef, PortsOf},
 };
 use std::{collections::BTreeSet, rc::Rc};
 
 /// Adds every `node.port` of an endpoint to `names`.
 pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str)>) {
     match end {
-        Endpoint::Port(reference) => {
+        Endpoint::Port(reference, _) => {
             if let [node, port] = reference.parts.as_slice() {
                 names.insert((&node.text, &port.text));
             }
@@ -39,6 +40,8 @@ pub struct End {
     pub text: String,
     /// The place of the name.
     pub span: Span,
+    /// The value that is given to the port.
+    pub given: Option<Given>,
 }
 
 /// A port that is chosen for an end of a connection.
@@ -166,9 +169,15 @@ impl Builder<'_> {
     ) -> Vec<Option<Meaning>> {
         match end {
             Endpoint::List(ends, _) => ends.iter().flat_map(|end| self.endpoint(body, table, end, in_place)).collect(),
-            Endpoint::Port(reference) => vec![self.reference(body, table, reference).map(Meaning::One)],
+            Endpoint::Port(reference, given) => {
+                vec![self.port(body, table, reference, given.as_deref()).map(Meaning::One)]
+            }
             Endpoint::All(all) => vec![self.all_ports(body, table, all).map(Rc::new).map(Meaning::All)],
             Endpoint::Instance(instance) => {
+                if let Some((port, given)) = instance.as_given().filter(|(port, _)| table.get(&port.text).is_some()) {
+                    let reference = PortRef { parts: vec![port.clone()], span: port.span };
+                    return vec![self.port(body, table, &reference, Some(given)).map(Meaning::One)];
+                }
                 *in_place += 1;
                 let word = instance.path.segments.last().map_or("node", |s| s.text.as_str());
                 let mut text = format!("{}_{in_place}", snake(word));
@@ -177,15 +186,23 @@ impl Builder<'_> {
                 }
                 let name = Ident { text, span: instance.path.span };
                 let symbol = self.instance(body, &name, instance, "");
-                let end = |symbol| End { symbol, text: instance.path.text(), span: instance.path.span };
+                let end = |symbol| End { symbol, text: instance.path.text(), span: instance.path.span, given: None };
                 vec![symbol.map(end).map(Meaning::One)]
             }
         }
     }
 
+    /// A port, with the value that is given to it.
+    fn port(&mut self, body: &Body<'_>, table: &Table, reference: &PortRef, given: Option<&Expr>) -> Option<End> {
+        let end = self.reference(body, table, reference);
+        let Some(given) = given else { return end };
+        let given = self.given(body, given)?;
+        Some(End { given: Some(given), ..end? })
+    }
+
     fn reference(&mut self, body: &Body<'_>, table: &Table, reference: &PortRef) -> Option<End> {
         let first = reference.parts.first()?;
-        let end = |symbol| End { symbol, text: reference.text(), span: reference.span };
+        let end = |symbol| End { symbol, text: reference.text(), span: reference.span, given: None };
         let Some((symbol, _)) = table.get(&first.text) else {
             if let (Some(kind), [_]) = (own_node(&first.text), reference.parts.as_slice()) {
                 let node = self.own_node(body, first, kind)?;
@@ -259,19 +276,29 @@ impl Builder<'_> {
         if self.look(ends(&from.symbol) + ends(&to.symbol), arrow.span).is_none() {
             return;
         }
-        if self.starts_active(body, from, to, arrow) {
+        if let Some(given) = &from.given {
+            self.refuse_given(given, &from.text);
+            return self.suppress(&to.symbol);
+        }
+        if to.given.is_none() && self.starts_active(body, from, to, arrow) {
             return;
         }
         let sources = meant(from, true);
         let targets = meant(to, false);
         // A port that is named decides which port is meant at the other end; so do types.
-        let Some((source, target)) = self.choose(sources, targets, open) else { return self.suppress(&to.symbol) };
-        self.wire(from.chosen(&source), to.chosen(&target), arrow, false);
+        let Some((source, target)) = self.choose(sources, targets, open, to.given.is_some()) else {
+            return self.suppress(&to.symbol);
+        };
+        if let Some(given) = to.given.as_ref().filter(|_| target.kind != PortKind::Slot) {
+            self.diagnostics.push_once(given::no_slot(given, &to.text));
+            return self.suppress(&to.symbol);
+        }
+        self.wire(from.chosen(&source), to.chosen(&target), arrow, false, to.given.clone());
     }
 
     /// Connects two ports and reports different types. `by_name` is `true` if `.*` stands at the ends.
-    pub fn wire(&mut self, from: Chosen<'_>, to: Chosen<'_>, arrow: &Arrow, by_name: bool) {
-        let differs = from.port.ty.compare(&to.port.ty) == Match::Different;
+    pub fn wire(&mut self, from: Chosen<'_>, to: Chosen<'_>, arrow: &Arrow, by_name: bool, given: Option<Given>) {
+        let differs = given.is_none() && from.port.ty.compare(&to.port.ty) == Match::Different;
         if differs {
             let error = self.mismatch(from, to, arrow);
             let name = &to.port.name;
@@ -285,7 +312,8 @@ impl Builder<'_> {
         }
         let (active, span) = (arrow.active, arrow.span);
         let end = self.free_input(to.port.place);
-        self.wires.push(Wire { from: from.port.place, to: end, active, differs, span });
+        let given = given.map(Box::new);
+        self.wires.push(Wire { from: from.port.place, to: end, active, differs, given, span });
         let is_outermost = self.open.len() == 1;
         let Some(links) = self.links.as_mut().filter(|_| is_outermost) else { return };
         let side = |Chosen { text, port, .. }: Chosen<'_>| {
@@ -332,8 +360,9 @@ impl Builder<'_> {
         from: EndpointCandidates,
         to: EndpointCandidates,
         open: [bool; 2],
+        is_given: bool,
     ) -> Option<(Candidate, Candidate)> {
-        let fits = |a: &Candidate, b: &Candidate| a.ty.compare(&b.ty) != Match::Different;
+        let fits = |a: &Candidate, b: &Candidate| is_given || a.ty.compare(&b.ty) != Match::Different;
         let narrow = |side: &EndpointCandidates, other: &EndpointCandidates| -> Vec<Candidate> {
             match side.candidates.as_slice() {
                 [one] => vec![one.clone()],
@@ -453,7 +482,7 @@ impl Builder<'_> {
 /// Returns `true` if the ends are names, to which that of a port can be added.
 fn is_named(end: &Endpoint) -> bool {
     match end {
-        Endpoint::Port(_) => true,
+        Endpoint::Port(..) => true,
         Endpoint::List(ends, _) => ends.iter().all(is_named),
         Endpoint::All(_) | Endpoint::Instance(_) => false,
     }
@@ -469,7 +498,7 @@ pub fn without_ports(port: &Ident, span: Span) -> Diagnostic {
 fn is_fed(graph: &GraphItem, name: &str) -> bool {
     fn names(end: &Endpoint, name: &str) -> bool {
         match end {
-            Endpoint::Port(reference) => reference.parts.first().is_some_and(|first| first.text == name),
+            Endpoint::Port(reference, _) => reference.parts.first().is_some_and(|first| first.text == name),
             Endpoint::All(all) => matches!(&all.of, PortsOf::Node(node) if node.text == name),
             Endpoint::List(ends, _) => ends.iter().any(|end| names(end, name)),
             Endpoint::Instance(_) => false,
@@ -482,7 +511,7 @@ fn is_fed(graph: &GraphItem, name: &str) -> bool {
 /// The ports that an endpoint may stand for, among those that send or those that take. Parameters count only if they
 /// are named.
 fn meant(end: &End, sends: bool) -> EndpointCandidates {
-    let End { symbol, text: name, span } = end;
+    let End { symbol, text: name, span, .. } = end;
     let explicit = name.contains('.');
     let candidates = match symbol {
         Symbol::Own(candidate) if candidate.kind.sends() == sends => vec![candidate.clone()],

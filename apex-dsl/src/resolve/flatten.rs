@@ -26,9 +26,9 @@ pub fn wires(builder: &mut Builder<'_>) -> (IdVec<ConnectionId, Connection>, BTr
         let WireEnd::Port(to) = wire.to else { continue };
         // Follow the wire upstream to the ports where it begins. Each pin is visited once, because pins may form a
         // cycle.
-        let mut ends = vec![(wire.from, wire.active, wire.differs, false, vec![])];
+        let mut ends = vec![(wire.from, wire.active, wire.differs, &wire.given, false, vec![])];
         let mut visited = BTreeSet::new();
-        while let Some((place, active, differs, relayed, crossings)) = ends.pop() {
+        while let Some((place, active, differs, given, relayed, crossings)) = ends.pop() {
             match place {
                 WireEnd::Port(from) => {
                     // Several ways from port to port are one connection, but each way to a slot delivers a token.
@@ -36,8 +36,8 @@ pub fn wires(builder: &mut Builder<'_>) -> (IdVec<ConnectionId, Connection>, BTr
                     if seen.insert((from, to)) || to_slot {
                         // The crossings were collected against the direction of the tokens.
                         let crossings = crossings.into_iter().rev().collect();
-                        let span = wire.span;
-                        connections.push(Connection { from, to, active, differs, crossings, relayed, span });
+                        let (given, span) = (given.clone(), wire.span);
+                        connections.push(Connection { from, to, active, differs, given, crossings, relayed, span });
                     }
                 }
                 WireEnd::Pin(pin) if visited.insert(place) => {
@@ -50,7 +50,9 @@ pub fn wires(builder: &mut Builder<'_>) -> (IdVec<ConnectionId, Connection>, BTr
                         let wire = &wires[up];
                         // One `->` on the way suffices to stop activity.
                         let (active, differs) = (active && wire.active, differs || wire.differs);
-                        ends.push((wire.from, active, differs, relayed, crossings.clone()));
+                        // A value hides what came before it.
+                        let given = if given.is_some() { given } else { &wire.given };
+                        ends.push((wire.from, active, differs, given, relayed, crossings.clone()));
                     }
                 }
                 WireEnd::Pin(_) => {}
@@ -90,7 +92,8 @@ fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
         // In front of the pin: each wire to the pin has a relay of its own, as each of them delivers tokens.
         if let Some(pin) = is_barred(to).filter(|_| comes.contains(&from)) {
             let Some(relay) = add_relay(builder, pin, false) else { return };
-            wires.push(Wire { from: WireEnd::Port(PortId { node: relay, port: 1 }), ..wires[index] });
+            let from = WireEnd::Port(PortId { node: relay, port: 1 });
+            wires.push(Wire { from, given: None, ..wires[index].clone() });
             wires[index].to = WireEnd::Port(PortId { node: relay, port: 0 });
         }
         // Behind the pin: one relay serves all wires, as the pin sends each token only once.
@@ -99,7 +102,8 @@ fn add_relays(builder: &mut Builder<'_>, wires: &mut Vec<Wire>) {
                 Some(relay) => *relay,
                 None => {
                     let Some(relay) = add_relay(builder, pin, true) else { return };
-                    wires.push(Wire { to: WireEnd::Port(PortId { node: relay, port: 0 }), ..wires[index] });
+                    let to = WireEnd::Port(PortId { node: relay, port: 0 });
+                    wires.push(Wire { to, given: None, ..wires[index].clone() });
                     *behind.entry(pin).or_insert(relay)
                 }
             };
@@ -179,6 +183,10 @@ fn check_single(builder: &mut Builder<'_>, wires: &[Wire]) {
     for (i, wire) in wires.iter().enumerate() {
         if builder.diagnostics.is_full() {
             return;
+        }
+        // A slot may get several values, one after the other.
+        if wire.given.is_some() {
+            continue;
         }
         if let Some(&before) = pairs.get(&(wire.from, wire.to)) {
             let error = Diagnostic::error(

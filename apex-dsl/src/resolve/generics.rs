@@ -1,6 +1,6 @@
 //! Inference of type arguments from connections.
 
-use super::value::Wanted;
+use super::{given::own_type, value::Wanted};
 use crate::{
     catalog::{Catalog, Signature, Type},
     graph::{ConnectionId, Graph, Library, NodeId, NodeKind, Port, PortId, TypeArg},
@@ -106,7 +106,11 @@ fn settle_node(
             continue;
         }
         let found = touching.iter().map(|c| &graph.connections[*c]).find_map(|c| {
-            if c.to.node == node {
+            if let Some(given) = &c.given {
+                let own = own_type(&given.value).filter(|_| c.to.node == node)?;
+                let ty = graph.port(c.to).ty.without_unit().bind(name, &own);
+                ty.filter(|ty| !ty.is_open()).map(TypeArg::Known)
+            } else if c.to.node == node {
                 argument_from(graph, name, c.to, c.from)
             } else if c.from.node == node && !only_from_inputs {
                 argument_from(graph, name, c.from, c.to).filter(|arg| matches!(arg, TypeArg::Known(_)))

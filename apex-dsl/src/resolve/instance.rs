@@ -201,6 +201,7 @@ impl<'a> Builder<'a> {
             record: None,
         };
         generics::infer(&mut graph, self.catalog, self.diagnostics);
+        super::given::fit(&mut graph, self.diagnostics);
         super::lists::resolve(&mut graph, self.diagnostics);
         super::wrap::fit_delays(&mut graph, &self.delays, self.diagnostics);
         // After a syntax error, the nodes that are to be recorded may be missing.

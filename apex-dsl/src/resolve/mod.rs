@@ -8,6 +8,7 @@ pub mod condition;
 mod connect;
 mod flatten;
 mod generics;
+mod given;
 mod instance;
 mod link;
 mod lists;

@@ -70,7 +70,7 @@ impl Builder<'_> {
         let start = self.own_node(body, &start, NodeKind::Start)?;
         let from = WireEnd::Port(PortId { node: start, port: 0 });
         let to = WireEnd::Port(PortId { node, port });
-        self.wires.push(Wire { from, to, active: false, differs: false, span });
+        self.wires.push(Wire { from, to, active: false, differs: false, given: None, span });
         Some(())
     }
 

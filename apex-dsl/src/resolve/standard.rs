@@ -103,7 +103,7 @@ impl Builder<'_> {
             // A node that fails may pass its activity on, as may `cancel`; one that is enabled or disabled has no use
             // for any.
             let active = kind == PortKind::Event || interrupt.is_some();
-            self.wires.push(Wire { from, to, active, differs: false, span });
+            self.wires.push(Wire { from, to, active, differs: false, given: None, span });
         }
         place
     }

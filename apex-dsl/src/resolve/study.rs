@@ -14,7 +14,7 @@ use crate::{
     script::{Goal, Study, Varied},
     source::Span,
     syntax::tree::{
-        Expr, ExprKind, GoalItem, GraphItem, Ident, Instance, ModifierKind, NodeBody, PortRef, RangeExpr, StudyItem,
+        Endpoint, Expr, ExprKind, GoalItem, GraphItem, Ident, Instance, ModifierKind, NodeBody, PortRef, RangeExpr, StudyItem,
         TestItem,
     },
     units::{self, Unit},
@@ -391,7 +391,11 @@ impl Users<'_> {
             self.instance(instance, None, param);
         }
         let others = item.params.iter().filter(|other| other.name.text != param).filter_map(|p| p.default.as_ref());
-        let fixed = others.chain(item.threads.iter().flat_map(|thread| thread.settings.iter().map(|(_, value)| value)));
+        let given = item.ends().into_iter().filter_map(|end| match end {
+            Endpoint::Port(_, given) => given.as_deref(),
+            _ => None,
+        });
+        let fixed = others.chain(given).chain(item.threads.iter().flat_map(|thread| thread.settings.iter().map(|(_, value)| value)));
         fixed.filter(|expr| names(expr, param)).for_each(|expr| self.fixed = Some(expr.span));
     }
 

@@ -336,6 +336,7 @@ impl Writer<'_> {
             to,
             active: false,
             differs: false,
+            given: None,
             crossings,
             relayed: false,
             span,

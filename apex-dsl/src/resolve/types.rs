@@ -89,7 +89,7 @@ impl Checker<'_> {
         match end {
             Endpoint::Instance(instance) => self.instance(instance),
             Endpoint::List(ends, _) => ends.iter().for_each(|end| self.end(end)),
-            Endpoint::Port(_) | Endpoint::All(_) => {}
+            Endpoint::Port(..) | Endpoint::All(_) => {}
         }
     }
 

@@ -64,7 +64,7 @@ impl Builder<'_> {
                 let (library, outside) =
                     (WireEnd::Port(PortId { node: wrapped, port }), WireEnd::Port(PortId { node, port: 0 }));
                 let (from, to) = if boundary == PortKind::Input { (outside, library) } else { (library, outside) };
-                builder.wires.push(Wire { from, to, active: false, differs: false, span });
+                builder.wires.push(Wire { from, to, active: false, differs: false, given: None, span });
             }
             let (connections, open_pins) = flatten::wires(&mut builder);
             let mut graph = Graph {
@@ -195,6 +195,7 @@ impl Builder<'_> {
                 to: WireEnd::Port(PortId { node, port: 0 }),
                 active: false,
                 differs: false,
+                given: None,
                 span,
             });
             out.place = WireEnd::Port(PortId { node, port: 1 });

@@ -98,6 +98,7 @@ pub enum Rule {
     r#recorded,
     r#chain_stmt,
     r#endpoint,
+    r#given,
     r#list,
     r#all_ports,
     r#own_side,
@@ -266,6 +267,7 @@ impl Rule {
             Rule::r#recorded,
             Rule::r#chain_stmt,
             Rule::r#endpoint,
+            Rule::r#given,
             Rule::r#list,
             Rule::r#all_ports,
             Rule::r#own_side,
@@ -3471,7 +3473,39 @@ impl ::pest::Parser<Rule> for Grammar {
                                 self::r#list(state)
                                     .or_else(|state| { self::r#instance(state) })
                                     .or_else(|state| { self::r#all_ports(state) })
-                                    .or_else(|state| { self::r#port_ref(state) })
+                                    .or_else(|state| {
+                                        state
+                                            .sequence(|state| {
+                                                self::r#port_ref(state)
+                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                    .and_then(|state| {
+                                                        state.optional(|state| { self::r#given(state) })
+                                                    })
+                                            })
+                                    })
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#given(
+                    state: ::alloc::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::alloc::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#given,
+                            |state| {
+                                state
+                                    .sequence(|state| {
+                                        state
+                                            .match_string("(")
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { self::r#expr(state) })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { self::r#rparen(state) })
+                                    })
                             },
                         )
                 }
@@ -6533,6 +6567,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#recorded => rules::r#recorded(state),
                     Rule::r#chain_stmt => rules::r#chain_stmt(state),
                     Rule::r#endpoint => rules::r#endpoint(state),
+                    Rule::r#given => rules::r#given(state),
                     Rule::r#list => rules::r#list(state),
                     Rule::r#all_ports => rules::r#all_ports(state),
                     Rule::r#own_side => rules::r#own_side(state),

@@ -295,13 +295,25 @@ impl Modifier {
     }
 }
 
+impl Instance {
+    /// The parts of `port(value)`, as which an instance of nothing but a name and a value can be meant.
+    pub fn as_given(&self) -> Option<(&Ident, &Expr)> {
+        match (self.path.segments.as_slice(), self.args.as_slice()) {
+            ([port], [Arg { name: None, value }]) if self.types.is_empty() && self.modifiers.is_empty() => {
+                Some((port, value))
+            }
+            _ => None,
+        }
+    }
+}
+
 impl GraphItem {
     /// All ends of its connections. Lists are resolved into their elements.
     pub fn ends(&self) -> Vec<&Endpoint> {
         fn add<'a>(end: &'a Endpoint, found: &mut Vec<&'a Endpoint>) {
             match end {
                 Endpoint::List(ends, _) => ends.iter().for_each(|end| add(end, found)),
-                Endpoint::Port(_) | Endpoint::All(_) | Endpoint::Instance(_) => found.push(end),
+                Endpoint::Port(..) | Endpoint::All(_) | Endpoint::Instance(_) => found.push(end),
             }
         }
         let mut found = vec![];
@@ -312,7 +324,7 @@ impl GraphItem {
     /// All ports and nodes that its connections and claims refer to.
     pub fn references(&self) -> Vec<&PortRef> {
         let of_chains = self.ends().into_iter().filter_map(|end| match end {
-            Endpoint::Port(reference) => Some(reference),
+            Endpoint::Port(reference, _) => Some(reference),
             _ => None,
         });
         of_chains.chain(self.claims.iter().flat_map(|claim| &claim.of)).collect()
@@ -410,8 +422,8 @@ pub struct Arrow {
 /// One end of a connection.
 #[derive(Debug, Clone)]
 pub enum Endpoint {
-    /// `node`, `node.port` or the name of a port of the graph.
-    Port(PortRef),
+    /// `node`, `node.port` or the name of a port of the graph; and the value in `node.port(value)`.
+    Port(PortRef, Option<Box<Expr>>),
     /// `in.*`, `out.*`, `node.*`
     All(AllPorts),
     /// A node written in place.
@@ -422,9 +434,9 @@ pub enum Endpoint {
 
 impl Endpoint {
     /// The whole endpoint.
-    pub const fn span(&self) -> Span {
+    pub fn span(&self) -> Span {
         match self {
-            Self::Port(reference) => reference.span,
+            Self::Port(reference, given) => given.as_ref().map_or(reference.span, |value| reference.span.to(value.span)),
             Self::All(all) => all.span,
             Self::Instance(instance) => instance.span,
             Self::List(_, span) => *span,

@@ -204,7 +204,8 @@ impl Splitter<'_> {
         self.ends.insert(way, giver);
         let (Some(sender), Some(from_end)) = (sender, self.place(first.from)) else { return giver };
         let draft = &mut self.drafts[sender];
-        let mut connection = Connection { from: from_end, crossings: leaving, active, ..first.clone() };
+        // A value is put in where the token leaves the cell.
+        let mut connection = Connection { from: from_end, crossings: leaving, active, given: None, ..first.clone() };
         if keeps_missing && !connection.crossings.is_empty() {
             // The outputs of a nested graph are sent together: a relay waits for that, and then fills the cell.
             connection.from = relay(draft, connection.clone(), first.from, token);

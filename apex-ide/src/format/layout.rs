@@ -123,7 +123,7 @@ impl<'a, 't> Layout<'a, 't> {
         use Rule::*;
         let tight = |kid: &Child| matches!(rule(kid), Some(range_op)) || matches!(self.word(kid), Some("." | "::"));
         let holds = matches!(rule(left), Some(prefix)) || matches!(self.word(left), Some("(" | "["));
-        let hangs = matches!(rule(right), Some(args | params | type_args | generics | unit_tag))
+        let hangs = matches!(rule(right), Some(args | given | params | type_args | generics | unit_tag))
             || matches!(self.word(right), Some("," | ";" | ":" | "(" | ")" | "]"));
         !(tight(left) || tight(right) || holds || hangs)
     }

@@ -331,12 +331,17 @@ impl<'a> Builder<'a> {
 
     fn endpoint(&mut self, pair: Pair<'_, Rule>) -> Option<Endpoint> {
         let span = self.span(&pair);
-        let inner = pair.into_inner().next()?;
+        let mut parts = pair.into_inner();
+        let inner = parts.next()?;
         Some(match inner.as_rule() {
             Rule::list => Endpoint::List(inner.into_inner().filter_map(|p| self.endpoint(p)).collect(), span),
             Rule::instance => Endpoint::Instance(Box::new(self.instance(inner))),
             Rule::all_ports => Endpoint::All(AllPorts { of: self.ports_of(inner.into_inner().next()?), span }),
-            _ => Endpoint::Port(self.port_ref(inner)),
+            _ => {
+                let port = self.port_ref(inner);
+                let value = parts.next().and_then(|given| given.into_inner().find(|p| p.as_rule() == Rule::expr));
+                Endpoint::Port(port, value.map(|value| Box::new(self.expr(value))))
+            }
         })
     }
 
