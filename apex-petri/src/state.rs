@@ -11,7 +11,7 @@ use super::{
 };
 use apex_dsl::{
     catalog::Catalog,
-    graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId, Standard, Subject},
+    graph::{Connection, ConnectionId, Flow, Graph, NodeId, NodeKind, PortId, Standard, Subject},
     index::IdVec,
     syntax::tree::PortKind,
 };
@@ -27,6 +27,13 @@ pub struct Origin {
     pub end: PortId,
     /// Number of previous calls of `process` and slots of that node.
     pub call: usize,
+}
+
+impl Origin {
+    /// Origin of the values that the text gives to slots.
+    pub fn given(graph: &Graph) -> Self {
+        Self { end: PortId { node: NodeId::from(graph.nodes.len()), port: 0 }, call: 0 }
+    }
 }
 
 /// A token. Places that carry no messages hold the default.
@@ -513,10 +520,14 @@ impl<'a> State<'a> {
     }
 
     fn handle(&mut self, connection: ConnectionId, tokens: &BTreeMap<PlaceId, Token>) -> BTreeMap<PlaceId, Token> {
-        let to = self.graph.connections[connection].to;
+        let Connection { to, given, .. } = &self.graph.connections[connection];
+        let to = *to;
         // A connection to a slot consists of a single leg.
         let link = self.from.values().flatten().find(|l| l.connection == connection);
-        let token = link.and_then(|l| tokens.get(&l.token)).copied().unwrap_or_default();
+        let mut token = link.and_then(|l| tokens.get(&l.token)).copied().unwrap_or_default();
+        if given.is_some() {
+            token.origin = Some(Origin::given(self.graph));
+        }
         let tokens = BTreeMap::from([(to.port, token)]);
         match self.graph.nodes[to.node].kind {
             NodeKind::Reset => {

@@ -90,6 +90,8 @@ pub struct Link {
     pub active: bool,
     /// `true` if it passes slots and events of nested graphs instead of inputs and outputs.
     pub relayed: bool,
+    /// `true` if its slot gets a value in place of the tokens.
+    pub given: bool,
 }
 
 /// Something whose activity can be cancelled.
@@ -168,6 +170,9 @@ impl Case {
             });
             if self.links[l].active {
                 add(&|c| c.links[l].active = false);
+            }
+            if self.links[l].given {
+                add(&|c| c.links[l].given = false);
             }
             if self.links[l].relayed {
                 add(&|c| c.links[l].relayed = false);

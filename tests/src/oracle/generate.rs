@@ -64,8 +64,21 @@ pub fn generate(seed: u64, asynchronous: bool) -> Case {
             cancel(&mut dice, &mut case, &flavour);
         }
     }
+    if (seed / 3).is_multiple_of(4) {
+        give(&mut case);
+    }
     case.clean();
     case
+}
+
+/// Gives some slots a value in place of tokens.
+fn give(case: &mut Case) {
+    let mut dice = Dice(case.seed.wrapping_mul(0x2545_f491_4f6c_dd1d) | 1);
+    let Case { nodes, links, .. } = case;
+    for link in links {
+        let takes = |node: &Instance| node.ty.name != "ScKick" && node.ty.slots.contains(&link.to.1);
+        link.given = nodes.iter().any(|node| node.id == link.to.0 && takes(node)) && dice.one_in(3);
+    }
 }
 
 /// Distributes a graph to two to four threads. Neighbouring nodes of a nested graph mostly run on the same thread.
@@ -142,11 +155,12 @@ fn time_out(dice: &mut Dice, case: &mut Case, id: usize) {
         to: (told.id, port),
         active: !dice.one_in(3),
         relayed: dice.one_in(4),
+        given: false,
     });
     let to = dice.of(&case.nodes);
     if let Some(slot) = to.ty.slots.first().filter(|_| to.ty.name != "ScKick") {
         let (active, relayed) = (dice.one_in(2), dice.one_in(4));
-        case.links.push(Link { from: (told.id, "e"), to: (to.id, slot), active, relayed });
+        case.links.push(Link { from: (told.id, "e"), to: (to.id, slot), active, relayed, given: false });
     }
     case.nodes.push(told);
 }
@@ -224,7 +238,7 @@ fn link(dice: &mut Dice, case: &mut Case, from: (usize, &'static str), to: (usiz
     let relayed = flavour.relayed && dice.one_in(if is_synchronous { 8 } else { 2 });
     // Activity cannot pass delays yet.
     let active = flavour.activity && dice.one_in(3) && case.node(from.0).is_none_or(|n| n.delay == 0);
-    case.links.push(Link { from, to, active, relayed });
+    case.links.push(Link { from, to, active, relayed, given: false });
 }
 
 /// Connects each input to an earlier output, to a later one with a delay, or to an event.

@@ -109,9 +109,10 @@ impl Library for Scripts {
         Some(Box::new(Scripted { signature: signature.clone(), id, parameters, calls: 0, records }))
     }
 
-    fn token(&self, _value: Option<&graph::Value>, _ty: &Type) -> Option<Value> {
-        // The initial token of all delays.
-        Some(Rc::new(7_i64))
+    fn token(&self, value: Option<&graph::Value>, _ty: &Type) -> Option<Value> {
+        // Without a value, it is the initial token of a delay.
+        let number = value.map_or(Some(7), super::judge::integer)?;
+        Some(Rc::new(number))
     }
 
     fn items(&self, list: &Value) -> Vec<Value> {

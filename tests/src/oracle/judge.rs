@@ -169,7 +169,8 @@ pub fn script(signature: &Signature, library: &Library) -> Option<(i64, script::
     Some((id, list.try_into().ok()?))
 }
 
-fn integer(value: &Value) -> Option<i64> {
+/// The number that a constant is.
+pub fn integer(value: &Value) -> Option<i64> {
     match value {
         Value::Number(number) => number.integer().and_then(|i| i64::try_from(i).ok()).or(Some(number.value as i64)),
         _ => None,
@@ -261,9 +262,9 @@ fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], (late, from)
     Ok(())
 }
 
-/// Origin of a value. A value that no scripted node made gets a port that does not exist.
+/// Origin of a value. One that no scripted node made is one of the text.
 fn origin(graph: &Graph, by_id: &BTreeMap<i64, NodeId>, value: i64) -> Origin {
-    let nowhere = Origin { end: PortId { node: NodeId::from(graph.nodes.len()), port: 0 }, call: 0 };
+    let nowhere = Origin::given(graph);
     let Some((id, port, call)) = script::origin(value) else { return nowhere };
     let Some(node) = by_id.get(&id).copied() else { return nowhere };
     let Some(port) = graph.nodes[node].ports.iter().position(|p| p.name == port && p.kind.sends()) else {

@@ -1,6 +1,9 @@
 //! Writes a random graph as a source file.
 
-use super::case::{Cancel, Case, Instance, Link, TIMEOUT, Target, around};
+use super::{
+    case::{Cancel, Case, Instance, Link, TIMEOUT, Target, around},
+    script::GIVEN,
+};
 use std::{collections::BTreeMap, fmt::Write as _};
 
 impl Case {
@@ -199,7 +202,8 @@ impl Bodies<'_> {
             at = pin;
             body = group;
         }
-        self.line(body, format!("{at} {arrow} n{}.{};", link.to.0, link.to.1.trim_end_matches('?')));
+        let given = if link.given { format!("({GIVEN})") } else { String::new() };
+        self.line(body, format!("{at} {arrow} n{}.{}{given};", link.to.0, link.to.1.trim_end_matches('?')));
     }
 
     fn pin(&mut self, group: usize, name: &str, line: String) {

@@ -2,7 +2,7 @@
 
 use super::{
     judge::{Checked, Record, script_of},
-    script,
+    script::{self, GIVEN},
 };
 use crate::Dice;
 use apex_dsl::{
@@ -120,6 +120,9 @@ fn changes(state: &mut State<'_>, records: &mut Vec<Record>) {
 /// Value that a scripted node sends; 7 is the initial token of delays.
 fn value(graph: &Graph, token: Token) -> Option<i64> {
     let made = |end: PortId, call: usize| {
+        if end.node.index() >= graph.nodes.len() {
+            return GIVEN;
+        }
         let NodeKind::Library(library) = &graph.nodes[end.node].kind else { return 7 };
         let id = library.params.first();
         let id = match id {
