@@ -26,6 +26,7 @@ pages! {
     "essential-without-hook"
     "every-on-driven"
     "fsm-port"
+    "given-to-input"
     "ignored-failure"
     "internal-error"
     "missing-argument"

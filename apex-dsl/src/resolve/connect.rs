@@ -174,9 +174,17 @@ impl Builder<'_> {
             }
             Endpoint::All(all) => vec![self.all_ports(body, table, all).map(Rc::new).map(Meaning::All)],
             Endpoint::Instance(instance) => {
-                if let Some((port, given)) = instance.as_given().filter(|(port, _)| table.get(&port.text).is_some()) {
-                    let reference = PortRef { parts: vec![port.clone()], span: port.span };
-                    return vec![self.port(body, table, &reference, Some(given)).map(Meaning::One)];
+                if let [port] = instance.path.segments.as_slice()
+                    && table.get(&port.text).is_some()
+                {
+                    if let Some(given) = instance.as_given() {
+                        let reference = PortRef { parts: vec![port.clone()], span: port.span };
+                        return vec![self.port(body, table, &reference, Some(given)).map(Meaning::One)];
+                    }
+                    if self.constructor(&instance.path).is_err() {
+                        self.diagnostics.push(given::no_value(port, instance));
+                        return vec![None];
+                    }
                 }
                 *in_place += 1;
                 let word = instance.path.segments.last().map_or("node", |s| s.text.as_str());

@@ -8,7 +8,7 @@ use crate::{
     catalog::Type,
     graph::{ConnectionId, Given, Graph, PortId, Value},
     report::{Diagnostic, Diagnostics},
-    syntax::tree::{Expr, PortKind},
+    syntax::tree::{Expr, Ident, Instance, PortKind},
 };
 
 impl Builder<'_> {
@@ -48,6 +48,12 @@ fn fitted(graph: &Graph, to: PortId, given: &Given) -> Result<Value, Box<Diagnos
     let wanted =
         Wanted { name: &name, ty: &port.ty, unit: None, range: None, declared: format!("`{name}` takes `{}`", port.ty) };
     wanted.fit(given.value.clone(), &given.written)
+}
+
+/// The error at `port(…)` with anything but one value.
+pub fn no_value(port: &Ident, instance: &Instance) -> Diagnostic {
+    let message = format!("`{0}` is not a type of nodes, and a port gets one value: `{0}(value)`", port.text);
+    Diagnostic::error("unknown-node", instance.span, message)
 }
 
 /// The error at a value for an input.

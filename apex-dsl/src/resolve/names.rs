@@ -495,7 +495,9 @@ impl SourceSet {
     /// The paths of all nodes and graphs that source file `file` uses.
     fn paths(&self, file: usize) -> impl Iterator<Item = &PathExpr> {
         let tree = &self.files[file].1;
-        let of_instances = tree.graphs.iter().flat_map(|graph| graph.instances()).map(|instance| &instance.path);
+        let instances = tree.graphs.iter().flat_map(|graph| graph.instances());
+        // A name and a value may be a port.
+        let of_instances = instances.filter(|instance| instance.as_given().is_none()).map(|instance| &instance.path);
         let of_variants = tree.graphs.iter().filter_map(|graph| graph.base.as_ref());
         of_instances.chain(of_variants).chain(tree.tests.iter().map(|test| &test.graph))
     }

@@ -296,12 +296,10 @@ impl Modifier {
 }
 
 impl Instance {
-    /// The parts of `port(value)`, as which an instance of nothing but a name and a value can be meant.
-    pub fn as_given(&self) -> Option<(&Ident, &Expr)> {
+    /// The value in `port(value)`, which an instance is if its name is that of a port.
+    pub fn as_given(&self) -> Option<&Expr> {
         match (self.path.segments.as_slice(), self.args.as_slice()) {
-            ([port], [Arg { name: None, value }]) if self.types.is_empty() && self.modifiers.is_empty() => {
-                Some((port, value))
-            }
+            ([_], [Arg { name: None, value }]) if self.types.is_empty() && self.modifiers.is_empty() => Some(value),
             _ => None,
         }
     }
