@@ -86,8 +86,9 @@ module.exports = grammar({
     setting: ($) => seq(field('name', $.identifier), '=', field('value', $.expression)),
     connection: ($) => seq($._end, repeat1(seq($.arrow, $._end)), ';'),
     arrow: () => choice('->', '=>'),
-    _end: ($) => choice($.list, $.instance, $.all_ports, seq($.reference, optional($.given))),
-    given: ($) => seq('(', $.expression, ')'),
+    _end: ($) => choice($.list, $.instance, $.all_ports, $.reference, $.given),
+    // The name of a port of the graph itself looks as a node in place.
+    given: ($) => seq(field('of', $.identifier), '.', field('port', $.identifier), '(', $.expression, ')'),
     list: ($) => seq('[', list($._end), ']'),
     all_ports: ($) => seq(choice('in', 'out', $.identifier), '.', '*'),
     reference: ($) => seq($.identifier, repeat(seq('.', field('port', $.identifier)))),

@@ -28,6 +28,8 @@
 
 (reference (identifier) @variable)
 (reference port: (identifier) @property)
+(given of: (identifier) @variable)
+(given port: (identifier) @property)
 (all_ports (identifier) @variable)
 (all_ports ["in" "out"] @variable.builtin)
 (all_ports "*" @property)
