@@ -119,7 +119,7 @@ module.exports = grammar({
           seq('on', field('slot', $.identifier), optional(seq('if', field('guard', $.expression)))),
           seq('after', field('time', $.expression)),
         ),
-        optional(seq('=>', optional('resume'), field('target', $.identifier))),
+        optional(seq('=>', optional(choice('resume', 'repeat')), field('target', $.identifier))),
         optional($._actions),
         ';',
       ),

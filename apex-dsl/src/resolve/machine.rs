@@ -212,7 +212,7 @@ impl<'a> Opener<'a> {
             named.map_or(0, |named| leaves.iter().filter(|leaf| self.is_inside(**leaf, named)).count())
         };
         let weight = |transition: &Transition| match &transition.target {
-            Some(target) if transition.resumes.is_some() => inside(target).max(1),
+            Some(target) if transition.returns.is_some() => inside(target).max(1),
             _ => 1,
         };
         let of_state: Vec<usize> =
@@ -268,16 +268,16 @@ impl<'a> Opener<'a> {
         warnings
     }
 
-    /// The error about `resume` with a state that has no states inside.
+    /// The error about `resume` or `repeat` with a state that has no states inside.
     fn nothing_to_resume(&self, transition: &Transition) -> Option<Diagnostic> {
-        let (resume, target) = (transition.resumes?, transition.target.as_ref()?);
+        let (word, target) = (transition.returns?.span, transition.target.as_ref()?);
         let state = self.states.iter().find(|state| state.item.name.text == target.text)?;
         if !state.item.states.is_empty() {
             return None;
         }
-        let message = format!("`{}` has no states inside that could be resumed", target.text);
-        let word = Span { end: target.span.start, ..resume };
-        Some(Diagnostic::error("unknown-state", resume, message).fix("enter the state itself", word, ""))
+        let message = format!("`{}` has no states inside to return to", target.text);
+        let before = Span { end: target.span.start, ..word };
+        Some(Diagnostic::error("unknown-state", word, message).fix("enter the state itself", before, ""))
     }
 
     fn unknown_state(&self, target: &Ident) -> Diagnostic {
@@ -308,7 +308,7 @@ impl<'a> Opener<'a> {
         suggest(error, name, known.iter().copied())
     }
 
-    /// The transitions from a leaf, given by its number and its state. With `resume` there is one for each state that
+    /// The transitions from a leaf, given by its number and its state. With `resume` or `repeat` there is one for each state that
     /// may be remembered, the first one inside before the others.
     fn arms(
         &mut self,
@@ -326,21 +326,28 @@ impl<'a> Opener<'a> {
         };
         let first = leaves.iter().position(|leaf| *leaf == self.innermost(named));
         let inside: Vec<usize> = (0..leaves.len()).filter(|state| self.is_inside(leaves[*state], named)).collect();
-        if transition.resumes.is_none() || inside.is_empty() {
+        let Some(returns) = transition.returns.filter(|_| !inside.is_empty()) else {
             let (sends, begins) = self.moved(leaf, named, self.innermost(named), transition);
             return vec![Arm { state: number, guard, remembered: None, target: first, sends, begins }];
-        }
+        };
         let of = self.path(named);
         let memory = memories.iter().position(|memory| memory.of == of).unwrap_or_else(|| {
             memories.push(Memory { of, states: inside.clone() });
             memories.len() - 1
         });
         let arm = |state: usize| {
-            let (sends, begins) = self.moved(leaf, named, leaves[state], transition);
-            let remembered = Some((memory, state));
-            Arm { state: number, guard: guard.clone(), remembered, target: Some(state), sends, begins }
+            let entered = if returns.deep { leaves[state] } else { self.beginning(leaves[state], named) };
+            let (sends, begins) = self.moved(leaf, named, entered, transition);
+            let (remembered, target) = (Some((memory, state)), leaves.iter().position(|leaf| *leaf == entered));
+            Arm { state: number, guard: guard.clone(), remembered, target, sends, begins }
         };
         inside.into_iter().map(arm).collect()
+    }
+
+    /// The innermost state with which the state directly inside `outer` begins that contains `leaf`.
+    fn beginning(&self, leaf: usize, outer: usize) -> usize {
+        let direct = self.around(leaf).into_iter().take_while(|state| *state != outer).last();
+        self.innermost(direct.unwrap_or(leaf))
     }
 
     fn guard(&mut self, transition: &Transition) -> Option<Condition> {

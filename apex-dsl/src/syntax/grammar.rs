@@ -33,7 +33,7 @@ pub enum Rule {
     r#guard,
     r#if_kw,
     r#target,
-    r#resume_kw,
+    r#return_kw,
     r#actions,
     r#action,
     r#entry_exit,
@@ -202,7 +202,7 @@ impl Rule {
             Rule::r#guard,
             Rule::r#if_kw,
             Rule::r#target,
-            Rule::r#resume_kw,
+            Rule::r#return_kw,
             Rule::r#actions,
             Rule::r#action,
             Rule::r#entry_exit,
@@ -1259,7 +1259,7 @@ impl ::pest::Parser<Rule> for Grammar {
                                             .and_then(|state| {
                                                 state
                                                     .sequence(|state| {
-                                                        self::r#resume_kw(state)
+                                                        self::r#return_kw(state)
                                                             .and_then(|state| { super::hidden::skip(state) })
                                                             .and_then(|state| { self::r#ident(state) })
                                                     })
@@ -1271,14 +1271,14 @@ impl ::pest::Parser<Rule> for Grammar {
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
-                pub fn r#resume_kw(
+                pub fn r#return_kw(
                     state: ::alloc::boxed::Box<::pest::ParserState<'_, Rule>>,
                 ) -> ::pest::ParseResult<
                     ::alloc::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
                     state
                         .rule(
-                            Rule::r#resume_kw,
+                            Rule::r#return_kw,
                             |state| {
                                 state
                                     .atomic(
@@ -1288,6 +1288,7 @@ impl ::pest::Parser<Rule> for Grammar {
                                                 .sequence(|state| {
                                                     state
                                                         .match_string("resume")
+                                                        .or_else(|state| { state.match_string("repeat") })
                                                         .and_then(|state| {
                                                             state.lookahead(false, |state| { self::r#rest(state) })
                                                         })
@@ -6502,7 +6503,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#guard => rules::r#guard(state),
                     Rule::r#if_kw => rules::r#if_kw(state),
                     Rule::r#target => rules::r#target(state),
-                    Rule::r#resume_kw => rules::r#resume_kw(state),
+                    Rule::r#return_kw => rules::r#return_kw(state),
                     Rule::r#actions => rules::r#actions(state),
                     Rule::r#action => rules::r#action(state),
                     Rule::r#entry_exit => rules::r#entry_exit(state),

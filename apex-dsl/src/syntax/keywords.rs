@@ -42,7 +42,7 @@ const fn keyword(text: &'static str, position: KeywordPosition, docs: &'static s
 }
 
 /// All keywords. A keyword with several positions has several entries.
-pub const KEYWORDS: [Keyword; 67] = [
+pub const KEYWORDS: [Keyword; 68] = [
     keyword(
         "use",
         KeywordPosition::Item,
@@ -163,6 +163,7 @@ pub const KEYWORDS: [Keyword; 67] = [
     keyword("as", KeywordPosition::Inside, "Imports under another name."),
     keyword("if", KeywordPosition::Inside, "The transition is taken only if this condition holds."),
     keyword("resume", KeywordPosition::Inside, "Continues in the last of its innermost states: `=> resume work`."),
+    keyword("repeat", KeywordPosition::Inside, "Begins the last state inside again: `=> repeat work`."),
     keyword("by", KeywordPosition::Inside, "The latest time at which it is expected, counted from the start."),
     keyword(
         "within",

@@ -7,7 +7,7 @@ mod script;
 use crate::source::Span;
 
 pub use expr::{Expr, ExprKind, TypeExpr, TypeKind};
-pub use machine::{Action, Cause, FsmItem, StateItem, Transition};
+pub use machine::{Action, Cause, FsmItem, Return, StateItem, Transition};
 pub use script::{Condition, GoalItem, Limit, StudyItem, TestItem, TestStep};
 
 /// An identifier with its place.

@@ -13,7 +13,7 @@
 ["use" "as"] @keyword.import
 ["pub" "graph" "robot" "fsm" "test" "tune"] @keyword.type
 ["in" "out" "slot" "event" "node" "claim" "record" "thread" "state"] @keyword
-["on" "if" "entry" "exit" "resume"] @keyword
+["on" "if" "entry" "exit" "resume" "repeat"] @keyword
 ["replace" "feed" "wait" "expect" "never" "by" "within" "active" "recording"] @keyword
 ["vary" "minimise" "maximise" "at" "require" "seeds" "holdout"] @keyword
 ["every" "after" "timeout" "deadline" "each" "par" "delay" "pipelined" "skip" "essential" "restart"] @keyword.modifier

@@ -104,8 +104,8 @@ fn state(maker: &mut Maker, name: &str, states: &[String], slots: &[Port], event
         let target = if maker.dice.one_in(5) {
             String::new()
         } else {
-            let resume = if maker.dice.one_in(12) { "resume " } else { "" };
-            format!(" => {resume}{}", maker.dice.of(states))
+            let returns = if maker.dice.one_in(12) { *maker.dice.of(&["resume ", "repeat "]) } else { "" };
+            format!(" => {returns}{}", maker.dice.of(states))
         };
         let sent = sent(maker, slot, events);
         if !target.is_empty() || !sent.is_empty() {

@@ -55,7 +55,7 @@ impl Builder<'_> {
     }
 
     fn transition(&mut self, pair: Pair<'_, Rule>) -> Option<Transition> {
-        let (mut cause, mut guard, mut target, mut resumes, mut actions) = (None, None, None, None, vec![]);
+        let (mut cause, mut guard, mut target, mut returns, mut actions) = (None, None, None, None, vec![]);
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::ident => cause = Some(Cause::Slot(self.ident(&part))),
@@ -66,7 +66,9 @@ impl Builder<'_> {
                 Rule::target => {
                     for part in part.into_inner() {
                         match part.as_rule() {
-                            Rule::resume_kw => resumes = Some(self.span(&part)),
+                            Rule::return_kw => {
+                                returns = Some(Return { deep: part.as_str() == "resume", span: self.span(&part) });
+                            }
                             _ => target = Some(self.ident(&part)),
                         }
                     }
@@ -75,7 +77,7 @@ impl Builder<'_> {
                 _ => {}
             }
         }
-        Some(Transition { cause: cause?, guard, target, resumes, actions })
+        Some(Transition { cause: cause?, guard, target, returns, actions })
     }
 
     fn actions(&mut self, pair: Pair<'_, Rule>) -> Vec<Action> {

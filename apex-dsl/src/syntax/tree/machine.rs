@@ -46,8 +46,8 @@ pub struct Transition {
     pub guard: Option<Expr>,
     /// The new state; `None` if the state remains the same.
     pub target: Option<Ident>,
-    /// `resume`: of the states inside the new one, that which it was in last.
-    pub resumes: Option<Span>,
+    /// Of the states inside the new one, that which it was in last is entered.
+    pub returns: Option<Return>,
     /// Events that are triggered.
     pub actions: Vec<Action>,
 }
@@ -78,4 +78,14 @@ pub struct Action {
     pub event: Ident,
     /// The token; without it the token of the slot.
     pub value: Option<Expr>,
+}
+
+/// A return to what a state was in when it was left.
+#[derive(Debug, Clone, Copy)]
+pub struct Return {
+    /// `true` for `resume`: to the last of its innermost states. `false` for `repeat`: to the state directly inside it,
+    /// from its beginning.
+    pub deep: bool,
+    /// The word.
+    pub span: Span,
 }
