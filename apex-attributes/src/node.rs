@@ -29,7 +29,9 @@ fn function(mut item: ItemFn) -> syn::Result<TokenStream> {
     let callable = signature::function(&item)?;
     ask_for_text(&item.sig, &mut item.block);
     remove_marks(&mut item.sig, &["param", signature::FAILURE, signature::UNIT]);
-    item.attrs.retain(|a| ![signature::UNIT, signature::COMPUTED].iter().any(|mark| a.path().is_ident(mark)));
+    item.attrs.retain(|a| {
+        ![signature::UNIT, signature::COMPUTED, signature::KEEPS_FRAME].iter().any(|mark| a.path().is_ident(mark))
+    });
     let (vis, name, generics) = (&item.vis, &item.sig.ident, &signature::generics(&item, &callable));
     let (impl_generics, type_args, bounds) = generics.split_for_impl();
     let phantom: Vec<&Ident> = generics.type_params().map(|p| &p.ident).collect();
@@ -136,7 +138,7 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     for field in &mut item.fields {
         field.attrs.retain(|a| !a.path().is_ident("param"));
     }
-    let marks = [signature::DEACTIVATES, signature::COMPUTED];
+    let marks = [signature::DEACTIVATES, signature::COMPUTED, signature::KEEPS_FRAME];
     item.attrs.retain(|a| !marks.iter().any(|mark| a.path().is_ident(mark)));
     Ok(quote! {
         #item

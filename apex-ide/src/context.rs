@@ -515,7 +515,9 @@ fn in_machine(written: &[Token<'_>], in_state: bool) -> Context {
         ("on", "on") => Context::MachineSlot,
         ("on" | "after", "=>") => Context::State,
         ("after", "after") => Context::Expression,
-        ("on" | "after", "resume" | "repeat") if written.iter().rev().nth(1).is_some_and(|t| t.text == "=>") => Context::State,
+        ("on" | "after", "resume" | "repeat") if written.iter().rev().nth(1).is_some_and(|t| t.text == "=>") => {
+            Context::State
+        }
         ("on", "if") => Context::Expression,
         ("on" | "after" | "entry" | "exit", "->") => Context::MachineEvent,
         ("on" | "after" | "entry" | "exit", ",") if has_arrow(written) => Context::MachineEvent,

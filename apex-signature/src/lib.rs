@@ -128,6 +128,8 @@ pub const FAILURE: &str = "failure";
 pub const UNIT: &str = "unit";
 /// The attribute that marks a struct whose events take activity away instead of passing it on.
 pub const DEACTIVATES: &str = "deactivates";
+/// The attribute that marks a node that sends its tokens in the frame of those that it takes.
+pub const KEEPS_FRAME: &str = "keeps_frame";
 /// The attribute that marks a node whose tokens follow from its slots, its parameters and the time: nothing in them
 /// comes from outside of the program, although it may fire without inputs.
 pub const COMPUTED: &str = "computed";

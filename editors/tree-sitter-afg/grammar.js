@@ -62,7 +62,14 @@ module.exports = grammar({
       seq(
         field('kind', choice('in', 'out', 'slot', 'event')),
         field('name', $.identifier),
-        optional(seq(':', field('type', $._type), optional(seq('[', field('unit', $.unit_text), ']')))),
+        optional(
+          seq(
+            ':',
+            field('type', $._type),
+            optional(seq('[', field('unit', $.unit_text), ']')),
+            optional(seq('in', field('frame', choice($.identifier, $.string)))),
+          ),
+        ),
         ';',
       ),
     node: ($) =>

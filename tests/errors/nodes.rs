@@ -364,3 +364,44 @@ impl Smooth {
         *x as f64
     }
 }
+
+/// A place in some frame.
+#[derive(Debug, Clone, Default)]
+pub struct Spot;
+
+/// Passes tokens on as they are.
+#[node]
+pub fn kept<T: Clone + Send>(token: &T) -> T {
+    token.clone()
+}
+
+/// Something that can be turned.
+pub trait Turned {
+    /// Turns it.
+    fn turn(&self) -> Self;
+}
+
+impl Turned for Spot {
+    fn turn(&self) -> Self {
+        Self
+    }
+}
+
+/// May turn tokens.
+#[node]
+pub fn turned<T: Turned>(token: &T) -> T {
+    token.turn()
+}
+
+/// Finds the place beside another one, as seen from the same place.
+#[node]
+#[keeps_frame]
+pub fn beside(spot: &Spot) -> Spot {
+    spot.clone()
+}
+
+/// Takes the first of some.
+#[node]
+pub fn first_of<T: Clone, const N: usize>(tokens: [Option<&T>; N]) -> Option<T> {
+    tokens.into_iter().flatten().next().cloned()
+}

@@ -141,6 +141,8 @@ pub struct NodeItem {
     pub deactivates: bool,
     /// `true` if nothing in its tokens comes from outside.
     pub computed: bool,
+    /// `true` if all its tokens are in the same frame.
+    pub keeps_frame: bool,
     /// The signature of a function node.
     pub process: Option<Process>,
 }
@@ -536,6 +538,7 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
             .collect(),
         deactivates: signature::marked(&item.attrs, signature::DEACTIVATES),
         computed: signature::marked(&item.attrs, signature::COMPUTED),
+        keeps_frame: signature::marked(&item.attrs, signature::KEEPS_FRAME),
         params,
         process: None,
     };
@@ -655,6 +658,7 @@ fn function(item: &syn::ItemFn, callable: &signature::Callable) -> NodeItem {
         state: vec![],
         deactivates: false,
         computed: signature::marked(&item.attrs, signature::COMPUTED),
+        keeps_frame: signature::marked(&item.attrs, signature::KEEPS_FRAME),
         process: Some(process(callable)),
     }
 }

@@ -245,6 +245,7 @@ impl Catalog {
             machine: None,
             deactivates: node.deactivates,
             computed: node.computed,
+            keeps_frame: node.keeps_frame,
         }
     }
 

@@ -56,6 +56,8 @@ pub struct Signature {
     pub deactivates: bool,
     /// `true` if nothing in its tokens comes from outside of the program, also if it has no inputs.
     pub computed: bool,
+    /// `true` if all its tokens are in the same frame.
+    pub keeps_frame: bool,
     /// Part of the Rust libraries that the node needs, and the reason.
     pub needs: Option<(Need, String)>,
 }

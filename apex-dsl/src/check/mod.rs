@@ -2,6 +2,7 @@
 
 mod activity;
 mod asynchronous;
+mod frames;
 mod inputs;
 mod lints;
 mod modifiers;
@@ -27,6 +28,7 @@ pub use unused::check_unused;
 pub fn check(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     inputs::check_open_inputs(graph, catalog, diagnostics);
     types::check_types(graph, catalog, diagnostics);
+    frames::check_frames(graph, catalog, diagnostics);
     check_origins(graph, diagnostics);
     modifiers::check_modifiers(graph, catalog, diagnostics);
     asynchronous::check_asynchronous(graph, catalog, diagnostics);

@@ -10,7 +10,7 @@ use crate::{
     catalog::Type,
     index::{IdVec, id},
     source::Span,
-    syntax::tree::{Expr, PortKind},
+    syntax::tree::{Expr, Ident, PortKind},
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -137,6 +137,8 @@ pub struct Pin {
     pub kind: PortKind,
     /// The type of its tokens.
     pub ty: Type,
+    /// The frame of its tokens, if one is declared.
+    pub frame: Option<Ident>,
     /// The scope of the nested graph.
     pub scope: ScopeId,
     /// Place of the declaration.

@@ -4,7 +4,7 @@ use super::{Graph, NodeId, ScopeId, Subject, Value};
 use crate::{
     catalog::{SignatureId, Type},
     source::Span,
-    syntax::tree::PortKind,
+    syntax::tree::{Ident, PortKind},
 };
 use std::time::Duration;
 
@@ -228,6 +228,8 @@ pub struct Port {
     pub optional: bool,
     /// For one of any number of inputs: the port that the signature declares for all of them, which is the first.
     pub element_of: Option<usize>,
+    /// Frame of its tokens, if the source file says one.
+    pub frame: Option<Ident>,
     /// Parameter that the port reads or sets.
     pub parameter: Option<usize>,
     /// Meaning, if it is a port that every node has.
@@ -349,6 +351,7 @@ impl Port {
             rate: 1,
             optional: true,
             element_of: None,
+            frame: None,
             parameter: None,
             standard: None,
             comes_with_moves: false,

@@ -79,6 +79,7 @@ pages! {
     "wrong-claim"
     "wrong-direction"
     "wrong-field"
+    "wrong-frame"
     "wrong-goal"
     "wrong-modifier"
     "wrong-record"

@@ -45,8 +45,13 @@ fn fitted(graph: &Graph, to: PortId, given: &Given) -> Result<Value, Box<Diagnos
     if port.kind != PortKind::Slot {
         return Err(Box::new(no_slot(given, &name)));
     }
-    let wanted =
-        Wanted { name: &name, ty: &port.ty, unit: None, range: None, declared: format!("`{name}` takes `{}`", port.ty) };
+    let wanted = Wanted {
+        name: &name,
+        ty: &port.ty,
+        unit: None,
+        range: None,
+        declared: format!("`{name}` takes `{}`", port.ty),
+    };
     wanted.fit(given.value.clone(), &given.written)
 }
 

@@ -153,7 +153,8 @@ impl<'a> Builder<'a> {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
             // Seen from inside, an input of the graph sends.
             let kind = port.kind.seen_from_inside();
-            let inner = Port { docs: port.docs.clone(), ..Port::new(&port.name.text, kind, ty) };
+            let (docs, frame) = (port.docs.clone(), port.frame.clone());
+            let inner = Port { docs, frame, ..Port::new(&port.name.text, kind, ty) };
             let node = self.node(&port.name, ScopeId::TOP, NodeKind::Boundary(port.kind), vec![inner], &port.docs)?;
             table.insert(
                 &port.name,
@@ -445,8 +446,8 @@ impl<'a> Builder<'a> {
         for port in &item.ports {
             let ty = port.ty.as_ref().map_or_else(Type::unit, |t| self.ty(id, t));
             let (name, docs) = (port.name.text.clone(), port.docs.clone());
-            let (kind, span) = (port.kind, port.name.span);
-            self.pins.push(Pin { name, kind, ty: ty.clone(), scope, span, docs, standard: false });
+            let (kind, frame, span) = (port.kind, port.frame.clone(), port.name.span);
+            self.pins.push(Pin { name, kind, ty: ty.clone(), frame, scope, span, docs, standard: false });
             let place = WireEnd::Pin(self.pins.len() - 1);
             // Seen from inside, a port that takes tokens outside sends them.
             let inner = port.kind.seen_from_inside();

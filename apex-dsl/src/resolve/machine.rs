@@ -82,6 +82,13 @@ impl<'a> Opener<'a> {
                     "outputs can be connected to its slots, and its events to inputs, without a node in between",
                 ));
             }
+            if let Some(frame) = &port.frame {
+                let message = "a port of a state machine has no frame";
+                self.diagnostics.push(
+                    Diagnostic::error("fsm-port", frame.span, message)
+                        .note("write it at a port of the graph: a machine hands tokens on as they are"),
+                );
+            }
             if let Some((first, _)) = self.ports.get(port.name.text.as_str()) {
                 let message = format!("`{}` is already defined here", port.name.text);
                 let error = Diagnostic::error("duplicate-name", port.name.span, message);
@@ -308,8 +315,8 @@ impl<'a> Opener<'a> {
         suggest(error, name, known.iter().copied())
     }
 
-    /// The transitions from a leaf, given by its number and its state. With `resume` or `repeat` there is one for each state that
-    /// may be remembered, the first one inside before the others.
+    /// The transitions from a leaf, given by its number and its state. With `resume` or `repeat` there is one for each
+    /// state that may be remembered, the first one inside before the others.
     fn arms(
         &mut self,
         (number, leaf): (usize, usize),

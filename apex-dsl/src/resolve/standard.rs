@@ -88,7 +88,7 @@ impl Builder<'_> {
         }
         let docs = String::new();
         let ty = Type::Unknown(String::new());
-        self.pins.push(Pin { name: name.to_owned(), kind, ty, scope, span, docs, standard: true });
+        self.pins.push(Pin { name: name.to_owned(), kind, ty, frame: None, scope, span, docs, standard: true });
         let place = WireEnd::Pin(self.pins.len() - 1);
         let interrupt = standard.of_interrupt();
         let inner: Vec<WireEnd> = match interrupt {

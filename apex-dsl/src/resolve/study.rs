@@ -14,8 +14,8 @@ use crate::{
     script::{Goal, Study, Varied},
     source::Span,
     syntax::tree::{
-        Endpoint, Expr, ExprKind, GoalItem, GraphItem, Ident, Instance, ModifierKind, NodeBody, PortRef, RangeExpr, StudyItem,
-        TestItem,
+        Endpoint, Expr, ExprKind, GoalItem, GraphItem, Ident, Instance, ModifierKind, NodeBody, PortRef, RangeExpr,
+        StudyItem, TestItem,
     },
     units::{self, Unit},
 };
@@ -395,7 +395,9 @@ impl Users<'_> {
             Endpoint::Port(_, given) => given.as_deref(),
             _ => None,
         });
-        let fixed = others.chain(given).chain(item.threads.iter().flat_map(|thread| thread.settings.iter().map(|(_, value)| value)));
+        let fixed = others
+            .chain(given)
+            .chain(item.threads.iter().flat_map(|thread| thread.settings.iter().map(|(_, value)| value)));
         fixed.filter(|expr| names(expr, param)).for_each(|expr| self.fixed = Some(expr.span));
     }
 

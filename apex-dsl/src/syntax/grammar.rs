@@ -84,6 +84,7 @@ pub enum Rule {
     r#in_kw,
     r#stmt,
     r#port_stmt,
+    r#frame,
     r#port_kind,
     r#node_stmt,
     r#node_kw,
@@ -253,6 +254,7 @@ impl Rule {
             Rule::r#in_kw,
             Rule::r#stmt,
             Rule::r#port_stmt,
+            Rule::r#frame,
             Rule::r#port_kind,
             Rule::r#node_stmt,
             Rule::r#node_kw,
@@ -2886,11 +2888,38 @@ impl ::pest::Parser<Rule> for Grammar {
                                                                     .and_then(|state| {
                                                                         state.optional(|state| { self::r#unit_tag(state) })
                                                                     })
+                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                    .and_then(|state| {
+                                                                        state.optional(|state| { self::r#frame(state) })
+                                                                    })
                                                             })
                                                     })
                                             })
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| { self::r#semi(state) })
+                                    })
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#frame(
+                    state: ::alloc::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::alloc::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#frame,
+                            |state| {
+                                state
+                                    .sequence(|state| {
+                                        self::r#in_kw(state)
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| {
+                                                self::r#ident(state)
+                                                    .or_else(|state| { self::r#string(state) })
+                                            })
                                     })
                             },
                         )
@@ -6554,6 +6583,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#in_kw => rules::r#in_kw(state),
                     Rule::r#stmt => rules::r#stmt(state),
                     Rule::r#port_stmt => rules::r#port_stmt(state),
+                    Rule::r#frame => rules::r#frame(state),
                     Rule::r#port_kind => rules::r#port_kind(state),
                     Rule::r#node_stmt => rules::r#node_stmt(state),
                     Rule::r#node_kw => rules::r#node_kw(state),

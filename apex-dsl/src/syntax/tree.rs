@@ -185,6 +185,8 @@ pub struct PortItem {
     pub name: Ident,
     /// Type of the tokens; `()` if none is written.
     pub ty: Option<TypeExpr>,
+    /// Frame of the tokens.
+    pub frame: Option<Ident>,
 }
 
 /// `node name = …;`
@@ -434,7 +436,9 @@ impl Endpoint {
     /// The whole endpoint.
     pub fn span(&self) -> Span {
         match self {
-            Self::Port(reference, given) => given.as_ref().map_or(reference.span, |value| reference.span.to(value.span)),
+            Self::Port(reference, given) => {
+                given.as_ref().map_or(reference.span, |value| reference.span.to(value.span))
+            }
             Self::All(all) => all.span,
             Self::Instance(instance) => instance.span,
             Self::List(_, span) => *span,

@@ -6,6 +6,7 @@ use apex_rt::{Out, node};
 ///
 /// The output is ⊥ if points and labels differ in size.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct BrightFilter {
     /// Maximum intensity of an obstacle, δ_I: slightly less than the maximum of the sensor, in its unit.

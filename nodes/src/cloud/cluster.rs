@@ -62,6 +62,7 @@ impl Clone for Clusters {
 ///
 /// Cost: O(n) for n points. Allocates with the first cloud, and whenever one is larger than all before it.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct ClusterCloud {
     /// Side of a voxel.

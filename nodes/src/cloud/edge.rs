@@ -8,6 +8,7 @@ use apex_rt::{Out, node};
 /// Unknown points above `overhang` become `Overhanging` or `Artefact`. The output is ⊥ if points and labels differ in
 /// size.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct EdgeFilter {
     /// Height above which a point is neither floor nor a small object, z_0.

@@ -38,6 +38,7 @@ impl FloorSurface {
 /// stand on the floor. Where there is no floor in view, the surface is that of the mounted camera: z = 0. Not part of
 /// the thesis. The output is ⊥ if points and labels differ in size.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct FloorFit {
     /// Maximum height of the floor in the cloud, above and below z = 0.

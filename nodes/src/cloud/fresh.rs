@@ -6,6 +6,7 @@ use apex_rt::{Ctx, Out, node};
 ///
 /// A cloud is new if its stamp is later than that of the one before it, and at most `max_age` old.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct FreshCloud {
     /// Maximum age of a cloud.

@@ -6,6 +6,7 @@ use apex_rt::{Out, node};
 ///
 /// Labels are `Missing`, `Artefact` or `Unknown`.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct NearFilter {
     /// Minimum range of the camera, d_min.

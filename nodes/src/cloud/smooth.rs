@@ -8,6 +8,7 @@ use apex_rt::{Out, node};
 /// height keeps objects of a single row. A point with a neighbour that is missing or an artefact keeps its height. The
 /// output is ⊥ if points and labels differ in size.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct SmoothHeights {
     /// Share of the median.

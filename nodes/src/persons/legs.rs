@@ -32,6 +32,7 @@ pub struct Legs {
 /// The segments must be those of the same scan, for example from `JumpDistance(gap = 10cm)`. Fails if the model cannot
 /// be read, or if it has another number of inputs than [`LEG_FEATURES`](super::LEG_FEATURES).
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct LegDetector {
     /// Bytes of a [`Forest`]: a constant such as [`LEGS`](super::LEGS), or `include_bytes!` of a file.
@@ -79,6 +80,7 @@ impl LegDetector {
 /// `pose` is that of the scanner in the fixed frame of the tracker, for example the pose of odometry composed with the
 /// mounting. ⊥ if it is not finite.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct LegPairs {
     /// Maximum distance between the legs of a person.

@@ -71,6 +71,7 @@ pub fn best_container<const N: usize>(containers: [Option<&Container>; N]) -> Op
 /// Cost: O(s²) for s segments, and for each pair at the right distance the beams that can hit the model. Allocates
 /// nothing after the first scans.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct ContainerSearch {
     /// Distance across between the outer sides of the wheels (w).

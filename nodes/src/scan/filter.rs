@@ -8,6 +8,7 @@ use heapless::Vec;
 ///
 /// Beams keep their index, so that their angles stay right.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct RangeFilter {
     /// Minimum range that is kept.
@@ -39,6 +40,7 @@ impl RangeFilter {
 /// Walls remain. After `JumpDistance`, this removes other robots from a scan, so that they do not enter a map. The
 /// segments must be those of the same scan.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct ShortSegmentFilter {
     /// Minimum distance between the first and the last point of a segment that is kept (S_min).
@@ -75,6 +77,7 @@ fn length(scan: &Scan, segment: &Segment) -> f32 {
 ///
 /// Some scanners report infinity when they are covered. Where walls are always within range, `min_seen` detects that.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct EnoughBeams {
     /// Minimum share of beams with a measurement, also of nothing in range.
@@ -109,6 +112,7 @@ const MAX_WINDOW: usize = 15;
 /// stay as they are. With an even number of ranges in the window, the lower of the two middle ones is taken, so that
 /// every range is a measured one. The window crosses the seam of a full turn.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct MedianFilter {
     /// Number of beams on each side in the window: 1 gives a window of 3.

@@ -100,6 +100,7 @@ impl core::error::Error for TooManySegments {}
 ///
 /// Fails on a scan of more than [`MAX_SEGMENTS`] segments.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct JumpDistance {
     /// Minimum difference of neighbouring ranges that begins a new segment (δ_s).
@@ -153,6 +154,7 @@ impl JumpDistance {
 
 /// Keeps the segments that could be a wheel: small, near and with enough points (thesis 6.6.1).
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone)]
 pub struct SegmentFilter {
     /// Maximum diagonal of the bounding box of a segment.

@@ -289,7 +289,7 @@ impl<'a> Builder<'a> {
 
     fn port(&self, pair: Pair<'_, Rule>) -> Option<PortItem> {
         let mut docs = String::new();
-        let (mut kind, mut name, mut ty) = (PortKind::Input, None, None);
+        let (mut kind, mut name, mut ty, mut frame) = (PortKind::Input, None, None, None);
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::doc => push_doc(&mut docs, &part),
@@ -304,10 +304,19 @@ impl<'a> Builder<'a> {
                 Rule::ident => name = Some(self.ident(&part)),
                 Rule::ty => ty = Some(self.ty(part)),
                 Rule::unit_tag => ty = self.measured(ty, part),
+                Rule::frame => frame = part.into_inner().last().map(|name| self.frame(&name)),
                 _ => {}
             }
         }
-        Some(PortItem { docs, kind, name: name?, ty })
+        Some(PortItem { docs, kind, name: name?, ty, frame })
+    }
+
+    /// The name of a frame, with or without quotes.
+    fn frame(&self, pair: &Pair<'_, Rule>) -> Ident {
+        match pair.as_rule() {
+            Rule::string => Ident { text: expr::unescape(pair.as_str()), span: self.span(pair) },
+            _ => self.ident(pair),
+        }
     }
 
     fn node(&mut self, pair: Pair<'_, Rule>) -> Option<NodeItem> {
