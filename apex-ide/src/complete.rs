@@ -222,6 +222,7 @@ impl Completer<'_> {
             name: p.name.clone(),
             kind,
             ty: p.ty.clone(),
+            frame: None,
             rate: 1,
             optional: true,
             any_number: false,

@@ -80,6 +80,8 @@ pub struct PortFacts {
     pub kind: PortKind,
     /// Type of the tokens.
     pub ty: Type,
+    /// Frame of the tokens, if the source file says one.
+    pub frame: Option<String>,
     /// Tokens per firing.
     pub rate: usize,
     /// `true` for an input that need not be connected.
@@ -93,9 +95,10 @@ pub struct PortFacts {
 }
 
 impl PortFacts {
-    /// The type as text, with the number of tokens per firing: `[f64; 2]`.
+    /// The type as text, with the number of tokens per firing and the frame: `[f64; 2]`, `Scan in base`.
     pub fn type_text(&self) -> String {
-        if self.rate > 1 { format!("[{}; {}]", self.ty, self.rate) } else { self.ty.to_string() }
+        let ty = if self.rate > 1 { format!("[{}; {}]", self.ty, self.rate) } else { self.ty.to_string() };
+        self.frame.as_ref().map_or_else(|| ty.clone(), |frame| format!("{ty} in {frame}"))
     }
 
     /// Properties of the port, in words.
@@ -204,6 +207,7 @@ impl<'a> View<'a> {
                     name: p.name.clone(),
                     kind: p.kind,
                     ty: p.ty.clone(),
+                    frame: None,
                     rate: p.rate,
                     optional: p.optional && p.kind == PortKind::Input,
                     any_number: p.any_number,
@@ -224,6 +228,7 @@ impl<'a> View<'a> {
             name: port.name.text.clone(),
             kind: port.kind,
             ty: ty(port),
+            frame: port.frame.as_ref().map(|frame| frame.text.clone()),
             rate: 1,
             optional: false,
             any_number: false,

@@ -81,6 +81,7 @@ impl core::error::Error for OtherBeams {}
 ///
 /// Fails on scans that do not have the same beams.
 #[node]
+#[keeps_frame]
 #[derive(Debug, Clone, Default)]
 pub struct MergeScans;
 

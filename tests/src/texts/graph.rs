@@ -93,7 +93,9 @@ impl Maker {
         let kind = if self.dice.one_in(3) { "slot" } else { "in" };
         self.rust(ty.item);
         let written = self.written(ty);
-        sheet.port_lines.push(format!("{kind} {name}: {written};"));
+        // All frames are the same: two would have to be turned into each other.
+        let frame = if self.dice.one_in(8) { *self.dice.of(&[" in base", " in \"base\""]) } else { "" };
+        sheet.port_lines.push(format!("{kind} {name}: {written}{frame};"));
         sheet.ports.push((kind, port(&name, ty)));
         let wire = Wire { from: name, ty, event: kind == "slot" };
         sheet.wires.push(wire.clone());

@@ -82,8 +82,18 @@ impl Maker {
         }
         for slot in &node.slots {
             if !self.dice.one_in(12) {
-                let wire = self.wire(sheet, slot.ty);
-                self.link(sheet, &wire.from, &format!("{name}.{}", slot.name));
+                let value = if self.dice.one_in(6) { self.token(slot.ty) } else { None };
+                match (value, sheet.wires.is_empty()) {
+                    // Tokens of any type.
+                    (Some(value), false) => {
+                        let from = self.dice.of(&sheet.wires).from.clone();
+                        self.link(sheet, &from, &format!("{name}.{}({value})", slot.name));
+                    }
+                    _ => {
+                        let wire = self.wire(sheet, slot.ty);
+                        self.link(sheet, &wire.from, &format!("{name}.{}", slot.name));
+                    }
+                }
             }
         }
         let sends = |ports: &[super::nodes::Port], event: bool| -> Vec<Wire> {
