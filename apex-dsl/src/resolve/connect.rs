@@ -41,7 +41,7 @@ pub struct End {
     /// The place of the name.
     pub span: Span,
     /// The value that is given to the port.
-    pub given: Option<Given>,
+    pub given: Option<Box<Given>>,
 }
 
 /// A port that is chosen for an end of a connection.
@@ -175,7 +175,7 @@ impl Builder<'_> {
             Endpoint::All(all) => vec![self.all_ports(body, table, all).map(Rc::new).map(Meaning::All)],
             Endpoint::Instance(instance) => {
                 if let [port] = instance.path.segments.as_slice()
-                    && table.get(&port.text).is_some()
+                    && (table.get(&port.text).is_some() || own_node(&port.text).is_some())
                 {
                     if let Some(given) = instance.as_given() {
                         let reference = PortRef { parts: vec![port.clone()], span: port.span };
@@ -205,7 +205,7 @@ impl Builder<'_> {
         let end = self.reference(body, table, reference);
         let Some(given) = given else { return end };
         let given = self.given(body, given)?;
-        Some(End { given: Some(given), ..end? })
+        Some(End { given: Some(Box::new(given)), ..end? })
     }
 
     fn reference(&mut self, body: &Body<'_>, table: &Table, reference: &PortRef) -> Option<End> {
@@ -305,7 +305,7 @@ impl Builder<'_> {
     }
 
     /// Connects two ports and reports different types. `by_name` is `true` if `.*` stands at the ends.
-    pub fn wire(&mut self, from: Chosen<'_>, to: Chosen<'_>, arrow: &Arrow, by_name: bool, given: Option<Given>) {
+    pub fn wire(&mut self, from: Chosen<'_>, to: Chosen<'_>, arrow: &Arrow, by_name: bool, given: Option<Box<Given>>) {
         let differs = given.is_none() && from.port.ty.compare(&to.port.ty) == Match::Different;
         if differs {
             let error = self.mismatch(from, to, arrow);
@@ -320,7 +320,6 @@ impl Builder<'_> {
         }
         let (active, span) = (arrow.active, arrow.span);
         let end = self.free_input(to.port.place);
-        let given = given.map(Box::new);
         self.wires.push(Wire { from: from.port.place, to: end, active, differs, given, span });
         let is_outermost = self.open.len() == 1;
         let Some(links) = self.links.as_mut().filter(|_| is_outermost) else { return };

@@ -71,6 +71,9 @@ impl Checker<'_> {
             }
         }
         graph.ports.iter().filter_map(|port| port.ty.as_ref()).for_each(|ty| self.token(ty));
+        for frame in graph.ports.iter().filter_map(|port| port.frame.as_ref()).filter(|frame| frame.text.is_empty()) {
+            self.diagnostics.push(Diagnostic::error("wrong-frame", frame.span, "a frame needs a name"));
+        }
         graph.params.iter().for_each(|param| self.ty(&param.ty));
         for node in &graph.nodes {
             match &node.body {

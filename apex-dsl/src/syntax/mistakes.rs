@@ -370,6 +370,10 @@ impl CommonMistake<'_> {
         if !is_instance || (begins_line && meant.is_none()) {
             return None;
         }
+        if meant == Some(name) {
+            let error = Diagnostic::error("syntax", self.here(name.len()), "a port has no modifiers");
+            return Some(error.note("write them after an instance: `node name = Type() every 20ms;`"));
+        }
         let error = Diagnostic::error("syntax", self.here(name.len()), format!("there is no modifier `{name}`"));
         Some(match meant {
             Some(meant) => error.guess(format!("did you mean `{meant}`?"), self.here(name.len()), meant),
