@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     catalog::Type,
-    graph::{ConnectionId, Given, Graph, PortId, Value},
+    graph::{ConnectionId, Given, Graph, NodeKind, PortId, Value},
     report::{Diagnostic, Diagnostics},
     syntax::tree::{Expr, Ident, Instance, PortKind},
 };
@@ -45,6 +45,11 @@ fn fitted(graph: &Graph, to: PortId, given: &Given) -> Result<Value, Box<Diagnos
     if port.kind != PortKind::Slot {
         return Err(Box::new(no_slot(given, &name)));
     }
+    if matches!(graph.nodes[to.node].kind, NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Interrupt(_)) {
+        let message = format!("`{name}` does not look at what comes: it takes no value");
+        let error = Diagnostic::error("wrong-value", given.written.span, message);
+        return Err(Box::new(error.note("write it without the parentheses")));
+    }
     let wanted = Wanted {
         name: &name,
         ty: &port.ty,
@@ -57,7 +62,10 @@ fn fitted(graph: &Graph, to: PortId, given: &Given) -> Result<Value, Box<Diagnos
 
 /// The error at `port(…)` with anything but one value.
 pub fn no_value(port: &Ident, instance: &Instance) -> Diagnostic {
-    let message = format!("`{0}` is not a type of nodes, and a port gets one value: `{0}(value)`", port.text);
+    let message = match instance.modifiers.is_empty() {
+        true => format!("`{0}` is not a type of nodes, and a port gets one value: `{0}(value)`", port.text),
+        false => format!("`{}` is not a type of nodes, and a port has no modifiers", port.text),
+    };
     Diagnostic::error("unknown-node", instance.span, message)
 }
 
