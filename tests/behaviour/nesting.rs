@@ -1,7 +1,7 @@
 //! Nested graphs: one node for their parent, and grouping changes nothing.
 
 use apex_macros::graph;
-use apex_rt::prelude::*;
+use apex_rt::{Next, prelude::*};
 use apex_tests::react;
 
 graph!("nesting.afg");
@@ -94,4 +94,13 @@ fn a_mailbox_holds_one_token() {
     assert_eq!(program.inputs().by.put(20), Ok(()));
     program.react(Time::ZERO);
     assert_eq!(program.outputs().sum, Some(23));
+}
+
+#[test]
+fn events_of_a_nested_graph_need_no_connection() {
+    let mut program = NothingTold::new();
+    react(&mut program, 3);
+    program.inputs().n.put(1).unwrap();
+    program.inputs().stop.put(()).unwrap();
+    assert_eq!(program.react(Time::from_millis(15)), Next::At(Time::from_millis(20)));
 }

@@ -31,8 +31,7 @@ impl Lowering<'_> {
 
     /// Triggers an event that every node has, if it is connected.
     pub fn trigger(&self, node: NodeId, standard: Standard) -> Option<Op> {
-        let port = self.lower.graph.nodes[node].standard(standard)?;
-        Some(Op::Trigger(PortId { node, port }))
+        self.lower.standard_event(node, standard).map(Op::Trigger)
     }
 
     /// Activity has moved: the claims are looked at, if there are any.

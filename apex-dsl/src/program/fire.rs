@@ -181,7 +181,7 @@ impl Lowering<'_> {
             results: results(node, signature, plan),
             param_outputs: param_outputs.filter_map(param_output).collect(),
             buffers: ends().filter(|end| is_buffer(graph, lower.catalog, *end)).collect(),
-            processed: graph.nodes[node].standard(Standard::Processed).map(|port| PortId { node, port }),
+            processed: lower.standard_event(node, Standard::Processed),
             failing: self.failing(node, signature.returns.fallible),
             deadline: self.deadline(node),
         }
@@ -201,7 +201,7 @@ impl Lowering<'_> {
             false if fallible => Failing::Reported,
             false => Failing::Never,
             true => {
-                let event = n.standard(Standard::Failed).map(|port| PortId { node, port });
+                let event = self.lower.standard_event(node, Standard::Failed);
                 // What Rust has made is not made again, and functions are not made.
                 let is_made = match &n.kind {
                     NodeKind::Library(library) => {
@@ -216,9 +216,8 @@ impl Lowering<'_> {
 
     /// The `deadline` of a node.
     pub fn deadline(&self, node: NodeId) -> Option<Deadline> {
-        let n = &self.lower.graph.nodes[node];
-        let event = n.standard(Standard::Late).map(|port| PortId { node, port });
-        n.modifiers.deadline.map(|time| Deadline { time, event })
+        let event = self.lower.standard_event(node, Standard::Late);
+        self.lower.graph.nodes[node].modifiers.deadline.map(|time| Deadline { time, event })
     }
 
     fn arg(&self, node: NodeId, signature: &Signature, arg: ArgSig) -> Arg {

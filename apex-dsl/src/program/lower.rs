@@ -5,7 +5,7 @@ use crate::{
     analyse::{Analysis, ClusterId, Delivery, Links, is_source},
     catalog::{Catalog, MachineSig, Signature, WaitSig},
     claims::Decided,
-    graph::{ConnectionId, Graph, Node, NodeId, NodeKind, PortId},
+    graph::{ConnectionId, Graph, Node, NodeId, NodeKind, PortId, Standard},
     syntax::tree::PortKind,
 };
 use std::time::Duration;
@@ -132,6 +132,12 @@ impl<'a> Lower<'a> {
     pub fn is_sent_event(self, end: PortId) -> bool {
         self.graph.port(end).kind == PortKind::Event
             && self.links.sends[end.node].iter().any(|c| self.graph.connections[*c].from == end)
+    }
+
+    /// An event that every node has, if it is connected.
+    pub fn standard_event(self, node: NodeId, standard: Standard) -> Option<PortId> {
+        let end = PortId { node, port: self.graph.nodes[node].standard(standard)? };
+        self.is_sent_event(end).then_some(end)
     }
 
     /// Returns `true` if slots are called at all.

@@ -33,6 +33,7 @@ impl Program<'_> {
         let firing = clusters.iter_enumerated().filter(|(c, _)| self.lower.analysis.clusters[*c].fires);
         let effects = Effects::new(self, firing.map(|(_, ops)| ops));
         faults.extend(self.unserved(&effects));
+        faults.extend(self.unsent(&effects));
         faults.extend(self.conditions());
         faults.extend(self.flags(&effects));
         faults
@@ -57,6 +58,16 @@ impl Program<'_> {
     fn is_taken_first(&self, node: NodeId) -> bool {
         use NodeKind::{Boundary, Delay};
         matches!(self.lower.graph.nodes[node].kind, Boundary(PortKind::Input) | Delay(_))
+    }
+
+    /// Events that every node has are triggered only if they are connected: nothing keeps their tokens otherwise.
+    fn unsent(&self, effects: &Effects) -> Vec<String> {
+        let is_unsent = |end: &&PortId| {
+            self.lower.graph.port(**end).standard.is_some_and(|standard| !standard.kind().is_synchronous())
+                && !self.lower.is_sent_event(**end)
+        };
+        let unsent = effects.written.all.iter().filter(is_unsent);
+        unsent.map(|end| format!("{} is triggered, but not connected", self.lower.graph.end_name(*end))).collect()
     }
 
     fn unserved(&self, effects: &Effects) -> Vec<String> {

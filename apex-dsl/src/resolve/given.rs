@@ -41,11 +41,13 @@ pub fn fit(graph: &mut Graph, diagnostics: &mut Diagnostics) {
 }
 
 fn fitted(graph: &Graph, to: PortId, given: &Given) -> Result<Value, Box<Diagnostic>> {
-    let (port, name) = (graph.port(to), graph.end_name(to));
+    let (port, node) = (graph.port(to), &graph.nodes[to.node].kind);
+    let name =
+        if matches!(node, NodeKind::Exit(_) | NodeKind::Reset) { graph.path(to.node) } else { graph.end_name(to) };
     if port.kind != PortKind::Slot {
         return Err(Box::new(no_slot(given, &name)));
     }
-    if matches!(graph.nodes[to.node].kind, NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Interrupt(_)) {
+    if matches!(node, NodeKind::Exit(_) | NodeKind::Reset | NodeKind::Interrupt(_)) {
         let message = format!("`{name}` does not look at what comes: it takes no value");
         let error = Diagnostic::error("wrong-value", given.written.span, message);
         return Err(Box::new(error.note("write it without the parentheses")));

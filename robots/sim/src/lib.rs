@@ -19,7 +19,6 @@ mod camera;
 mod drive;
 mod jobs;
 mod laser;
-mod note;
 mod odometry;
 #[cfg(feature = "building")]
 mod office;
@@ -50,7 +49,6 @@ pub use camera::{CameraSim, Light, NotLevel, expose};
 pub use drive::{Differential, Limits, Omnidirectional, Tractor};
 pub use jobs::in_order;
 pub use laser::Laser;
-pub use note::Note;
 pub use odometry::{Odometry, OdometryNoise};
 #[cfg(feature = "building")]
 pub use office::OfficePlan;
