@@ -383,15 +383,15 @@ fn end_before(tokens: &[Token<'_>]) -> Option<PortId> {
         end = &end[1..];
     }
     let words = end.iter().take_while(|t| t.kind == TokenKind::Word || matches!(t.text, "." | "::" | "*"));
-    let (mut parts, mut in_place) = (vec![], false);
+    let (mut parts, mut in_place, mut has_port) = (vec![], false, false);
     for token in words.clone() {
         match token.text {
             "::" => in_place = true,
-            "." => {}
+            "." => has_port = true,
             word => parts.push(word.to_owned()),
         }
     }
-    let is_instance = in_place || end.get(words.count()).is_some_and(|t| matches!(t.text, "(" | "<"));
+    let is_instance = in_place || !has_port && end.get(words.count()).is_some_and(|t| matches!(t.text, "(" | "<"));
     match (parts.is_empty(), is_instance) {
         (true, _) => None,
         (_, true) => Some(PortId::InPlace(parts)),
@@ -410,6 +410,8 @@ fn in_parens(tokens: &[Token<'_>], open: usize) -> Context {
         (_, _, Some("active")) => return in_condition(inside),
         (_, _, Some("each" | "par")) => return each_of(before).map_or(Context::Nothing, Context::List),
         (_, _, Some(_)) if opener(before).is_some_and(|o| is_state(tokens, o)) => return Context::Expression,
+        // A value for a slot.
+        (_, _, Some(_)) if is(before.iter().rev().nth(1), ".") => return Context::Expression,
         (_, _, Some(_)) => {}
         _ => return nested(tokens, open),
     }

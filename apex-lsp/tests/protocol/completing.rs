@@ -95,6 +95,8 @@ fn arguments_and_units() {
     has(&in_graph(&mut client, "node r = RangeFilter(min = 5cm, |)"), &["max"]);
     lacks(&in_graph(&mut client, "node r = RangeFilter(min = 5cm, |)"), &["min"]);
     has(&in_graph(&mut client, "scan -> JumpDistance(gap = |)"), &["gap"]);
+    // A value in place of tokens.
+    has(&in_graph(&mut client, "scan -> jump.gap(|)"), &["gap"]);
     let units = in_graph(&mut client, "scan -> JumpDistance(gap = 15|)");
     has(&units, &["m", "cm", "mm"]);
     lacks(&units, &["s", "kg"]);
