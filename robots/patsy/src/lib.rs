@@ -37,6 +37,10 @@ pub const CONTAINER_AHEAD: apex_nodes::scan::Container = apex_nodes::scan::Conta
     model: 0,
 };
 
+/// A container just before the vehicle, for tests.
+pub const CONTAINER_BEFORE: apex_nodes::scan::Container =
+    apex_nodes::scan::Container { pose: apex_nodes::scan::Pose2 { x: 0.9, y: 0.0, theta: 0.0 }, ..CONTAINER_AHEAD };
+
 pub use beneath::Beneath;
 pub use cart::{Cart, LENGTH, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
 pub use drive::Drive;

@@ -14,7 +14,7 @@ use crate::{
     },
     scan::{FarFromOrigin, Point2, Pose2},
 };
-use apex_rt::{Ctx, Event, node};
+use apex_rt::{Ctx, Event, Time, node};
 use libm::{ceilf, fmaxf, sinf};
 
 /// Step of the prediction of the trailer, in m.
@@ -31,6 +31,8 @@ const GAINS: [f32; 2] = [8.0, 5.0];
 const STRAIGHT: f32 = 0.02;
 /// Largest offset from the curve, in m. Farther away, another one is planned.
 const OFF_CURVE: f32 = 0.2;
+/// Time for which the vehicle waits for a container, in s.
+const WAITS: f32 = 2.0;
 
 /// Steers a tractor with a passively steered trailer beneath a container, along a planned curve.
 ///
@@ -38,7 +40,7 @@ const OFF_CURVE: f32 = 0.2;
 /// container turns out to be elsewhere, the node plans the way of tractor and trailer: the shortest of the Dubins
 /// curves to a line before the container, on which the predicted trailer comes into line, is never bent by more than
 /// `max_bend`, and touches nothing of the container but the free strip between its wheels. `missed` comes if there is
-/// no such curve, or if the vehicle is beside its goal at the end. Without both poses, or with poses older than
+/// no such curve, if the vehicle is beside its goal at the end, or if no container comes in the first two seconds. Without both poses, or with poses older than
 /// `max_age`, the vehicle stands still.
 ///
 /// `ground` is a map in the frame of `base`, in which the place of the container is free. It may be ⊥, as clouds come
@@ -94,6 +96,8 @@ pub struct PlannedApproach {
     #[param(unit = "s", default = 0.5, range = 0.01..=60.0, silence)]
     max_age: f32,
     container: Option<Pose2>,
+    /// Time of the first firing of an approach.
+    began: Option<Time>,
     plan: Option<Plan>,
     ground: Latest<Grid<Occupancy>>,
     /// Hazards near the vehicle.
@@ -142,7 +146,11 @@ impl PlannedApproach {
         }
         self.container = fresh(ctx, container, self.max_age).copied().or(self.container);
         let axes = both_fresh(ctx, [base, trailer], self.max_age);
+        let waited = ctx.now().since(*self.began.get_or_insert(ctx.now())).as_secs_f32();
         let Some(((base, trailer), container)) = axes.zip(self.container) else {
+            if self.container.is_none() && waited > WAITS {
+                missed.emit(());
+            }
             return self.halt.drive(Twist::ZERO);
         };
         let vehicle = &self.vehicle;
@@ -171,7 +179,7 @@ impl PlannedApproach {
     /// Forgets the container and the plan of the last approach.
     #[on_activate]
     fn forget(&mut self) {
-        (self.container, self.plan) = (None, None);
+        (self.container, self.began, self.plan) = (None, None, None);
     }
 
     /// Returns `true` at the end of the curve. Before, the vehicle may pass the container.
