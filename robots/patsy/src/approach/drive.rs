@@ -78,7 +78,7 @@ pub fn starts() -> impl Iterator<Item = Pose2> {
 /// Node behind the common ports.
 enum Node {
     Reactive(ReactiveApproach),
-    Planned(PlannedApproach),
+    Planned(Box<PlannedApproach>),
 }
 
 impl Node {
@@ -88,7 +88,7 @@ impl Node {
             Controller::Reactive => Self::Reactive(ReactiveApproach::construct((
                 0.7, 1.8, 0.6, 0.5, 0.05, 0.5, 0.5, 0.4, 1.0, vehicle, 0.05, 0.5,
             ))),
-            Controller::Planned => Self::Planned(PlannedApproach::construct((
+            Controller::Planned => Self::Planned(Box::new(PlannedApproach::construct((
                 0.8,
                 1.0,
                 0.5,
@@ -104,7 +104,7 @@ impl Node {
                 0.05,
                 Clearance::PATSY,
                 0.5,
-            ))),
+            )))),
         }
     }
 
