@@ -40,7 +40,8 @@ const WAITS: f32 = 2.0;
 /// container turns out to be elsewhere, the node plans the way of tractor and trailer: the shortest of the Dubins
 /// curves to a line before the container, on which the predicted trailer comes into line, is never bent by more than
 /// `max_bend`, and touches nothing of the container but the free strip between its wheels. `missed` comes if there is
-/// no such curve, if the vehicle is beside its goal at the end, or if no container comes in the first two seconds. Without both poses, or with poses older than
+/// no such curve, if the vehicle is beside its goal at the end, or if no container comes in the first two seconds.
+/// Without both poses, or with poses older than
 /// `max_age`, the vehicle stands still.
 ///
 /// `ground` is a map in the frame of `base`, in which the place of the container is free. It may be ⊥, as clouds come
