@@ -41,8 +41,7 @@ const WAITS: f32 = 2.0;
 /// curves to a line before the container, on which the predicted trailer comes into line, is never bent by more than
 /// `max_bend`, and touches nothing of the container but the free strip between its wheels. `missed` comes if there is
 /// no such curve, if the vehicle is beside its goal at the end, or if no container comes in the first two seconds.
-/// Without both poses, or with poses older than
-/// `max_age`, the vehicle stands still.
+/// Without both poses, or with poses older than `max_age`, the vehicle stands still.
 ///
 /// `ground` is a map in the frame of `base`, in which the place of the container is free. It may be ⊥, as clouds come
 /// less often than poses. If the vehicle would not keep the `clearance` from the hazards of it on the rest of the
