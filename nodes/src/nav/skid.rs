@@ -31,7 +31,7 @@ const CORNER: f32 = 0.05;
 /// `side_acceleration`, as a robot that turns fast slides and tips, and by what `scan` sees within `clearance` of the
 /// path: from there the robot stops `margin` before it.
 ///
-/// `path` is followed forward and `back` backward; a new one replaces the present one, and the robot goes on at its
+/// A path at `follow` is followed forward, and one at `back` backward; a new one replaces the present one, and the robot goes on at its
 /// speed. `pose` is in the frame of the path. `scan` is in the frame of the robot, and `map` in that of the path: a path
 /// over an occupied cell is blocked. Without a pose that is younger than `max_age` the robot stands. The node sends twists
 /// while it has a path, and drops it when the robot
@@ -125,8 +125,6 @@ impl SkidFollower {
         &mut self,
         ctx: &Ctx,
         pose: Option<&Pose2>,
-        path: Option<&Path>,
-        back: Option<&Path>,
         scan: Option<&Scan>,
         map: Option<&Grid<Occupancy>>,
         reached: Event<()>,
@@ -135,11 +133,6 @@ impl SkidFollower {
     ) -> Result<Option<Twist>, FarFromOrigin> {
         self.scan.update(ctx, scan, self.max_age);
         self.map.update(ctx, map, self.max_age);
-        for (path, is_back) in [(path, false), (back, true)] {
-            if let Some(path) = path {
-                self.begin(path, is_back, ctx.now());
-            }
-        }
         self.end_lingering(ctx.now());
         if self.path.points.is_empty() {
             return Ok(self.halt.rest());
@@ -148,6 +141,18 @@ impl SkidFollower {
             return self.halt.far();
         }
         Ok(self.step(ctx, fresh(ctx, pose, self.max_age), [reached, blocked, off_path]))
+    }
+
+    /// Takes a path, which is followed forward.
+    #[slot]
+    fn follow(&mut self, path: &Path, ctx: &Ctx) {
+        self.begin(path, false, ctx.now());
+    }
+
+    /// Takes a path, which is followed backward.
+    #[slot]
+    fn back(&mut self, path: &Path, ctx: &Ctx) {
+        self.begin(path, true, ctx.now());
     }
 
     /// Drops the path at once: another node takes over.
@@ -374,11 +379,11 @@ mod tests {
                 scan.ranges[libm::roundf((place.angle() + PI) / scan.angle_increment) as usize % 360] = place.norm();
             }
             let (mut reached, mut blocked, mut off) = (None, None, None);
+            path.into_iter().for_each(|path| self.node.follow(path, &ctx));
+            back.into_iter().for_each(|path| self.node.back(path, &ctx));
             let twist = self.node.process(
                 &ctx,
                 Some(&self.pose),
-                path,
-                back,
                 Some(&scan),
                 None,
                 event(&mut reached),

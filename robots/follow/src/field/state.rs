@@ -297,7 +297,9 @@ impl State {
         }
         let is_over = self.arrived.is_some_and(|at| self.now.since(at) > COMES);
         let distance = (self.runner.walker.position - self.base.pose.position()).norm();
-        is_over.then_some(if distance <= WITH { Ending::Arrived } else { Ending::LeftBehind })
+        // The track is closed: who never left is near its end, too.
+        let is_there = distance <= WITH && self.report.driven > 0.5 * self.report.ran && self.lost.is_none();
+        is_over.then_some(if is_there { Ending::Arrived } else { Ending::LeftBehind })
     }
 
     /// Ends a run whose time is over.
