@@ -4,37 +4,41 @@ use libm::{fabsf, sqrtf, tanf};
 
 /// Greatest number of rings.
 const MOST: usize = 128;
-/// Weight of a new slope in the average along a column.
-const NEW: f32 = 0.5;
 
 /// Tells ground and obstacles apart in the turns of a scanner with rings on rough terrain (thesis 8.4.2, a variant of
 /// 6.5.2).
 ///
 /// A column is followed from the robot outward, from the lowest ring to the highest one. Ground is what continues the
-/// ground before it: each point is compared with the line through the last point of the ground with the slope of the
-/// ground, and may be off by `step`, and by `bend` for each metre in between, as a slope may change. The slope of the
-/// ground itself is at most `max_slope`. As in equation 6.2, both neighbours of a point count: one that has the next
-/// higher point of its column straight above it is at the foot of something that stands there. Points above the line
-/// are obstacles, and overhanging beyond `overhang`; those far below it are below the ground, in a ditch.
+/// ground before it: each point is compared with the line through the last point of the ground, with the slope of the
+/// ground over a distance as long as that to the point. As in equation 6.2, both neighbours of a point count. A point is
+/// on an obstacle if
+/// * it is above the line by more than `step`, and by `bend` for each metre from the ground before it, and the way from
+///   there is steeper than `max_slope`, or the point is higher above the line than any hill;
+/// * it is above the line, and the next point of its column is straight above it: it is at the foot of something;
+/// * the point before it in its column is on an obstacle, and it is straight above that.
+///
+/// A slope is steeper than the angle `steep` if one point is straight above another one. Obstacles are overhanging beyond
+/// `overhang` above the line. A point is below the ground, in a ditch, if it is below the line by more than `ditch`, and
+/// by `bend` for each metre, and the ground before it is nearer than `brink`: beyond that, a hill may lie in between.
 ///
 /// `columns` are in the level frame of the robot, whose origin is on the ground, as `CompensateTurn` sends them. Columns
 /// that are not whole give ⊥.
 ///
-/// Cost: O(n) for n points; 0.3 ms for 28,800. Allocates with the first cloud.
+/// Cost: O(n) for n points; 0.4 ms for 28,800. Allocates with the first cloud.
 #[node]
 #[derive(Debug, Clone)]
 pub struct RingClassifier {
     /// Difference from the line of the ground up to which a point is ground.
-    #[param(unit = "m", default = 0.1, range = 0.0..=2.0)]
+    #[param(unit = "m", default = 0.13, range = 0.0..=2.0)]
     step: f32,
     /// Change of the slope, as its tangent, within which a point is ground.
-    #[param(default = 0.06, range = 0.0..=1.0)]
+    #[param(default = 0.08, range = 0.0..=1.0)]
     bend: f32,
     /// Greatest slope of the ground.
     #[param(unit = "rad", default = 0.4, range = 0.0..=1.2)]
     max_slope: f32,
-    /// Angle from which on two consecutive points stand on each other.
-    #[param(unit = "rad", default = 1.0, range = 0.1..=1.5)]
+    /// Angle from which on two points are straight above each other.
+    #[param(unit = "rad", default = 0.9, range = 0.1..=1.5)]
     steep: f32,
     /// Height above the ground from which on obstacles are overhanging: the robot passes beneath them.
     #[param(unit = "m", default = 1.6, range = 0.1..=100.0)]
@@ -42,15 +46,30 @@ pub struct RingClassifier {
     /// Depth below the line of the ground from which on a point is in a ditch.
     #[param(unit = "m", default = 0.14, range = 0.01..=10.0)]
     ditch: f32,
+    /// Distance of the ground before a ditch.
+    #[param(unit = "m", default = 2.5, range = 0.0..=100.0)]
+    brink: f32,
 }
 
-/// Ground along a column.
+/// Height above the line of the ground beyond which a point is on an obstacle, in m, and per metre from the ground.
+const HIGH: [f32; 2] = [0.4, 0.12];
+/// Least distance over which the slope of the ground is measured, in m.
+const LEAST: f32 = 1.5;
+
+/// Points of a column: distances and heights, in m.
 #[derive(Debug, Clone, Copy)]
-struct Line {
-    /// Distance and height of the last point of the ground, in m.
-    at: [f32; 2],
-    /// Slope, as its tangent.
-    slope: f32,
+struct Column<'a> {
+    distances: &'a [f32],
+    heights: &'a [f32],
+    /// Tangents of the greatest slope of ground, and of the least one of what is straight above something.
+    limits: [f32; 2],
+}
+
+/// Ground along a column: its points, with the place of the robot as the first one.
+#[derive(Debug, Clone, Copy)]
+struct Ground {
+    points: [[f32; 2]; MOST + 1],
+    count: usize,
 }
 
 #[node]
@@ -70,64 +89,80 @@ impl RingClassifier {
         let limits = [tanf(self.max_slope), tanf(self.steep)];
         let [ox, oy, _] = columns.origin;
         let mut distances = [0.0; MOST];
+        let mut ground = Ground { points: [[0.0; 2]; MOST + 1], count: 1 };
         for (column, labels) in out.labels.chunks_exact_mut(height).enumerate() {
             let first = column * height;
             for (row, distance) in distances[..height].iter_mut().enumerate() {
                 let (x, y) = (columns.x[first + row] - ox, columns.y[first + row] - oy);
                 *distance = sqrtf(x * x + y * y);
             }
-            self.classify(&distances[..height], &columns.z[first..first + height], limits, labels);
+            let column = Column { distances: &distances[..height], heights: &columns.z[first..first + height], limits };
+            self.classify(&column, &mut ground, labels);
         }
     }
 
-    /// Labels a column. `limits` are the tangents of the greatest slope of ground and of the least one of what stands.
-    fn classify(&self, distances: &[f32], heights: &[f32], limits: [f32; 2], labels: &mut [Label]) {
-        let mut line = Line { at: [0.0, 0.0], slope: 0.0 };
-        let mut row = distances.len();
-        while row > 0 {
-            row -= 1;
-            let (r, z) = (distances[row], heights[row]);
-            // False for NaN.
-            if !(r + z).is_finite() {
-                continue;
-            }
-            let ahead = r - line.at[0];
-            let off = z - line.at[1] - line.slope * ahead.max(0.0);
-            let tolerance = self.step + self.bend * ahead.max(0.0);
-            labels[row] = if off > tolerance {
-                self.standing(off)
-            } else if off < -self.ditch - self.bend * ahead.max(0.0) {
+    fn classify(&self, column: &Column<'_>, ground: &mut Ground, labels: &mut [Label]) {
+        ground.count = 1;
+        let mut last = None;
+        for row in (0..labels.len()).rev().filter(|row| column.is_measured(*row)) {
+            let (r, z) = (column.distances[row], column.heights[row]);
+            let [from, height] = ground.points[ground.count - 1];
+            let ahead = (r - from).max(0.0);
+            let off = z - height - ground.slope(ahead) * ahead;
+            let tolerance = self.bend * ahead;
+            let is_steep = z - height > column.limits[0] * ahead || off > HIGH[0] + HIGH[1] * ahead;
+            let goes_on = last.is_some_and(|below: usize| {
+                matches!(labels[below], Label::Obstacle | Label::Overhanging) && column.is_above(row, below, 0.0)
+            });
+            let stands = off > self.step + tolerance && is_steep;
+            let is_foot =
+                || off > 0.3 * self.step && column.next(row).is_some_and(|i| column.is_above(i, row, self.step));
+            labels[row] = if goes_on || stands || is_foot() {
+                if off > self.overhang { Label::Overhanging } else { Label::Obstacle }
+            } else if off < -self.ditch - tolerance && ahead < self.brink {
                 Label::Below
-            } else if off > 0.3 * self.step && self.is_foot(distances, heights, row, limits[1]) {
-                Label::Obstacle
             } else {
-                line.advance([r, z], limits[0]);
+                ground.add([r, z]);
                 Label::Floor
             };
+            last = Some(row);
         }
-    }
-
-    const fn standing(&self, above: f32) -> Label {
-        if above > self.overhang { Label::Overhanging } else { Label::Obstacle }
-    }
-
-    /// Returns `true` if the next measured point of the column is straight above this one.
-    fn is_foot(&self, distances: &[f32], heights: &[f32], row: usize, steep: f32) -> bool {
-        let next = (0..row).rev().find(|i| (distances[*i] + heights[*i]).is_finite());
-        next.is_some_and(|i| {
-            let (dr, dz) = (distances[i] - distances[row], heights[i] - heights[row]);
-            dz > self.step && dz > steep * fabsf(dr)
-        })
     }
 }
 
-impl Line {
-    fn advance(&mut self, to: [f32; 2], steepest: f32) {
-        let ahead = to[0] - self.at[0];
-        if ahead > 0.05 {
-            let slope = ((to[1] - self.at[1]) / ahead).clamp(-steepest, steepest);
-            self.slope += NEW * (slope - self.slope);
-            self.at = to;
+impl Column<'_> {
+    const fn is_measured(&self, row: usize) -> bool {
+        // False for NaN.
+        (self.distances[row] + self.heights[row]).is_finite()
+    }
+
+    /// The next measured point above a point.
+    fn next(&self, row: usize) -> Option<usize> {
+        (0..row).rev().find(|i| self.is_measured(*i))
+    }
+
+    /// Returns `true` if a point is straight above another one, and higher than that by `least` m.
+    fn is_above(&self, upper: usize, lower: usize, least: f32) -> bool {
+        let rise = self.heights[upper] - self.heights[lower];
+        rise > least && rise > self.limits[1] * fabsf(self.distances[upper] - self.distances[lower])
+    }
+}
+
+impl Ground {
+    /// Slope of the ground over about this distance before its last point, as its tangent.
+    fn slope(&self, distance: f32) -> f32 {
+        let last = self.points[self.count - 1];
+        let reach = distance.max(LEAST);
+        let before = self.points[..self.count].iter().rev().find(|point| last[0] - point[0] >= reach);
+        let before = before.unwrap_or(&self.points[0]);
+        let way = last[0] - before[0];
+        if way > 0.1 { (last[1] - before[1]) / way } else { 0.0 }
+    }
+
+    fn add(&mut self, point: [f32; 2]) {
+        if point[0] > self.points[self.count - 1][0] + 0.05 && self.count <= MOST {
+            self.points[self.count] = point;
+            self.count += 1;
         }
     }
 }
@@ -142,7 +177,7 @@ mod tests {
     const HEIGHT: f32 = 0.85;
 
     fn node() -> RingClassifier {
-        RingClassifier::construct((0.1, 0.06, 0.4, 1.0, 1.6, 0.14))
+        RingClassifier::construct((0.1, 0.08, 0.4, 0.9, 1.6, 0.14, 2.5))
     }
 
     /// Column of a scanner above a profile of the ground: distances and heights, in m, joined by straight lines.

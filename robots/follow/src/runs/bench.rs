@@ -72,12 +72,13 @@ pub fn accuracy(seed: u64) -> Accuracy {
         let runner = track.way(s + 4.0 + random.uniform(0.0, 6.0));
         let people = [Walker { position: runner, velocity: Point2::default() }];
         for sample in [samples[0], samples[5]] {
-            put_pose(&mut program, &sample, now, &mut random);
+            put_pose(&mut program, &sample, &mut random);
+            let _ = program.inputs().turn.put(RingCloud::default());
             program.react(now);
             now += Duration::from_millis(50);
         }
         scanner.measure(terrain, &samples, &people, now, &mut random, &mut turn, &mut truth);
-        put_pose(&mut program, &samples[10], now, &mut random);
+        put_pose(&mut program, &samples[10], &mut random);
         let _ = program.inputs().turn.put(turn.clone());
         let began = Instant::now();
         program.react(now);
@@ -95,7 +96,7 @@ pub fn accuracy(seed: u64) -> Accuracy {
 }
 
 /// Pose of odometry, whose origin is that of the world.
-fn put_pose(program: &mut Perceive, sample: &Sample, _now: Time, random: &mut Random) {
+fn put_pose(program: &mut Perceive, sample: &Sample, random: &mut Random) {
     let [roll, pitch] =
         [sample.attitude.roll, sample.attitude.pitch].map(|angle| f64::from(angle + random.normal(TILT_NOISE)));
     let Pose2 { x, y, theta } = sample.pose;
