@@ -18,14 +18,20 @@ pub struct UprightClusters {
     /// Greatest width along each axis.
     #[param(unit = "m", default = 0.9, range = 0.01..=10.0)]
     max_width: f32,
-    /// Least height of the top above the ground.
+    /// Least height of a cluster, from its lowest point to its highest one.
+    #[param(unit = "m", default = 0.5, range = 0.0..=10.0)]
+    min_height: f32,
+    /// Greatest height of a cluster.
+    #[param(unit = "m", default = 2.1, range = 0.0..=10.0)]
+    max_height: f32,
+    /// Least height of the top above the robot's origin.
     #[param(unit = "m", default = 0.8, range = 0.0..=10.0)]
     min_top: f32,
-    /// Greatest height of the top above the ground, on which the slope of the ground counts, too.
-    #[param(unit = "m", default = 2.6, range = 0.0..=10.0)]
+    /// Greatest height of the top above the robot's origin.
+    #[param(unit = "m", default = 2.4, range = 0.0..=10.0)]
     max_top: f32,
-    /// Additional height of the ground, per distance.
-    #[param(default = 0.06, range = 0.0..=1.0)]
+    /// Slope of the ground, as its tangent, by which the top may be lower or higher.
+    #[param(default = 0.25, range = 0.0..=1.0)]
     slope: f32,
     /// Distance up to which clusters count.
     #[param(unit = "m", default = 22.0, range = 0.1..=100.0)]
@@ -50,7 +56,9 @@ impl UprightClusters {
             let range = middle.norm();
             let [width, depth] = [0, 1].map(|k| cluster.max[k] - cluster.min[k]);
             let rise = self.slope * range;
-            let is_upright = cluster.max[2] >= self.min_top - rise && cluster.max[2] <= self.max_top + rise;
+            let (top, height) = (cluster.max[2], cluster.max[2] - cluster.min[2]);
+            let is_upright = (self.min_top - rise..=self.max_top + rise).contains(&top)
+                && (self.min_height..=self.max_height).contains(&height);
             // False for NaN.
             let fits = width.max(depth) <= self.max_width && range <= self.reach && range > 0.1 && is_upright;
             if fits {
@@ -78,7 +86,7 @@ mod tests {
         let clusters =
             vec![at(4.0, 0.4, 1.7), at(6.0, 2.0, 1.7), at(8.0, 0.4, 4.5), at(9.0, 0.4, 0.1), at(30.0, 0.4, 1.7)];
         let pose = Pose2::new(1.0, 2.0, FRAC_PI_2);
-        let mut node = UprightClusters::construct((0.9, 0.8, 2.6, 0.06, 22.0, 0.12));
+        let mut node = UprightClusters::construct((0.9, 0.5, 2.1, 0.8, 2.4, 0.05, 22.0, 0.12));
         let mut out = Out::new();
         node.process(&Ctx::new(Time::from_millis(30)), &clusters, &pose, &mut out);
         let found = out.get().expect("detections");

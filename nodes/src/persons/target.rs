@@ -21,6 +21,8 @@ const EXPECTED: f32 = 14.0;
 const MOVES: f32 = 0.6;
 /// Time after which what is not the target and is not seen any more is forgotten, in s.
 const FORGET: f32 = 0.8;
+/// Difference of velocities up to which a person may be the same, in m/s.
+const ALIKE: f32 = 1.2;
 /// Age up to which a track may be a target that has appeared again, in s.
 const NEW: f32 = 2.5;
 
@@ -284,17 +286,16 @@ impl TrackTarget {
             }
             let reach = 1.0 + 1.5 * unseen;
             let is_again = |track: &&Track| {
-                let moves = track.hits >= 3 && track.velocity.norm() > MOVES;
+                let alike = (track.velocity - followed.velocity).norm() < ALIKE;
+                let moves = track.hits >= 4 && track.velocity.norm() > MOVES && alike;
                 let may_be = since(track.born) < unseen + NEW && (track.evidence >= 1.0 || moves);
                 track.id != followed.id && since(track.seen) < 0.3 && may_be
             };
             let distance = |track: &Track| (track.position - followed.position).norm();
             let again = self.tracks.iter().filter(is_again).min_by(|a, b| distance(a).total_cmp(&distance(b)));
             if let Some(again) = again.filter(|track| distance(track) < reach) {
-                let (id, evidence) = (again.id, fmaxf(again.evidence, followed.evidence));
-                self.target = Some(id);
+                self.target = Some(again.id);
                 self.tracks.retain(|track| track.id != followed.id);
-                self.tracks.iter_mut().filter(|track| track.id == id).for_each(|track| track.evidence = evidence);
             } else if is_thing && unseen < 0.3 {
                 self.target = None;
             }
