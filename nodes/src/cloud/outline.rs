@@ -9,7 +9,8 @@ const MOST: u16 = 3600;
 /// Scan of a virtual scanner with a full turn, at the origin of the robot, that sees the obstacles of a cloud: in each
 /// direction the nearest hazard up to `max_height`. So nodes for plane scans stop before what they do not see themselves.
 ///
-/// Directions without a hazard are free (infinity). The stamp is the time of the firing. Columns and labels of different
+/// What stands is seen by several rings: a hazard counts if at least `min_rings` rows of the cloud have one in its
+/// direction and at about its distance. Directions without a hazard are free (infinity). The stamp is the time of the firing. Columns and labels of different
 /// sizes give ⊥.
 #[node]
 #[derive(Debug, Clone)]
@@ -26,7 +27,24 @@ pub struct ObstacleScan {
     /// Height above the robot's origin up to which points count: the robot passes beneath higher ones.
     #[param(unit = "m", default = 1.4, range = 0.0..=100.0)]
     max_height: f32,
+    /// Number of rows that have to see a hazard.
+    #[param(default = 2, range = 1..=64)]
+    min_rings: u32,
+    cells: Vec<Seen>,
 }
+
+/// Hazards in a direction, at about a distance.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    /// Nearest range, in m.
+    range: f32,
+    /// Rows that see it, one bit for each.
+    rows: u64,
+}
+
+/// Length of a cell along a beam, in m, and greatest number of cells.
+const CELL: f32 = 0.5;
+const CELLS: usize = 400;
 
 #[node]
 impl ObstacleScan {
@@ -42,6 +60,9 @@ impl ObstacleScan {
         (out.range_min, out.range_max) = (self.min_range, self.max_range);
         out.ranges.clear();
         out.ranges.extend((0..count).map(|_| f32::INFINITY));
+        let cells = ((self.max_range / CELL) as usize + 2).min(CELLS);
+        self.cells.clear();
+        self.cells.resize(cells * usize::from(count), Seen { range: f32::INFINITY, rows: 0 });
         for (i, _) in labels.labels.iter().enumerate().filter(|(_, label)| label.is_hazard()) {
             let (x, y) = (points.x[i], points.y[i]);
             let range = libm::sqrtf(x * x + y * y);
@@ -51,7 +72,15 @@ impl ObstacleScan {
                 continue;
             }
             let beam = (libm::roundf((libm::atan2f(y, x) + PI) / step) as usize) % usize::from(count);
-            out.ranges[beam] = out.ranges[beam].min(range);
+            let cell = &mut self.cells[beam * cells + ((range / CELL) as usize).min(cells - 1)];
+            cell.range = cell.range.min(range);
+            cell.rows |= 1 << (i % points.height % 64);
+        }
+        for (range, cells) in out.ranges.iter_mut().zip(self.cells.chunks_exact(cells)) {
+            // What stands may be on the border of two cells.
+            let counts =
+                |pair: &&[Seen]| pair[0].rows != 0 && (pair[0].rows | pair[1].rows).count_ones() >= self.min_rings;
+            *range = cells.windows(2).find(counts).map_or(f32::INFINITY, |pair| pair[0].range);
         }
     }
 }
@@ -71,7 +100,7 @@ mod tests {
             Columns { height: 1, x: list(0), y: list(1), z: list(2), intensity: vec![0.0; 6], ..Columns::default() };
         let mut labels = Labels { height: 1, labels: vec![Label::Obstacle; 6] };
         labels.labels[2] = Label::Floor;
-        let mut node = ObstacleScan::construct((360, 0.3, 20.0, 1.4));
+        let mut node = ObstacleScan::construct((360, 0.3, 20.0, 1.4, 1));
         let mut out = Out::new();
         node.process(&Ctx::new(Time::from_millis(70)), &columns, &labels, &mut out);
         let scan = out.get().expect("a scan");
@@ -81,6 +110,22 @@ mod tests {
         assert!(seen[0].0 == -90 && (seen[0].1 - 2.0).abs() < 1e-5);
         assert!(seen[1].0 == 0 && (seen[1].1 - 1.5).abs() < 1e-5);
         assert!(scan.measures_anything() && scan.is_full_turn());
+        // Two rows see one thing, and one row another one.
+        let columns = Columns {
+            height: 2,
+            x: vec![2.0, 2.1, 0.0, f32::NAN],
+            y: vec![0.0, 0.0, 3.0, f32::NAN],
+            z: vec![0.9, 0.4, 0.4, f32::NAN],
+            intensity: vec![0.0; 4],
+            ..Columns::default()
+        };
+        let labels =
+            Labels { height: 2, labels: vec![Label::Obstacle, Label::Obstacle, Label::Obstacle, Label::Missing] };
+        let mut node = ObstacleScan::construct((360, 0.3, 20.0, 1.4, 2));
+        let mut out = Out::new();
+        node.process(&Ctx::new(Time::ZERO), &columns, &labels, &mut out);
+        let seen: Vec<f32> = out.get().expect("a scan").points().map(|(_, p)| p.norm()).collect();
+        assert!(seen.len() == 1 && (seen[0] - 2.0).abs() < 1e-5, "{seen:?}");
         let mut out = Out::new();
         node.process(&Ctx::new(Time::ZERO), &columns, &Labels::default(), &mut out);
         assert!(out.get().is_none());

@@ -67,6 +67,9 @@ pub struct ArcPlanner {
     /// Distance from the person at which a path ends.
     #[param(unit = "m", default = 2.0, range = 0.0..=100.0)]
     gap: f32,
+    /// Time for which the motion of the person is predicted: the path ends where the person will be `gap` away.
+    #[param(unit = "s", default = 0.0, range = 0.0..=10.0)]
+    lead: f32,
     /// `true` if the vehicle may also drive backward.
     #[param(default = false)]
     backward: bool,
@@ -165,12 +168,12 @@ impl ArcPlanner {
         let raster = distances.raster();
         let half = 0.5 * raster.resolution * raster.width.min(raster.height) as f32;
         let middle = raster.corner + Point2::new(half, half);
-        let off = person.position - middle;
+        let place = person.position + person.velocity.scaled(self.lead);
         let most = half - 1.0;
-        if off.norm() <= most {
-            return (person.position, self.gap);
+        if (place - middle).norm() <= most {
+            return (place, self.gap);
         }
-        let way = person.position - start.position();
+        let way = place - start.position();
         let reach = (most - (start.position() - middle).norm()).max(1.0);
         (start.position() + way.scaled(reach / way.norm().max(1e-3)), 1.5)
     }
@@ -356,7 +359,7 @@ mod tests {
     }
 
     fn plan(walls: &[(f32, f32, f32, f32)], backward: bool, person: Point2, others: &[Person]) -> Option<(Path, bool)> {
-        let mut node = ArcPlanner::construct((0.72, 0.61, 0.1, 0.5, 1.2, 2.0, backward, 2.0));
+        let mut node = ArcPlanner::construct((0.72, 0.61, 0.1, 0.5, 1.2, 2.0, 0.0, backward, 2.0));
         let persons: Persons = others.iter().copied().collect();
         node.process(Some(&map(walls)), Some(&Pose2::default()), Some(&persons));
         let (mut path, mut back, mut none) = (None, None, None);
@@ -430,7 +433,7 @@ mod tests {
         let goal = path.goal().expect("an end");
         assert!(goal.x > 7.0 && goal.norm() < 12.0, "{goal:?}");
         assert!(plan(&[], false, Point2::new(f32::NAN, 0.0), &[]).is_none());
-        let mut node = ArcPlanner::construct((0.72, 0.61, 0.1, 0.5, 1.2, 2.0, false, 2.0));
+        let mut node = ArcPlanner::construct((0.72, 0.61, 0.1, 0.5, 1.2, 2.0, 0.0, false, 2.0));
         let mut none = None;
         node.goal(&Person::default(), Event::unconnected(), Event::unconnected(), event(&mut none));
         assert!(none.is_some());

@@ -182,6 +182,9 @@ impl State {
     /// Compares where the robot believes the runner to be with where the runner is. `pose` is that of the robot in the
     /// frame of the person.
     pub fn judge(&mut self, person: Option<&Person>, pose: &Pose2) {
+        if self.report.ending.is_some() {
+            return;
+        }
         let believed = person.map(|person| self.base.pose.to_outer(pose.to_inner(person.position)));
         let knows = believed.is_some_and(|place| (place - self.runner.walker.position).norm() <= KNOWS);
         if knows {
