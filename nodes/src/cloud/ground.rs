@@ -19,7 +19,8 @@ const MOST: usize = 128;
 ///
 /// A slope is steeper than the angle `steep` if one point is straight above another one. Obstacles are overhanging beyond
 /// `overhang` above the line. A point is below the ground, in a ditch, if it is below the line by more than `ditch`, and
-/// by `bend` for each metre, and the ground before it is nearer than `brink`: beyond that, a hill may lie in between.
+/// by half of `bend` for each metre, and the ground before it is nearer than `brink`: beyond that, a hill may lie in
+/// between.
 ///
 /// `columns` are in the level frame of the robot, whose origin is on the ground, as `CompensateTurn` sends them. Columns
 /// that are not whole give ⊥.
@@ -44,7 +45,7 @@ pub struct RingClassifier {
     #[param(unit = "m", default = 1.6, range = 0.1..=100.0)]
     overhang: f32,
     /// Depth below the line of the ground from which on a point is in a ditch.
-    #[param(unit = "m", default = 0.14, range = 0.01..=10.0)]
+    #[param(unit = "m", default = 0.1, range = 0.01..=10.0)]
     ditch: f32,
     /// Distance of the ground before a ditch.
     #[param(unit = "m", default = 2.5, range = 0.0..=100.0)]
@@ -119,7 +120,7 @@ impl RingClassifier {
                 || off > 0.3 * self.step && column.next(row).is_some_and(|i| column.is_above(i, row, self.step));
             labels[row] = if goes_on || stands || is_foot() {
                 if off > self.overhang { Label::Overhanging } else { Label::Obstacle }
-            } else if off < -self.ditch - tolerance && ahead < self.brink {
+            } else if off < -self.ditch - 0.5 * tolerance && ahead < self.brink {
                 Label::Below
             } else {
                 ground.add([r, z]);
@@ -177,7 +178,7 @@ mod tests {
     const HEIGHT: f32 = 0.85;
 
     fn node() -> RingClassifier {
-        RingClassifier::construct((0.1, 0.08, 0.4, 0.9, 1.6, 0.14, 2.5))
+        RingClassifier::construct((0.1, 0.08, 0.4, 0.9, 1.6, 0.1, 2.5))
     }
 
     /// Column of a scanner above a profile of the ground: distances and heights, in m, joined by straight lines.
