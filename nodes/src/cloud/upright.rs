@@ -6,6 +6,9 @@ use crate::{
 use apex_rt::{Ctx, Out, node};
 use core::f32::consts::TAU;
 
+/// Height that a scanner sees at 1 m, in m: less than that of a VLP-16.
+const SEEN: f32 = 0.4;
+
 /// Finds the clusters that may be persons: upright ones of that size. Trunks of trees are, too; a tracker tells them
 /// apart by their motion, and by what a camera sees.
 ///
@@ -18,7 +21,8 @@ pub struct UprightClusters {
     /// Greatest width along each axis.
     #[param(unit = "m", default = 0.9, range = 0.01..=10.0)]
     max_width: f32,
-    /// Least height of a cluster, from its lowest point to its highest one.
+    /// Least height of a cluster, from its lowest point to its highest one; less very near, where a scanner does not see
+    /// more.
     #[param(unit = "m", default = 0.5, range = 0.0..=10.0)]
     min_height: f32,
     /// Greatest height of a cluster.
@@ -58,7 +62,8 @@ impl UprightClusters {
             let rise = self.slope * range;
             let (top, height) = (cluster.max[2], cluster.max[2] - cluster.min[2]);
             let is_upright = (self.min_top - rise..=self.max_top + rise).contains(&top)
-                && (self.min_height..=self.max_height).contains(&height);
+                && height >= self.min_height.min(SEEN * range)
+                && height <= self.max_height;
             // False for NaN.
             let fits = width.max(depth) <= self.max_width && range <= self.reach && range > 0.1 && is_upright;
             if fits {
@@ -83,14 +88,20 @@ mod tests {
             min: [x, -0.5 * width, 0.1],
             max: [x + 0.2, 0.5 * width, top],
         };
-        let clusters =
-            vec![at(4.0, 0.4, 1.7), at(6.0, 2.0, 1.7), at(8.0, 0.4, 4.5), at(9.0, 0.4, 0.1), at(30.0, 0.4, 1.7)];
+        let clusters = vec![
+            at(4.0, 0.4, 1.7),
+            at(6.0, 2.0, 1.7),
+            at(8.0, 0.4, 4.5),
+            at(9.0, 0.4, 0.1),
+            at(0.8, 0.3, 0.45),
+            at(30.0, 0.4, 1.7),
+        ];
         let pose = Pose2::new(1.0, 2.0, FRAC_PI_2);
         let mut node = UprightClusters::construct((0.9, 0.5, 2.1, 0.8, 2.4, 0.05, 22.0, 0.12));
         let mut out = Out::new();
         node.process(&Ctx::new(Time::from_millis(30)), &clusters, &pose, &mut out);
         let found = out.get().expect("detections");
-        assert_eq!((found.positions.len(), found.stamp), (1, Time::from_millis(30)));
+        assert_eq!((found.positions.len(), found.stamp), (2, Time::from_millis(30)), "one of them is very near");
         assert!((found.positions[0] - Point2::new(1.0, 2.0 + 4.22)).norm() < 1e-4, "{:?}", found.positions);
         let far = Pose2::new(f32::NAN, 0.0, 0.0);
         let mut out = Out::new();

@@ -288,7 +288,7 @@ impl TrackTarget {
             let is_again = |track: &&Track| {
                 let alike = (track.velocity - followed.velocity).norm() < ALIKE;
                 let moves = track.hits >= 4 && track.velocity.norm() > MOVES && alike;
-                let may_be = since(track.born) < unseen + NEW && (track.evidence >= 1.0 || moves);
+                let may_be = since(track.born) < unseen + NEW && (track.evidence >= PERSON || moves);
                 track.id != followed.id && since(track.seen) < 0.3 && may_be
             };
             let distance = |track: &Track| (track.position - followed.position).norm();
