@@ -89,7 +89,7 @@ pub fn accuracy(seed: u64) -> Accuracy {
             }
         }
         // The next turn is elsewhere.
-        program = Box::new(Perceive::new());
+        *program = Perceive::new();
         now += Duration::from_millis(100);
     }
     result
