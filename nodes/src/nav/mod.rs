@@ -1,12 +1,15 @@
 //! Navigation of omnidirectional robots: path planning on grid maps, path following, and motion relative to sensor data
 //! without a map (thesis 4.3.6 and 8.1.1). Planning for vehicles that drive in curves. Steering a tractor with a
-//! trailer beneath a container (thesis 6.7).
+//! trailer beneath a container (thesis 6.7). Following of a person at the speed of a runner with a skid-steered robot
+//! (thesis 8.4).
 //!
 //! Planning and following keep paths of any length and need the feature `std`. Motion without a map does not.
 //!
 //! A node that moves the robot sends a [`Twist`] in each firing while it moves, a twist of zero at the end, and ⊥
 //! otherwise. The page docs/safety.md says what movements and guards do when an input fails.
 
+#[cfg(feature = "std")]
+mod arcs;
 #[cfg(feature = "std")]
 mod careful;
 #[cfg(feature = "std")]
@@ -25,6 +28,7 @@ mod latest;
 mod lattice;
 #[cfg(feature = "std")]
 mod law;
+mod look;
 #[cfg(feature = "record")]
 mod message;
 mod motion;
@@ -46,6 +50,8 @@ mod safety;
 #[cfg(feature = "std")]
 mod search;
 #[cfg(feature = "std")]
+mod skid;
+#[cfg(feature = "std")]
 mod smooth;
 mod standstill;
 mod steer;
@@ -56,6 +62,8 @@ mod track;
 mod trailer_field;
 mod twist;
 
+#[cfg(feature = "std")]
+pub use arcs::ArcPlanner;
 #[cfg(feature = "std")]
 pub use careful::PersonCaution;
 #[cfg(feature = "std")]
@@ -73,6 +81,7 @@ pub use hazard::{HazardStop, MarkHazards};
 pub use lattice::{CurveDrive, CurvePlanner, CurveSearch, Floor, Goal, Ground, Section, Start, Way};
 #[cfg(feature = "std")]
 pub use law::FollowingLaw;
+pub use look::LookAround;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
 #[cfg(feature = "std")]
 pub use passing::{AwaitPersons, PersonCosts};
@@ -87,6 +96,8 @@ pub use pose::{compose, relative, shift, turned};
 pub use safety::{ProtectiveField, SafetyField};
 #[cfg(feature = "std")]
 pub use search::{NoPath, Search, Terrain};
+#[cfg(feature = "std")]
+pub use skid::SkidFollower;
 #[cfg(feature = "std")]
 pub use smooth::{is_clear, simplify, smooth, subdivide};
 pub use standstill::Standstill;

@@ -3,11 +3,11 @@
 use super::token::Token;
 use apex_nodes::{
     nav::{
-        Articulated, BackFollower, BackUp, Clearance, CurveFollower, HazardStop, MoveRobot, MoveToObstacle,
-        OdometryGuard, PathFollower, PersonCaution, PlannedApproach, PositionToTarget, ReactiveApproach, SafetyField,
-        Steer, SweepStop, TrailerField, Twist,
+        Articulated, BackFollower, BackUp, Clearance, CurveFollower, HazardStop, LookAround, MoveRobot, MoveToObstacle,
+        OdometryGuard, Path, PathFollower, PersonCaution, PlannedApproach, PositionToTarget, ReactiveApproach,
+        SafetyField, SkidFollower, Steer, SweepStop, TrailerField, Twist,
     },
-    scan::FarFromOrigin,
+    scan::{FarFromOrigin, Point2},
 };
 use apex_rt::{Construct, Ctx, Event, event};
 use std::{any::Any, collections::BTreeMap};
@@ -135,6 +135,32 @@ pub const ROWS: &[Row] = &[
                     node.process(ctx, pose, trailer, get(i, "path"), ahead, behind, ground, odometry, a, b, c)
                 })
             })
+        },
+    },
+    Row {
+        name: "SkidFollower",
+        needs: &["pose"],
+        max_age: 0.5,
+        make: || {
+            let mut node = SkidFollower::construct((
+                0.5, 0.1, 1.5, 1.8, 1.6, 0.8, 2.5, 0.4, 0.25, 0.1, 0.15, 4.0, 0.42, 0.7, 0.3, 1.2, 0.4, 1.5, 0.0, 0.5,
+            ));
+            let mut path = Some(Path { points: [0.0, 3.0, 6.0].map(|x| Point2::new(x, 0.0)).into(), heading: 0.0 });
+            Box::new(move |ctx, i| {
+                path.take().iter().for_each(|path| node.follow(path, ctx));
+                fire(["reached", "blocked", "off_path"], |[a, b, c]| {
+                    node.process(ctx, get(i, "pose"), get(i, "scan"), get(i, "map"), a, b, c)
+                })
+            })
+        },
+    },
+    Row {
+        name: "LookAround",
+        needs: &["pose"],
+        max_age: 0.5,
+        make: || {
+            let mut node = LookAround::construct((0.8, 0.2, 0.5));
+            Box::new(move |ctx, i| fire([], |[]| Ok(node.process(ctx, get(i, "pose")))))
         },
     },
     Row {

@@ -1,6 +1,6 @@
 //! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, cameras
-//! (feature `camera`), time-of-flight cameras (feature `tof`), buildings from plans (feature `building`), and people
-//! (feature `people`).
+//! (feature `camera`), time-of-flight cameras (feature `tof`), buildings from plans (feature `building`), people
+//! (feature `people`), and open country (feature `outdoor`).
 //!
 //! Available as nodes: a [`DifferentialBase`], a [`TractorBase`] with trailer and lift, a [`Battery`], and a
 //! [`LaserScanner`] in a world drawn with characters ([`FloorPlan`]), and a [`LiveView`] of it. `apex new` creates a
@@ -23,6 +23,8 @@ mod odometry;
 #[cfg(feature = "building")]
 mod office;
 mod outage;
+#[cfg(feature = "outdoor")]
+pub mod outdoor;
 mod payload;
 #[cfg(feature = "people")]
 mod people;

@@ -1,0 +1,10 @@
+//! The world of the robot: open country with a track, a runner and passers-by, the drivers of the robot in it, and a
+//! referee who sees the true state.
+
+mod drivers;
+mod report;
+mod state;
+
+pub use drivers::{Camera, Judge, Motors, Scanner, Wheels};
+pub use report::{Contact, Ending, Loss, Report};
+pub use state::{Field, Options, State};
