@@ -11,11 +11,11 @@ const NONE: u32 = u32::MAX;
 /// that are joined by such pairs (Rusu 2009).
 ///
 /// Rings that are far away are far from each other, so that parts of one thing have a gap between them: along z, the
-/// gap may be longer by `spread` for each metre of distance from the origin. A cluster has at least `min_points` points.
-/// The sizes of clusters are those of the means of their voxels. They are in the order of their first voxels.
+/// gap may be longer by `spread` for each metre of distance from the origin. A cluster has at least `min_points`
+/// points. The sizes of clusters are those of the means of their voxels. They are in the order of their first voxels.
 ///
-/// Cost: O(n) for n voxels, times the number of voxels within a gap. Allocates with the first cloud, and whenever one is
-/// larger than all before it.
+/// Cost: O(n) for n voxels, times the number of voxels within a gap. Allocates with the first cloud, and whenever one
+/// is larger than all before it.
 #[node]
 #[derive(Debug, Clone)]
 pub struct EuclideanClusters {

@@ -10,20 +10,20 @@ const MOST: usize = 128;
 ///
 /// A column is followed from the robot outward, from the lowest ring to the highest one. Ground is what continues the
 /// ground before it: each point is compared with the line through the last point of the ground, with the slope of the
-/// ground over a distance as long as that to the point. As in equation 6.2, both neighbours of a point count. A point is
-/// on an obstacle if
-/// * it is above the line by more than `step`, and by `bend` for each metre from the ground before it, and the way from
+/// ground over a distance as long as that to the point. As in equation 6.2, both neighbours of a point count. A point
+/// is on an obstacle if * it is above the line by more than `step`, and by `bend` for each metre from the ground before
+/// it, and the way from
 ///   there is steeper than `max_slope`, or the point is higher above the line than any hill;
 /// * it is above the line, and the next point of its column is straight above it: it is at the foot of something;
 /// * the point before it in its column is on an obstacle, and it is straight above that.
 ///
-/// A slope is steeper than the angle `steep` if one point is straight above another one. Obstacles are overhanging beyond
-/// `overhang` above the line. A point is below the ground, in a ditch, if it is below the line by more than `ditch`, and
-/// by half of `bend` for each metre, and the ground before it is nearer than `brink`: beyond that, a hill may lie in
-/// between.
+/// A slope is steeper than the angle `steep` if one point is straight above another one. Obstacles are overhanging
+/// beyond `overhang` above the line. A point is below the ground, in a ditch, if it is below the line by more than
+/// `ditch`, and by half of `bend` for each metre, and the ground before it is nearer than `brink`: beyond that, a hill
+/// may lie in between.
 ///
-/// `columns` are in the level frame of the robot, whose origin is on the ground, as `CompensateTurn` sends them. Columns
-/// that are not whole give ⊥.
+/// `columns` are in the level frame of the robot, whose origin is on the ground, as `CompensateTurn` sends them.
+/// Columns that are not whole give ⊥.
 ///
 /// Cost: O(n) for n points; 0.4 ms for 28,800. Allocates with the first cloud.
 #[node]

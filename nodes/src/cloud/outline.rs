@@ -7,11 +7,12 @@ use core::f32::consts::{PI, TAU};
 const MOST: u16 = 3600;
 
 /// Scan of a virtual scanner with a full turn, at the origin of the robot, that sees the obstacles of a cloud: in each
-/// direction the nearest hazard up to `max_height`. So nodes for plane scans stop before what they do not see themselves.
+/// direction the nearest hazard up to `max_height`. So nodes for plane scans stop before what they do not see
+/// themselves.
 ///
 /// What stands is seen by several rings: a hazard counts if at least `min_rings` rows of the cloud have one in its
-/// direction and at about its distance. Directions without a hazard are free (infinity). The stamp is the time of the firing. Columns and labels of different
-/// sizes give ⊥.
+/// direction and at about its distance. Directions without a hazard are free (infinity). The stamp is the time of the
+/// firing. Columns and labels of different sizes give ⊥.
 #[node]
 #[derive(Debug, Clone)]
 pub struct ObstacleScan {

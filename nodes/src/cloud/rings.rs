@@ -5,8 +5,8 @@ use std::fmt;
 /// Point cloud of one turn of a laser scanner with rings. The default has no points.
 ///
 /// Points are in m, in the frame of the scanner at the time of their column: x forward, y to the left, z up along its
-/// axis. Point `i` is in column `i / rings`, and in row `i % rings`; row 0 is the uppermost ring. The columns are in the
-/// order of their times. A direction without a measurement has NaN as its coordinates.
+/// axis. Point `i` is in column `i / rings`, and in row `i % rings`; row 0 is the uppermost ring. The columns are in
+/// the order of their times. A direction without a measurement has NaN as its coordinates.
 #[derive(Default, PartialEq)]
 #[cfg_attr(feature = "record", derive(serde::Serialize, serde::Deserialize))]
 pub struct RingCloud {

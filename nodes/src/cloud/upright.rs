@@ -13,16 +13,16 @@ const SEEN: f32 = 0.4;
 /// apart by their motion, and by what a camera sees.
 ///
 /// `clusters` are in the frame of the robot, whose origin is on the ground, and `pose` is the pose of the robot in a
-/// fixed frame, which is that of the detections: the middles of the clusters, pushed away from the robot by `inward`, as
-/// the scanner sees their near side. The stamp is that of the firing, and the view a circle of the radius `reach`.
+/// fixed frame, which is that of the detections: the middles of the clusters, pushed away from the robot by `inward`,
+/// as the scanner sees their near side. The stamp is that of the firing, and the view a circle of the radius `reach`.
 #[node]
 #[derive(Debug, Clone)]
 pub struct UprightClusters {
     /// Greatest width along each axis.
     #[param(unit = "m", default = 0.9, range = 0.01..=10.0)]
     max_width: f32,
-    /// Least height of a cluster, from its lowest point to its highest one; less very near, where a scanner does not see
-    /// more.
+    /// Least height of a cluster, from its lowest point to its highest one; less very near, where a scanner does not
+    /// see more.
     #[param(unit = "m", default = 0.5, range = 0.0..=10.0)]
     min_height: f32,
     /// Greatest height of a cluster.

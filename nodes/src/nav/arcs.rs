@@ -42,10 +42,10 @@ const NONE: u32 = u32::MAX;
 /// sees the ground only here and there. Other `persons` are avoided where they will be when the vehicle, at the speed
 /// `pace`, is there.
 ///
-/// `map` and `pose` are in the frame of the person; the last ones count when a goal comes. A person outside of the map is
-/// approached up to its border. `path` is a path forward, `back` one backward, which are to be followed by different
-/// inputs of a follower: of a path that changes its direction only the first piece is sent. `no_path` says that there is
-/// none to this person, or that no map or pose has come yet.
+/// `map` and `pose` are in the frame of the person; the last ones count when a goal comes. A person outside of the map
+/// is approached up to its border. `path` is a path forward, `back` one backward, which are to be followed by different
+/// inputs of a follower: of a path that changes its direction only the first piece is sent. `no_path` says that there
+/// is none to this person, or that no map or pose has come yet.
 #[node]
 #[derive(Debug, Clone)]
 pub struct ArcPlanner {

@@ -10,8 +10,8 @@ const GAIN: f32 = 2.0;
 /// Turns a robot on the spot while it is active, to look for something: first towards the last place where it was
 /// seen, which comes to the slot `place`, then round and round to the same side.
 ///
-/// The pose and the place are in one fixed frame. Without a place it turns to the left. Without a pose that is younger than
-/// `max_age`, the robot stands still. When the activity leaves, it sends a twist of zero.
+/// The pose and the place are in one fixed frame. Without a place it turns to the left. Without a pose that is younger
+/// than `max_age`, the robot stands still. When the activity leaves, it sends a twist of zero.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LookAround {

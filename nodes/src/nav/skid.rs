@@ -23,26 +23,26 @@ const CORNER: f32 = 0.05;
 
 /// Follows a path with a skid-steered robot that drives fast (Huskić, Buck, Zell 2017).
 ///
-/// The error of the pose is that in the frame of the path at the projection of the robot: its offset y and its direction
-/// θ against the tangent. The direction that leads back to the path is δ = −`approach`·tanh(y), and the angular velocity
-/// κ·v·cos θ + dδ/dt − `gain`·(θ − δ) makes both errors vanish. The speed is `speed`/(1 + |`slip`·κ|), times the
-/// exponential law of [`FollowingLaw`] with the turning of the path within `look_ahead`, the rotation of the robot and
-/// the distance from the end. It is limited so that neither the curve at hand nor those ahead take more than
+/// The error of the pose is that in the frame of the path at the projection of the robot: its offset y and its
+/// direction θ against the tangent. The direction that leads back to the path is δ = −`approach`·tanh(y), and the
+/// angular velocity κ·v·cos θ + dδ/dt − `gain`·(θ − δ) makes both errors vanish. The speed is `speed`/(1 + |`slip`·κ|),
+/// times the exponential law of [`FollowingLaw`] with the turning of the path within `look_ahead`, the rotation of the
+/// robot and the distance from the end. It is limited so that neither the curve at hand nor those ahead take more than
 /// `side_acceleration`, as a robot that turns fast slides and tips, and by what `scan` sees within `clearance` of the
 /// path: from there the robot stops `margin` before it.
 ///
-/// A path at `follow` is followed forward, and one at `back` backward; a new one replaces the present one, and the robot goes on at its
-/// speed. `pose` is in the frame of the path. `scan` is in the frame of the robot, and `map` in that of the path: a path
-/// over an occupied cell is blocked. Without a pose that is younger than `max_age` the robot stands. The node sends twists
-/// while it has a path, and drops it when the robot
-/// * has `reached` its end up to `tolerance`,
-/// * is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path, or it makes no progress for longer than
+/// A path at `follow` is followed forward, and one at `back` backward; a new one replaces the present one, and the
+/// robot goes on at its speed. `pose` is in the frame of the path. `scan` is in the frame of the robot, and `map` in
+/// that of the path: a path over an occupied cell is blocked. Without a pose that is younger than `max_age` the robot
+/// stands. The node sends twists while it has a path, and drops it when the robot * has `reached` its end up to
+/// `tolerance`, * is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path, or it makes no progress
+/// for longer than
 ///   `patience`, or the path is not finite,
 /// * is `off_path`: farther than `max_offset` from the path,
 /// * has been deactivated for `linger`: until then another path may come, so that the robot need not stop in between.
 ///
-/// Stops and fails while the pose is more than 100 km from the origin. That the robot stops before obstacles, and without
-/// scans, is the task of a [`SafetyField`](super::SafetyField).
+/// Stops and fails while the pose is more than 100 km from the origin. That the robot stops before obstacles, and
+/// without scans, is the task of a [`SafetyField`](super::SafetyField).
 #[node]
 #[derive(Debug, Clone)]
 pub struct SkidFollower {

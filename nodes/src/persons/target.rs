@@ -44,8 +44,8 @@ struct Track {
     is_taken: bool,
 }
 
-/// Tracks what is upright around a robot, tells which of it is the person to be followed, and keeps that person while it
-/// is hidden (thesis 8.4.2).
+/// Tracks what is upright around a robot, tells which of it is the person to be followed, and keeps that person while
+/// it is hidden (thesis 8.4.2).
 ///
 /// `clusters` are the detections of a scanner, which sees all around, persons and trunks of trees alike. Each is
 /// tracked by a Kalman filter of constant velocity; a detection belongs to the nearest track within the `gate`, the

@@ -54,7 +54,8 @@ mod tests {
     use super::robot::Summit;
     use apex_rt::Program;
 
-    /// Most instances of nodes are those of the library: only the drivers, the referee and a conversion are the robot's.
+    /// Most instances of nodes are those of the library: only the drivers, the referee and a conversion are the
+    /// robot's.
     #[test]
     fn most_nodes_are_reused() {
         let info = &<Summit as Program>::INFO;

@@ -1,5 +1,5 @@
-//! Open country (feature `outdoor`): terrain with slopes, grass, ditches, rocks and trees; a running track through it; a
-//! skid-steered base that slips and tips; a scanner with rings; and a detector of persons in stereo images.
+//! Open country (feature `outdoor`): terrain with slopes, grass, ditches, rocks and trees; a running track through it;
+//! a skid-steered base that slips and tips; a scanner with rings; and a detector of persons in stereo images.
 //!
 //! Everything follows from a seed, on every platform. Heights are in m above the plane of the world, in which positions
 //! are.

@@ -15,7 +15,7 @@ const KEPT: f32 = 0.85;
 /// Width of the walls of a ditch, in m.
 const WALL: f32 = 0.3;
 
-/// What a ray of a scanner meets.
+/// The thing that a ray of a scanner meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum Surface {
     /// Nothing.
