@@ -177,7 +177,8 @@ pub(super) fn open(path: &Path) -> Result<Mcap, ReplayError> {
     }
     match Recording::open(path).map_err(at)? {
         Recording::Mcap(file) => Ok(*file),
-        Recording::Ros1(_) => Err(ReplayError::NoRecording(path.to_owned())),
+        // Those of other programs; of which kinds there are depends on features.
+        _ => Err(ReplayError::NoRecording(path.to_owned())),
     }
 }
 

@@ -345,7 +345,7 @@ mod tests {
             assert!((libm::atan2f(p.y, p.x) - angle).abs() < 0.01);
         }
         assert!(!at(&cloud, 0.0, 0).is_measured(), "into the sky");
-        assert!(truth.iter().any(|s| *s == Surface::Ground) && !truth.iter().any(|s| s.is_obstacle()));
+        assert!(truth.contains(&Surface::Ground) && !truth.iter().any(|s| s.is_obstacle()));
     }
 
     #[test]
