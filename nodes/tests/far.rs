@@ -14,7 +14,7 @@ use std::{fs, path::Path as FilePath};
 graph!("far.afg");
 
 /// Twists of the nodes that drive, `None` for those that send none, and the number of nodes that failed.
-type Answer = ([Option<Twist>; 7], usize, bool);
+type Answer = ([Option<Twist>; 9], usize, bool);
 
 struct Robot {
     program: Drives,
@@ -40,7 +40,17 @@ impl Robot {
         self.program.react(Time::from_millis(20 * self.step));
         self.step += 1;
         let out = self.program.outputs();
-        let twists = [out.moved, out.backed, out.backed_path, out.reacted, out.planned, out.followed, out.curved];
+        let twists = [
+            out.moved,
+            out.backed,
+            out.backed_path,
+            out.reacted,
+            out.planned,
+            out.followed,
+            out.curved,
+            out.looked,
+            out.skidded,
+        ];
         let events = self.program.events();
         let failed = [
             events.move_failed.take(),
@@ -50,6 +60,8 @@ impl Robot {
             events.planned_failed.take(),
             events.follow_failed.take(),
             events.curve_failed.take(),
+            events.look_failed.take(),
+            events.skid_failed.take(),
             events.track_failed.take(),
         ];
         (twists, failed.iter().flatten().count(), events.done.take().is_some())
@@ -67,9 +79,9 @@ fn far_from_the_origin_they_stop_and_fail() {
         let (twists, failed, _) = robot.at(Pose2::default());
         assert!(failed == 0 && twists.iter().all(|twist| twist.is_some_and(|t| t != Twist::ZERO)), "{twists:?}");
         // What drives stops first; what only tracks fails at once.
-        assert_eq!(robot.at(far), ([Some(Twist::ZERO); 7], 1, false));
+        assert_eq!(robot.at(far), ([Some(Twist::ZERO); 9], 1, false));
         for _ in 0..3 {
-            assert_eq!(robot.at(far), ([None; 7], 8, false));
+            assert_eq!(robot.at(far), ([None; 9], 10, false));
         }
     }
 }

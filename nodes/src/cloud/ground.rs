@@ -11,11 +11,12 @@ const MOST: usize = 128;
 /// A column is followed from the robot outward, from the lowest ring to the highest one. Ground is what continues the
 /// ground before it: each point is compared with the line through the last point of the ground, with the slope of the
 /// ground over a distance as long as that to the point. As in equation 6.2, both neighbours of a point count. A point
-/// is on an obstacle if * it is above the line by more than `step`, and by `bend` for each metre from the ground before
-/// it, and the way from
+/// is on an obstacle if
+///
+/// - it is above the line by more than `step`, and by `bend` for each metre from the ground before it, and the way from
 ///   there is steeper than `max_slope`, or the point is higher above the line than any hill;
-/// * it is above the line, and the next point of its column is straight above it: it is at the foot of something;
-/// * the point before it in its column is on an obstacle, and it is straight above that.
+/// - it is above the line, and the next point of its column is straight above it: it is at the foot of something;
+/// - the point before it in its column is on an obstacle, and it is straight above that.
 ///
 /// A slope is steeper than the angle `steep` if one point is straight above another one. Obstacles are overhanging
 /// beyond `overhang` above the line. A point is below the ground, in a ditch, if it is below the line by more than

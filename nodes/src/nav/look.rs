@@ -1,5 +1,9 @@
-use super::{Twist, latest::fresh, twist::Halt};
-use crate::scan::{Point2, Pose2};
+use super::{
+    Twist,
+    latest::{any_far, fresh},
+    twist::Halt,
+};
+use crate::scan::{FarFromOrigin, Point2, Pose2};
 use apex_rt::{Ctx, node};
 use core::f32::consts::TAU;
 use libm::remainderf;
@@ -11,7 +15,8 @@ const GAIN: f32 = 2.0;
 /// seen, which comes to the slot `place`, then round and round to the same side.
 ///
 /// The pose and the place are in one fixed frame. Without a place it turns to the left. Without a pose that is younger
-/// than `max_age`, the robot stands still. When the activity leaves, it sends a twist of zero.
+/// than `max_age`, the robot stands still. When the activity leaves, it sends a twist of zero. Stops and fails while the
+/// pose is more than 100 km from the origin.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LookAround {
@@ -32,11 +37,18 @@ pub struct LookAround {
 
 #[node]
 impl LookAround {
-    fn process(&mut self, ctx: &Ctx, pose: Option<&Pose2>) -> Option<Twist> {
+    fn process(&mut self, ctx: &Ctx, pose: Option<&Pose2>) -> Result<Option<Twist>, FarFromOrigin> {
         if !ctx.active() {
-            return self.halt.rest();
+            return Ok(self.halt.rest());
         }
-        let Some(pose) = fresh(ctx, pose, self.max_age) else { return self.halt.drive(Twist::ZERO) };
+        if any_far([pose]) {
+            return self.halt.far();
+        }
+        Ok(self.look(fresh(ctx, pose, self.max_age)))
+    }
+
+    fn look(&mut self, pose: Option<&Pose2>) -> Option<Twist> {
+        let Some(pose) = pose else { return self.halt.drive(Twist::ZERO) };
         let error = self.last.map(|place| remainderf((place - pose.position()).angle() - pose.theta, TAU));
         let Some(error) = error.filter(|error| error.is_finite() && !self.has_looked) else {
             let side = if self.side == 0.0 { 1.0 } else { self.side };
@@ -78,16 +90,16 @@ mod tests {
         let (mut pose, mut turned) = (Pose2::default(), 0.0);
         for i in 0..400 {
             let ctx = Ctx::new(Time::from_millis(50 * i)).of_node(true);
-            let twist = node.process(&ctx, Some(&pose)).expect("it turns");
+            let twist = node.process(&ctx, Some(&pose)).unwrap().expect("it turns");
             assert!(twist.x == 0.0 && twist.omega < 0.0, "to the right, as the place is there");
             pose.theta += 0.05 * twist.omega;
             turned += 0.05 * twist.omega;
         }
         assert!(turned < -TAU, "{turned}");
         let late = Ctx::new(Time::from_millis(60_000));
-        assert_eq!(node.process(&late, Some(&pose)), Some(Twist::ZERO), "the activity has left");
-        assert_eq!(node.process(&late, Some(&pose)), None);
+        assert_eq!(node.process(&late, Some(&pose)).unwrap(), Some(Twist::ZERO), "the activity has left");
+        assert_eq!(node.process(&late, Some(&pose)).unwrap(), None);
         let blind = late.of_node(true);
-        assert_eq!(node.process(&blind, None), Some(Twist::ZERO));
+        assert_eq!(node.process(&blind, None).unwrap(), Some(Twist::ZERO));
     }
 }

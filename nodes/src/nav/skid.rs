@@ -34,12 +34,13 @@ const CORNER: f32 = 0.05;
 /// A path at `follow` is followed forward, and one at `back` backward; a new one replaces the present one, and the
 /// robot goes on at its speed. `pose` is in the frame of the path. `scan` is in the frame of the robot, and `map` in
 /// that of the path: a path over an occupied cell is blocked. Without a pose that is younger than `max_age` the robot
-/// stands. The node sends twists while it has a path, and drops it when the robot * has `reached` its end up to
-/// `tolerance`, * is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path, or it makes no progress
-/// for longer than
+/// stands. The node sends twists while it has a path, and drops it when the robot
+///
+/// - has `reached` its end up to `tolerance`,
+/// - is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path, or it makes no progress for longer than
 ///   `patience`, or the path is not finite,
-/// * is `off_path`: farther than `max_offset` from the path,
-/// * has been deactivated for `linger`: until then another path may come, so that the robot need not stop in between.
+/// - is `off_path`: farther than `max_offset` from the path,
+/// - has been deactivated for `linger`: until then another path may come, so that the robot need not stop in between.
 ///
 /// Stops and fails while the pose is more than 100 km from the origin. That the robot stops before obstacles, and
 /// without scans, is the task of a [`SafetyField`](super::SafetyField).

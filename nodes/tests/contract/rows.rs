@@ -160,7 +160,7 @@ pub const ROWS: &[Row] = &[
         max_age: 0.5,
         make: || {
             let mut node = LookAround::construct((0.8, 0.2, 0.5));
-            Box::new(move |ctx, i| fire([], |[]| Ok(node.process(ctx, get(i, "pose")))))
+            Box::new(move |ctx, i| fire([], |[]| node.process(ctx, get(i, "pose"))))
         },
     },
     Row {
