@@ -15,8 +15,8 @@ const GAIN: f32 = 2.0;
 /// seen, which comes to the slot `place`, then round and round to the same side.
 ///
 /// The pose and the place are in one fixed frame. Without a place it turns to the left. Without a pose that is younger
-/// than `max_age`, the robot stands still. When the activity leaves, it sends a twist of zero. Stops and fails while the
-/// pose is more than 100 km from the origin.
+/// than `max_age`, the robot stands still. When the activity leaves, it sends a twist of zero. Stops and fails while
+/// the pose is more than 100 km from the origin.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LookAround {

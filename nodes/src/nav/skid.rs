@@ -37,8 +37,8 @@ const CORNER: f32 = 0.05;
 /// stands. The node sends twists while it has a path, and drops it when the robot
 ///
 /// - has `reached` its end up to `tolerance`,
-/// - is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path, or it makes no progress for longer than
-///   `patience`, or the path is not finite,
+/// - is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path, or it makes no progress for longer
+///   than `patience`, or the path is not finite,
 /// - is `off_path`: farther than `max_offset` from the path,
 /// - has been deactivated for `linger`: until then another path may come, so that the robot need not stop in between.
 ///
