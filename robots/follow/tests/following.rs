@@ -7,7 +7,7 @@ use follow::{
 
 #[test]
 fn the_robot_follows_the_runner_round_a_short_track() {
-    let options = Options { seed: 1, length: 300.0, people: false };
+    let options = Options { seed: 2, length: 300.0, people: false };
     let first = run(&options).expect("it runs");
     assert_eq!(first.report.ending, Some(Ending::Arrived), "{:?}", first.report.losses);
     assert!(first.report.contacts.is_empty() && first.failures.is_empty(), "{:?}", first.failures);
