@@ -1,4 +1,4 @@
-use super::{Columns, Labels};
+use super::{Columns, Labels, sets::Sets};
 use apex_rt::{Out, node};
 
 /// Maximum number of voxels along a side of the grid, which bounds its memory.
@@ -90,8 +90,8 @@ struct Grid {
     cells: Vec<u32>,
     /// Cells with points.
     used: Vec<usize>,
-    /// Parent of each voxel with points.
-    parents: Vec<u32>,
+    /// Voxels with points that touch each other.
+    sets: Sets,
     /// Index of the cluster of each voxel with points.
     indices: Vec<u32>,
 }
@@ -124,20 +124,20 @@ impl ClusterCloud {
     /// Replaces the numbers of voxels by those of clusters, and drops clusters of the wrong size with their points.
     fn collect(&mut self, columns: &Columns, out: &mut Clusters) {
         let Clusters { clusters, members, .. } = out;
-        let Grid { parents, indices, .. } = &mut self.grid;
+        let Grid { sets, indices, .. } = &mut self.grid;
         clusters.clear();
         indices.clear();
-        indices.resize(parents.len(), NONE);
+        indices.resize(sets.len(), NONE);
         for Member { point, cluster } in members.iter_mut() {
             let i = *point as usize;
             let point = [columns.x[i], columns.y[i], columns.z[i]];
-            let index = &mut indices[parents[*cluster as usize] as usize];
+            let index = &mut indices[sets.root(*cluster) as usize];
             if *index == NONE {
                 *index = clusters.len() as u32;
-                clusters.push(Cluster { points: 0, min: point, max: point });
+                clusters.push(Cluster::at(point));
             }
             *cluster = *index;
-            clusters[*index as usize].add(point);
+            clusters[*index as usize].add(point, 1);
         }
         // New indices of the clusters that are kept.
         indices.clear();
@@ -163,8 +163,14 @@ impl ClusterCloud {
 }
 
 impl Cluster {
-    fn add(&mut self, point: [f32; 3]) {
-        self.points += 1;
+    /// Cluster around a point, without any points yet.
+    pub(super) fn at(point: [f32; 3]) -> Self {
+        Self { points: 0, min: point, max: point }
+    }
+
+    /// Adds some points at a place.
+    pub(super) fn add(&mut self, point: [f32; 3], count: usize) {
+        self.points += count;
         for ((min, max), value) in self.min.iter_mut().zip(&mut self.max).zip(point) {
             *min = min.min(value);
             *max = max.max(value);
@@ -190,7 +196,7 @@ impl Grid {
             self.cells.resize(size.iter().product(), 0);
         }
         self.used.clear();
-        self.parents.clear();
+        self.sets.clear();
     }
 
     /// Number of the voxel of a point, in voxels, or `None` outside of the grid. The outermost voxels stay empty.
@@ -203,14 +209,14 @@ impl Grid {
         let [x, y, z] = place.map(|value| value as u32 as usize + 1);
         let cell = (x * self.size[1] + y) * self.size[2] + z;
         if self.cells[cell] == 0 {
-            self.parents.push(self.used.len() as u32);
+            self.sets.add();
             self.used.push(cell);
             self.cells[cell] = self.used.len() as u32;
         }
         Some(self.cells[cell] - 1)
     }
 
-    /// Joins voxels that touch. Afterwards, the parent of each voxel is the root of its cluster.
+    /// Joins voxels that touch.
     fn join(&mut self) {
         let [_, columns, layers] = self.size;
         let offset = |i: usize| (i / 9 * columns + i / 3 % 3) * layers + i % 3;
@@ -220,37 +226,21 @@ impl Grid {
             for neighbour in 0..13 {
                 let other = self.cells[first + offset(neighbour)];
                 if other != 0 {
-                    let (a, b) = (self.root(number as u32), self.root(other - 1));
-                    self.parents[a.max(b) as usize] = a.min(b);
+                    self.sets.join(number as u32, other - 1);
                 }
             }
         }
-        for number in 0..self.parents.len() {
-            self.parents[number] = self.root(number as u32);
-        }
-    }
-
-    fn root(&mut self, mut voxel: u32) -> u32 {
-        while self.parents[voxel as usize] != voxel {
-            let parent = self.parents[voxel as usize];
-            self.parents[voxel as usize] = self.parents[parent as usize];
-            voxel = parent;
-        }
-        voxel
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloud::Label;
+    use crate::cloud::{Label, columns::tests::dark};
     use apex_rt::Construct;
 
     fn columns(points: &[[f32; 3]]) -> (Columns, Labels) {
-        let list = |i: usize| points.iter().map(|p| p[i]).collect();
-        let intensity = vec![0.0; points.len()];
-        let columns = Columns { height: 1, x: list(0), y: list(1), z: list(2), intensity, ..Columns::default() };
-        (columns, Labels { height: 1, labels: vec![Label::Obstacle; points.len()] })
+        (dark(1, points), Labels { height: 1, labels: vec![Label::Obstacle; points.len()] })
     }
 
     fn clusters(points: &[[f32; 3]], min_points: usize, max_size: f32) -> Clusters {

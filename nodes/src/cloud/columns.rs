@@ -138,10 +138,17 @@ pub(super) mod tests {
     use crate::cloud::{CloudPoint, Label};
     use apex_rt::{Construct, Time};
 
+    /// Columns with these points, which reflect nothing.
+    pub fn dark(height: usize, points: &[[f32; 3]]) -> Columns {
+        let list = |i: usize| points.iter().map(|p| p[i]).collect();
+        let intensity = vec![0.0; points.len()];
+        Columns { height, x: list(0), y: list(1), z: list(2), intensity, ..Columns::default() }
+    }
+
     /// Columns with these points, and a label for each: missing without a measurement, unknown otherwise.
     pub fn columns(height: usize, points: &[[f32; 4]]) -> (Columns, Labels) {
-        let list = |i: usize| points.iter().map(|p| p[i]).collect();
-        let columns = Columns { height, x: list(0), y: list(1), z: list(2), intensity: list(3), ..Columns::default() };
+        let places: Vec<[f32; 3]> = points.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
+        let columns = Columns { intensity: points.iter().map(|p| p[3]).collect(), ..dark(height, &places) };
         let label = |p: &[f32; 4]| if p[0].is_nan() { Label::Missing } else { Label::Unknown };
         (columns, Labels { height, labels: points.iter().map(label).collect() })
     }

@@ -1,5 +1,6 @@
 use super::{
     Cluster,
+    sets::Sets,
     voxel::{VoxelTable, Voxels},
 };
 use apex_rt::{Out, node};
@@ -29,7 +30,7 @@ pub struct EuclideanClusters {
     #[param(default = 4, range = 1..=1_000_000)]
     min_points: u32,
     table: VoxelTable,
-    parents: Vec<u32>,
+    sets: Sets,
     numbers: Vec<u32>,
 }
 
@@ -39,27 +40,22 @@ impl EuclideanClusters {
         let out = clusters.get_mut();
         out.clear();
         self.table.reset(voxels.voxels.len());
-        self.parents.clear();
-        self.parents.extend(0..voxels.voxels.len() as u32);
+        self.sets.clear();
         for i in 0..voxels.voxels.len() as u32 {
+            self.sets.add();
             self.table.insert(i, &voxels.voxels);
         }
         (0..voxels.voxels.len()).for_each(|i| self.join(voxels, i));
         self.numbers.clear();
-        self.numbers.resize(self.parents.len(), NONE);
+        self.numbers.resize(self.sets.len(), NONE);
         for (i, voxel) in voxels.voxels.iter().enumerate() {
-            let root = self.root(i as u32) as usize;
+            let root = self.sets.root(i as u32) as usize;
             let number = &mut self.numbers[root];
             if *number == NONE {
                 *number = out.len() as u32;
-                out.push(Cluster { points: 0, min: voxel.mean, max: voxel.mean });
+                out.push(Cluster::at(voxel.mean));
             }
-            let cluster = &mut out[*number as usize];
-            cluster.points += voxel.count as usize;
-            for k in 0..3 {
-                cluster.min[k] = cluster.min[k].min(voxel.mean[k]);
-                cluster.max[k] = cluster.max[k].max(voxel.mean[k]);
-            }
+            out[*number as usize].add(voxel.mean, voxel.count as usize);
         }
         out.retain(|cluster| cluster.points >= self.min_points as usize);
     }
@@ -84,36 +80,23 @@ impl EuclideanClusters {
                     let d: [f32; 3] =
                         std::array::from_fn(|k| (voxel.mean[k] - mean[k]) / if k == 2 { up } else { self.gap });
                     if d.iter().map(|c| c * c).sum::<f32>() <= 1.0 {
-                        let (a, b) = (self.root(i as u32), self.root(other));
-                        self.parents[a.max(b) as usize] = a.min(b);
+                        self.sets.join(i as u32, other);
                     }
                 }
             }
         }
-    }
-
-    fn root(&mut self, mut voxel: u32) -> u32 {
-        while self.parents[voxel as usize] != voxel {
-            let parent = self.parents[voxel as usize];
-            self.parents[voxel as usize] = self.parents[parent as usize];
-            voxel = parent;
-        }
-        voxel
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloud::{Columns, VoxelGrid};
+    use crate::cloud::{VoxelGrid, columns::tests::dark};
     use apex_rt::Construct;
 
     fn clusters(points: &[[f32; 3]], gap: f32, spread: f32) -> Vec<Cluster> {
-        let list = |i: usize| points.iter().map(|p| p[i]).collect();
-        let intensity = vec![0.0; points.len()];
-        let columns = Columns { height: 1, x: list(0), y: list(1), z: list(2), intensity, ..Columns::default() };
         let (mut voxels, mut out) = (Out::new(), Out::new());
-        VoxelGrid::construct((0.1, 30.0)).process(&columns, None, &mut voxels);
+        VoxelGrid::construct((0.1, 30.0)).process(&dark(1, points), None, &mut voxels);
         let mut node = EuclideanClusters::construct((gap, spread, 3));
         node.process(voxels.get().expect("voxels"), &mut out);
         out.get().cloned().expect("clusters")

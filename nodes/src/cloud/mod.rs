@@ -33,6 +33,7 @@ mod outline;
 mod points;
 mod rings;
 mod rolling;
+mod sets;
 mod smooth;
 mod upright;
 mod voxel;

@@ -10,7 +10,7 @@ const MOST: u16 = 3600;
 /// direction the nearest hazard up to `max_height`. So nodes for plane scans stop before what they do not see
 /// themselves.
 ///
-/// What stands is seen by several rings: a hazard counts if at least `min_rings` rows of the cloud have one in its
+/// Several rings see a thing that stands: a hazard counts if at least `min_rings` rows of the cloud have one in its
 /// direction and at about its distance. Directions without a hazard are free (infinity). The stamp is the time of the
 /// firing. Columns and labels of different sizes give ⊥.
 #[node]
@@ -89,16 +89,14 @@ impl ObstacleScan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloud::Label;
+    use crate::cloud::{Label, columns::tests::dark};
     use apex_rt::{Construct, Time};
 
     #[test]
     fn the_nearest_hazard_of_each_direction_is_seen() {
         let points =
             [[2.0, 0.0, 0.5], [1.5, 0.0, 0.5], [1.0, 0.0, 0.0], [0.0, 3.0, 9.0], [0.0, -2.0, 1.0], [0.1, 0.0, 0.2]];
-        let list = |i: usize| points.iter().map(|p| p[i]).collect();
-        let columns =
-            Columns { height: 1, x: list(0), y: list(1), z: list(2), intensity: vec![0.0; 6], ..Columns::default() };
+        let columns = dark(1, &points);
         let mut labels = Labels { height: 1, labels: vec![Label::Obstacle; 6] };
         labels.labels[2] = Label::Floor;
         let mut node = ObstacleScan::construct((360, 0.3, 20.0, 1.4, 1));
@@ -112,14 +110,7 @@ mod tests {
         assert!(seen[1].0 == 0 && (seen[1].1 - 1.5).abs() < 1e-5);
         assert!(scan.measures_anything() && scan.is_full_turn());
         // Two rows see one thing, and one row another one.
-        let columns = Columns {
-            height: 2,
-            x: vec![2.0, 2.1, 0.0, f32::NAN],
-            y: vec![0.0, 0.0, 3.0, f32::NAN],
-            z: vec![0.9, 0.4, 0.4, f32::NAN],
-            intensity: vec![0.0; 4],
-            ..Columns::default()
-        };
+        let columns = dark(2, &[[2.0, 0.0, 0.9], [2.1, 0.0, 0.4], [0.0, 3.0, 0.4], [f32::NAN; 3]]);
         let labels =
             Labels { height: 2, labels: vec![Label::Obstacle, Label::Obstacle, Label::Obstacle, Label::Missing] };
         let mut node = ObstacleScan::construct((360, 0.3, 20.0, 1.4, 2));

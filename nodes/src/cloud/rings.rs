@@ -62,7 +62,7 @@ impl RingCloud {
     }
 
     /// Adds a column at the end: its time in s after the stamp, and the points of its rings from the uppermost one.
-    /// Nothing is added if their number is not that of the rings, or if there is no room.
+    /// Adds nothing if their number is not that of the rings, or if there is no room.
     pub fn push_column(&mut self, time: f32, points: &[CloudPoint]) {
         if points.len() == self.rings && self.points.len() + points.len() <= MAX_POINTS {
             self.points.extend_from_slice(points);

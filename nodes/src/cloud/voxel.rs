@@ -149,19 +149,13 @@ impl VoxelGrid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloud::Label;
+    use crate::cloud::{Label, columns::tests::dark};
     use apex_rt::Construct;
     use std::collections::BTreeMap;
 
-    fn columns(points: &[[f32; 3]]) -> Columns {
-        let list = |i: usize| points.iter().map(|p| p[i]).collect();
-        let intensity = vec![0.0; points.len()];
-        Columns { height: 1, x: list(0), y: list(1), z: list(2), intensity, ..Columns::default() }
-    }
-
     fn grid(points: &[[f32; 3]], labels: Option<&Labels>) -> Option<Voxels> {
         let mut out = Out::new();
-        VoxelGrid::construct((0.2, 30.0)).process(&columns(points), labels, &mut out);
+        VoxelGrid::construct((0.2, 30.0)).process(&dark(1, points), labels, &mut out);
         out.get().cloned()
     }
 

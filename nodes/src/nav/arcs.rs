@@ -1,11 +1,11 @@
-use super::Path;
+use super::{Path, open::Open};
 use crate::{
     map::{DistanceTransform, Grid, Occupancy},
     persons::{Person, Persons},
     scan::{Point2, Pose2},
 };
 use apex_rt::{Event, node};
-use core::{cmp::Ordering, f32::consts::TAU};
+use core::f32::consts::TAU;
 use libm::{floorf, hypotf};
 use std::collections::BinaryHeap;
 
@@ -103,27 +103,6 @@ struct Node {
     curvature: f32,
     is_back: bool,
     before: u32,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Open {
-    estimate: f32,
-    node: u32,
-}
-
-impl Eq for Open {}
-
-/// The greatest entry is expanded next: the one with the least estimate, then the latest.
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.estimate.total_cmp(&self.estimate).then_with(|| self.node.cmp(&other.node))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
 }
 
 #[node]

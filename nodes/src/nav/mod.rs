@@ -35,6 +35,8 @@ mod motion;
 #[cfg(feature = "std")]
 mod near;
 #[cfg(feature = "std")]
+mod open;
+#[cfg(feature = "std")]
 mod outline;
 #[cfg(feature = "std")]
 mod passing;

@@ -1,7 +1,7 @@
-use super::{Open, Place, SIDE};
+use super::{Place, SIDE};
 use crate::{
     map::{Cell, Grid, Raster},
-    nav::Terrain,
+    nav::{Terrain, open::Open},
     scan::Point2,
 };
 use core::f32::consts::SQRT_2;

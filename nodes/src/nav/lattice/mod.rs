@@ -14,10 +14,10 @@ pub use way::{Goal, Section, Start, Way};
 
 use super::{
     NoPath, Terrain,
+    open::Open,
     payload::dubins::{Curve, advanced, curves},
 };
 use crate::scan::{Point2, Pose2};
-use core::cmp::Ordering;
 use drive::{CHECK, Drive, bend};
 use estimate::Estimates;
 use footing::Footing;
@@ -132,27 +132,6 @@ enum Effort {
     Fine,
     /// The estimate counts more.
     Greedy,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Open {
-    estimate: f32,
-    node: u32,
-}
-
-impl Eq for Open {}
-
-/// The greatest entry is expanded next: the one with the least estimate, then the latest.
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.estimate.total_cmp(&self.estimate).then_with(|| self.node.cmp(&other.node))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
 }
 
 impl CurveSearch {
