@@ -271,9 +271,9 @@ impl<'a> Walker<'a, '_> {
                     self.used(name, definition);
                 }
             }
-            Endpoint::Instance(instance) => match (instance.path.segments.as_slice(), instance.as_given()) {
-                ([port], Some(value)) if self.declared.graphs[&id].contains_key(port.text.as_str()) => {
-                    self.reference(id, &PortRef { parts: vec![port.clone()], span: port.span });
+            Endpoint::Instance(instance) => match instance.as_given() {
+                Some((port, value)) if self.declared.graphs[&id].contains_key(port.text().as_str()) => {
+                    self.reference(id, &port);
                     self.expr(Some(id), value);
                 }
                 _ => self.instance(Some(id), instance),

@@ -8,7 +8,8 @@ use crate::{
     catalog::{Catalog, Signature, Type},
     graph::{Graph, NodeId, NodeKind, PortId, Wire, WireEnd},
     report::{Diagnostic, Diagnostics},
-    syntax::tree::Ident,
+    resolve::mismatch,
+    syntax::tree::{Arrow, Ident},
 };
 use std::collections::BTreeMap;
 
@@ -117,7 +118,7 @@ fn kept(signature: &Signature, port: usize) -> Option<String> {
 fn is_unknown(signature: &Signature, param: &str) -> bool {
     let of_param = signature.bounds.iter().filter_map(|bound| bound.split_once(':'));
     let bounds = of_param.filter(|(name, _)| name.trim() == param).flat_map(|(_, bounds)| bounds.split(" + "));
-    bounds.map(|bound| bound.trim().rsplit("::").next().unwrap_or_default()).all(|bound| HARMLESS.contains(&bound))
+    bounds.map(str::trim).all(|bound| HARMLESS.contains(&bound.rsplit_once("::").map_or(bound, |(_, name)| name)))
 }
 
 fn error(graph: &Graph, catalog: &Catalog, wire: &Wire, (sent, taken): (&Ident, &Ident)) -> Diagnostic {
@@ -128,16 +129,12 @@ fn error(graph: &Graph, catalog: &Catalog, wire: &Wire, (sent, taken): (&Ident, 
         .also(sent.span, "declared here")
         .also(taken.span, "declared here")
         .note("insert a node that turns the tokens; what it sends has no frame until a port says one");
-    let path: Vec<String> = MOUNT.split("::").map(str::to_owned).collect();
-    if ty(graph, wire.from).name() != "Scan" || catalog.nodes(&path).is_empty() {
+    if ty(graph, wire.from).name() != "Scan" {
         return error;
     }
-    let arrow = if wire.active { "=>" } else { "->" };
-    let (help, node) = (
-        format!("turn the scan, with the pose of `{}` in `{}`", sent.text, taken.text),
-        format!(" {MOUNT}(x = 0m, y = 0m, heading = 0deg) {arrow}"),
-    );
-    error.guess(help, wire.span.after(), node)
+    let help = format!("turn the scan, with the pose of `{}` in `{}`", sent.text, taken.text);
+    let arrow = Arrow { active: wire.active, span: wire.span };
+    mismatch::inserting(error, &help, (MOUNT, "x = 0m, y = 0m, heading = 0deg"), arrow, catalog)
 }
 
 fn ty(graph: &Graph, place: WireEnd) -> &Type {
@@ -147,17 +144,11 @@ fn ty(graph: &Graph, place: WireEnd) -> &Type {
     }
 }
 
-/// A port as it is written in the graph around it.
+/// A port as it is written in the graph around it; for a delay, which is a modifier, the port before it.
 fn name(graph: &Graph, place: WireEnd) -> String {
-    match place {
-        // A delay is written as a modifier.
-        WireEnd::Port(end) if graph.nodes[end.node].is_delay() && graph.origin(end) != end => {
-            name(graph, WireEnd::Port(graph.origin(end)))
-        }
-        WireEnd::Port(end) => match graph.nodes[end.node].kind {
-            NodeKind::Boundary(_) => graph.nodes[end.node].name.clone(),
-            _ => format!("{}.{}", graph.nodes[end.node].name, graph.port(end).name),
-        },
-        WireEnd::Pin(pin) => format!("{}.{}", graph.scopes[graph.pins[pin].scope].name, graph.pins[pin].name),
-    }
+    let place = match place {
+        WireEnd::Port(end) if graph.nodes[end.node].is_delay() => WireEnd::Port(graph.origin(end)),
+        place => place,
+    };
+    place.text(&graph.nodes, &graph.pins, &graph.scopes)
 }

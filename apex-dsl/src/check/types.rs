@@ -10,7 +10,7 @@ use crate::{
 /// Reports connections whose ends certainly differ. All others are left to rustc.
 pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for connection in &graph.connections {
-        if connection.differs || connection.given.is_some() || compare(graph, connection) != Match::Different {
+        if connection.differs || compare(graph, connection) != Match::Different {
             continue;
         }
         let (from, to) = (token_type(graph, connection.from), graph.port(connection.to).ty.clone());
@@ -32,8 +32,12 @@ pub fn check_types(graph: &Graph, catalog: &Catalog, diagnostics: &mut Diagnosti
     }
 }
 
-/// Result of comparing the types at the two ends of a connection. The list of an `each` is compared by its elements.
+/// Result of comparing the types at the two ends of a connection. The list of an `each` is compared by its elements. A
+/// value in place of the tokens was fitted to the slot.
 pub fn compare(graph: &Graph, connection: &Connection) -> Match {
+    if connection.given.is_some() {
+        return Match::Same;
+    }
     let from = token_type(graph, connection.from);
     let to = &graph.port(connection.to).ty;
     match &graph.nodes[connection.to.node].kind {

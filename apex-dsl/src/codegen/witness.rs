@@ -29,10 +29,7 @@ impl Generator<'_> {
     fn is_compared_by_rustc(&self, graph: &Graph, connection: ConnectionId) -> bool {
         let c = &graph.connections[connection];
         let NodeKind::Library(library) = &graph.nodes[c.to.node].kind else { return false };
-        c.given.is_none()
-            && library.types.is_empty()
-            && graph.port(c.to).parameter.is_none()
-            && compare_types(graph, c) == Match::Unknown
+        library.types.is_empty() && graph.port(c.to).parameter.is_none() && compare_types(graph, c) == Match::Unknown
     }
 
     /// The trait that compares the types of a connection, if rustc has to.

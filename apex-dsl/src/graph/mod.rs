@@ -158,6 +158,19 @@ pub enum WireEnd {
     Pin(usize),
 }
 
+impl WireEnd {
+    /// The end as it is written in the graph around it: `node.port`, or a port of that graph.
+    pub fn text(self, nodes: &IdVec<NodeId, Node>, pins: &[Pin], scopes: &IdVec<ScopeId, Scope>) -> String {
+        match self {
+            Self::Port(end) => match &nodes[end.node] {
+                Node { name, kind: NodeKind::Boundary(_), .. } => name.clone(),
+                Node { name, ports, .. } => format!("{name}.{}", ports[end.port].name),
+            },
+            Self::Pin(pin) => format!("{}.{}", scopes[pins[pin].scope].name, pins[pin].name),
+        }
+    }
+}
+
 /// A connection as written: each end is a port of a node or of a nested graph.
 #[derive(Debug, Clone)]
 pub struct Wire {

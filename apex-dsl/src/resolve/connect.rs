@@ -177,8 +177,7 @@ impl Builder<'_> {
                 if let [port] = instance.path.segments.as_slice()
                     && (table.get(&port.text).is_some() || own_node(&port.text).is_some())
                 {
-                    if let Some(given) = instance.as_given() {
-                        let reference = PortRef { parts: vec![port.clone()], span: port.span };
+                    if let Some((reference, given)) = instance.as_given() {
                         return vec![self.port(body, table, &reference, Some(given)).map(Meaning::One)];
                     }
                     if self.constructor(&instance.path).is_err() {

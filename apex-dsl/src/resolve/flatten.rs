@@ -243,19 +243,7 @@ fn is_input(builder: &Builder<'_>, place: WireEnd) -> bool {
 }
 
 fn name(builder: &Builder<'_>, place: WireEnd) -> String {
-    match place {
-        WireEnd::Port(end) => {
-            let node = &builder.nodes[end.node];
-            match node.kind {
-                NodeKind::Boundary(_) => format!("`{}`", node.name),
-                _ => format!("`{}.{}`", node.name, node.ports[end.port].name),
-            }
-        }
-        WireEnd::Pin(pin) => {
-            let pin = &builder.pins[pin];
-            format!("`{}.{}`", builder.scopes[pin.scope].name, pin.name)
-        }
-    }
+    format!("`{}`", place.text(&builder.nodes, &builder.pins, &builder.scopes))
 }
 
 /// Reports pins that nothing is connected to although their tokens are needed.

@@ -5,6 +5,7 @@ use crate::{
     fraction::Fraction,
     report::Diagnostic,
     source::Span,
+    syntax::tree::Arrow,
     units::Unit,
 };
 
@@ -34,15 +35,28 @@ pub fn remedy(
     }
     let factor = from.factor.checked_div(to.factor).map_or_else(|| from.size() / to.size(), Fraction::value);
     let error = error.note(format!("units are not converted implicitly: multiply by {factor}"));
-    let path: Vec<String> = SCALE.split("::").map(str::to_owned).collect();
-    let is_float = matches!(sent.name(), "f32" | "f64");
-    if catalog.nodes(&path).is_empty() || !is_float {
+    if !matches!(sent.name(), "f32" | "f64") {
         return error;
     }
-    let sign = if active { "=>" } else { "->" };
     // With a decimal point, because whole numbers are integers.
-    let node = format!(" {SCALE}(factor = {factor:?}) {sign}");
-    error.guess("insert the conversion", arrow.after(), node)
+    let args = format!("factor = {factor:?}");
+    inserting(error, "insert the conversion", (SCALE, &args), Arrow { active, span: arrow }, catalog)
+}
+
+/// Adds the fix that inserts a node behind an arrow, if there is one with this path.
+pub fn inserting(
+    error: Diagnostic,
+    help: &str,
+    (path, args): (&str, &str),
+    arrow: Arrow,
+    catalog: &Catalog,
+) -> Diagnostic {
+    let segments: Vec<String> = path.split("::").map(str::to_owned).collect();
+    if catalog.nodes(&segments).is_empty() {
+        return error;
+    }
+    let sign = if arrow.active { "=>" } else { "->" };
+    error.guess(help, arrow.span.after(), format!(" {path}({args}) {sign}"))
 }
 
 /// The units of both ends, if the types differ in nothing else.

@@ -298,10 +298,12 @@ impl Modifier {
 }
 
 impl Instance {
-    /// The value in `port(value)`, which an instance is if its name is that of a port.
-    pub fn as_given(&self) -> Option<&Expr> {
+    /// The parts of `port(value)`, which an instance is if its name is that of a port.
+    pub fn as_given(&self) -> Option<(PortRef, &Expr)> {
         match (self.path.segments.as_slice(), self.args.as_slice()) {
-            ([_], [Arg { name: None, value }]) if self.types.is_empty() && self.modifiers.is_empty() => Some(value),
+            ([port], [Arg { name: None, value }]) if self.types.is_empty() && self.modifiers.is_empty() => {
+                Some((PortRef { parts: vec![port.clone()], span: port.span }, value))
+            }
             _ => None,
         }
     }

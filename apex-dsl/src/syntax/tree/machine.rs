@@ -46,7 +46,7 @@ pub struct Transition {
     pub guard: Option<Expr>,
     /// The new state; `None` if the state remains the same.
     pub target: Option<Ident>,
-    /// Of the states inside the new one, that which it was in last is entered.
+    /// Return to the state inside the new one that was left last.
     pub returns: Option<Return>,
     /// Events that are triggered.
     pub actions: Vec<Action>,
