@@ -15,7 +15,7 @@ use std::{
 };
 
 /// Version of the cached items: increment it whenever their format changes.
-const VERSION: u32 = 16;
+const VERSION: u32 = 17;
 
 #[derive(Serialize, Deserialize, Default)]
 struct Cache {

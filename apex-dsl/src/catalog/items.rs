@@ -1,7 +1,11 @@
 //! Items of one Rust file that matter to the catalog: modules, imports, types and node signatures. They are cached
 //! between runs, and so contain no syntax trees and do not depend on other files.
 
-use super::ty::Ty;
+use super::{
+    impls::{TraitOf, derived, implemented},
+    rust::{arguments_of, bounds, generics, is_cfg, numbers_of, path_value, plain, unraw},
+    ty::Ty,
+};
 use apex_signature as signature;
 use quote::ToTokens as _;
 use serde::{Deserialize, Serialize};
@@ -90,8 +94,8 @@ pub struct TypeItem {
     pub numbers: Vec<usize>,
     /// Variants without fields of an enum. A struct without fields counts as a variant with an empty name.
     pub values: Vec<String>,
-    /// Last segments of the paths of the derived traits.
-    pub derives: Vec<String>,
+    /// Its traits, as far as they are derived or implemented beside it.
+    pub traits: Vec<TraitOf>,
     /// Names of its type parameters and constants.
     pub generics: Vec<String>,
     /// The fields of a struct, if source files can write it as a value: all of them have names, and exist always.
@@ -341,9 +345,9 @@ fn items(syntax: &[Syn]) -> Vec<Item> {
             Syn::Enum(e) => {
                 let variants = e.variants.iter().filter(|v| v.fields.is_empty() && v.attrs.iter().all(|a| !is_cfg(a)));
                 let values = variants.map(|v| v.ident.to_string()).collect();
-                let (arguments, derives) = (arguments_of(&e.generics), derives(&e.attrs));
+                let (arguments, traits) = (arguments_of(&e.generics), derived(&e.attrs));
                 let numbers = numbers_of(&e.generics);
-                let kind = ItemKind::Type(TypeItem { arguments, numbers, values, derives, ..TypeItem::default() });
+                let kind = ItemKind::Type(TypeItem { arguments, numbers, values, traits, ..TypeItem::default() });
                 list.push(entry(e.ident.to_string(), &e.vis, &e.attrs, e.ident.span(), kind))
             }
             Syn::Union(u) => {
@@ -378,6 +382,13 @@ fn items(syntax: &[Syn]) -> Vec<Item> {
             _ => {}
         }
     }
+    for (name, given) in implemented(syntax) {
+        for item in list.iter_mut().filter(|item| item.name == name) {
+            if let ItemKind::Type(ty) = &mut item.kind {
+                ty.traits.push(given.clone());
+            }
+        }
+    }
     list
 }
 
@@ -399,38 +410,6 @@ fn seen(vis: &Visibility) -> Seen {
         Visibility::Restricted(within) => Seen::Within(within.path.segments.iter().map(|s| plain(&s.ident)).collect()),
         Visibility::Inherited => Seen::InModule,
     }
-}
-
-/// Name without `r#`, which generated code adds again where Rust needs it.
-fn plain(name: &syn::Ident) -> String {
-    unraw(name.to_string())
-}
-
-fn unraw(name: String) -> String {
-    name.strip_prefix("r#").map(str::to_owned).unwrap_or(name)
-}
-
-fn is_cfg(attr: &Attribute) -> bool {
-    attr.path().is_ident("cfg")
-}
-
-/// Smallest and largest number of arguments of a generic type.
-fn arguments_of(generics: &syn::Generics) -> (usize, usize) {
-    let types = generics.params.iter().filter(|p| !matches!(p, syn::GenericParam::Lifetime(_)));
-    let has_default = |p: &&syn::GenericParam| match p {
-        syn::GenericParam::Type(ty) => ty.default.is_some(),
-        syn::GenericParam::Const(value) => value.default.is_some(),
-        syn::GenericParam::Lifetime(_) => true,
-    };
-    let all = types.clone().count();
-    (all - types.filter(has_default).count(), all)
-}
-
-/// Positions of the arguments of a generic type that are numbers.
-fn numbers_of(generics: &syn::Generics) -> Vec<usize> {
-    let params = generics.params.iter().filter(|p| !matches!(p, syn::GenericParam::Lifetime(_)));
-    let numbers = params.enumerate().filter(|(_, p)| matches!(p, syn::GenericParam::Const(_)));
-    numbers.map(|(position, _)| position).collect()
 }
 
 /// Adds the items of an `impl`: the methods of a node, or constants.
@@ -468,13 +447,6 @@ fn macro_call(call: &syn::ItemMacro) -> Item {
     entry(String::new(), &Visibility::Inherited, &call.attrs, call.span(), kind)
 }
 
-fn path_value(attr: &Attribute) -> Option<String> {
-    match &attr.meta.require_name_value().ok()?.value {
-        syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(path), .. }) => Some(path.value()),
-        _ => None,
-    }
-}
-
 fn imports(tree: &UseTree, prefix: &mut Vec<String>, found: &mut impl FnMut(String, ItemKind)) {
     match tree {
         UseTree::Path(path) => {
@@ -502,12 +474,12 @@ fn imports(tree: &UseTree, prefix: &mut Vec<String>, found: &mut impl FnMut(Stri
 fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
     let name = item.ident.to_string();
     let span = item.ident.span();
-    let derives = derives(&item.attrs);
-    let outputs = derives.iter().any(|name| name == "Outputs").then(|| item.fields.iter().map(output_field).collect());
+    let traits = derived(&item.attrs);
+    let outputs = traits.iter().any(|of| of.name == "Outputs").then(|| item.fields.iter().map(output_field).collect());
     let values = if matches!(item.fields, syn::Fields::Unit) { vec![String::new()] } else { vec![] };
     let (arguments, numbers) = (arguments_of(&item.generics), numbers_of(&item.generics));
     let (generics_of, fields) = (generics(&item.generics), fields(item));
-    let ty = TypeItem { outputs, arguments, numbers, values, derives, generics: generics_of, fields };
+    let ty = TypeItem { outputs, arguments, numbers, values, traits, generics: generics_of, fields };
     list.push(entry(name.clone(), &item.vis, &item.attrs, span, ItemKind::Type(ty)));
     if !signature::is_node(&item.attrs) {
         return;
@@ -570,39 +542,6 @@ fn output_field(field: &syn::Field) -> OutputField {
         maybe: inner.is_some(),
         docs: signature::docs(&field.attrs),
     }
-}
-
-/// Last segments of the paths of the traits that a type derives.
-fn derives(attrs: &[Attribute]) -> Vec<String> {
-    let lists = attrs.iter().filter(|a| a.path().is_ident("derive")).filter_map(|a| {
-        a.parse_args_with(syn::punctuated::Punctuated::<syn::Path, syn::Token![,]>::parse_terminated).ok()
-    });
-    lists.flatten().filter_map(|path| path.segments.last().map(|segment| plain(&segment.ident))).collect()
-}
-
-/// Bounds of type parameters, with the usual spaces.
-fn bounds(generics: &syn::Generics) -> Vec<String> {
-    let declared = generics.type_params().filter(|p| !p.bounds.is_empty()).map(|p| {
-        let (name, bounds) = (&p.ident, &p.bounds);
-        quote::quote!(#name: #bounds)
-    });
-    let clauses =
-        generics.where_clause.iter().flat_map(|clause| &clause.predicates).map(quote::ToTokens::to_token_stream);
-    let spaced = declared.chain(clauses).map(|bound| bound.to_string());
-    let tight = [(" :: ", "::"), (":: ", "::"), (" : ", ": "), (" < ", "<"), (" >", ">"), (" ,", ","), ("& ", "&")];
-    spaced.map(|text| tight.iter().fold(text, |text, (wide, narrow)| text.replace(wide, narrow))).collect()
-}
-
-fn generics(generics: &syn::Generics) -> Vec<String> {
-    generics
-        .params
-        .iter()
-        .filter_map(|p| match p {
-            syn::GenericParam::Type(t) => Some(plain(&t.ident)),
-            syn::GenericParam::Const(c) => Some(plain(&c.ident)),
-            syn::GenericParam::Lifetime(_) => None,
-        })
-        .collect()
 }
 
 fn param(name: String, docs: String, decl: &signature::ParamDecl) -> ParamItem {

@@ -4,9 +4,11 @@
 mod cfg;
 mod constants;
 mod docs;
+mod impls;
 mod items;
 pub mod library;
 mod reach;
+mod rust;
 mod signature;
 mod structs;
 mod traits;

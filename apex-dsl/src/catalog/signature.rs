@@ -116,6 +116,15 @@ pub struct SlotSig {
 }
 
 impl Signature {
+    /// What its bounds ask of each type: `T`, and names of traits without their paths: `Clone`, `'static`.
+    pub fn bounds(&self) -> impl Iterator<Item = (&str, impl Iterator<Item = &str>)> {
+        let asked = self.bounds.iter().filter_map(|bound| bound.split_once(':'));
+        asked.map(|(of, traits)| {
+            let traits = traits.split(" + ").map(str::trim);
+            (of.trim(), traits.map(|path| path.rsplit_once("::").map_or(path, |(_, name)| name)))
+        })
+    }
+
     /// Reason why the unit of a port or parameter is wrong, if one is.
     pub fn wrong_unit(&self) -> Option<String> {
         let unknown = |name: &str, unit: &str| {

@@ -116,9 +116,8 @@ fn kept(signature: &Signature, port: usize) -> Option<String> {
 
 /// Returns `true` if a node does not know what the tokens of a type parameter are.
 fn is_unknown(signature: &Signature, param: &str) -> bool {
-    let of_param = signature.bounds.iter().filter_map(|bound| bound.split_once(':'));
-    let bounds = of_param.filter(|(name, _)| name.trim() == param).flat_map(|(_, bounds)| bounds.split(" + "));
-    bounds.map(str::trim).all(|bound| HARMLESS.contains(&bound.rsplit_once("::").map_or(bound, |(_, name)| name)))
+    let mut asked = signature.bounds().filter(|(of, _)| *of == param).flat_map(|(_, traits)| traits);
+    asked.all(|name| HARMLESS.contains(&name))
 }
 
 fn error(graph: &Graph, catalog: &Catalog, wire: &Wire, (sent, taken): (&Ident, &Ident)) -> Diagnostic {

@@ -220,7 +220,8 @@ impl Generator<'_> {
         let (n, signature) = (&graph.nodes[node], &self.catalog.signatures[library.signature]);
         let (number, path, ty) = (self.names.number, graph.path(node), self.node_type(graph, library));
         let mut asked = quote!();
-        if let Some(bound) = port_trait(signature).filter(|_| !signature.bounds.is_empty() && is_whole(library)) {
+        let is_open = is_whole(library) && !self.bounds_hold(library, signature);
+        if let Some(bound) = port_trait(signature).filter(|_| is_open) {
             let name = format_ident!("Bounds{}Of{number}", node.index());
             let text = format!("`{path}` is `{{Self}}`, which does not have what `{}` asks for", signature.name);
             let note = format!("`{}` needs {}", signature.name, list(&signature.bounds));
@@ -237,6 +238,18 @@ impl Generator<'_> {
             }
         }
         asked
+    }
+
+    /// Returns `true` if the type arguments of a node certainly have what its bounds ask for.
+    fn bounds_hold(&self, library: &Library, signature: &Signature) -> bool {
+        signature.bounds().all(|(param, mut traits)| {
+            let place = signature.generics.iter().position(|name| name == param);
+            let Some(TypeArg::Known(ty) | TypeArg::Verbatim(ty, _)) = place.and_then(|place| library.types.get(place))
+            else {
+                return false;
+            };
+            traits.all(|name| Trait::named(name).is_some_and(|wanted| self.catalog.has_trait(ty, wanted)))
+        })
     }
 
     /// Asks whether the tokens between thread groups can be moved from one thread to another.

@@ -216,7 +216,7 @@ impl Conditions<'_> {
                 "a struct is compared by `==` or `!=`".to_owned(),
             );
         }
-        match self.scope.rust.catalog.derives(&given.ty, "PartialEq") {
+        match self.scope.rust.catalog.implements(&given.ty, "PartialEq") {
             true => Ok(()),
             false => error(
                 format!("a `{name}` cannot be compared: it does not derive `PartialEq`"),
