@@ -1,8 +1,8 @@
 //! `#[node]`: keeps the item except for its attributes, and adds the implementations that generated code uses.
 
 use apex_signature::{self as signature, Arg, Callable, Form, METHOD_MARKS, ParamDecl};
-use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{ToTokens, format_ident, quote};
 use syn::{
     Expr, FnArg, Generics, ImplItem, Item, ItemFn, ItemImpl, ItemStruct, Type, TypeParamBound, Visibility,
     spanned::Spanned as _,
@@ -134,7 +134,15 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
             fn construct(#[allow(unused)] apex_params: (#(#types,)*)) -> Self { #constructor }
         }
     };
-    let accessors = quote! { #(#accessors)* };
+    let units = decls.iter().map(|decl| option(decl.si_unit()));
+    let ranges = decls.iter().map(|decl| range(decl));
+    let own_bounds = &item.generics.where_clause;
+    let table = quote! {
+        #[allow(deprecated)]
+        impl #impl_generics ::apex_rt::Params for #name #type_args #own_bounds {
+            const DECLARED: &'static [::apex_rt::params::Declared] = &[#(::apex_rt::params::Declared::new(#units, #ranges)),*];
+        }
+    };
     for field in &mut item.fields {
         field.attrs.retain(|a| !a.path().is_ident("param"));
     }
@@ -143,7 +151,8 @@ fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     Ok(quote! {
         #item
         #params
-        #accessors
+        #table
+        #(#accessors)*
         #make
     })
 }
@@ -273,11 +282,28 @@ fn params(decls: &[&ParamDecl], names: &[Ident], generics: &Generics, node: &Tok
     }
 }
 
+/// The range of a parameter, as far as it is written in plain numbers.
+fn range(decl: &ParamDecl) -> TokenStream {
+    let limits = decl.limits();
+    let bound = |of: Option<f64>| option(of.and_then(float));
+    let (min, max) = (bound(limits.and_then(|range| range.min)), bound(limits.and_then(|range| range.max)));
+    let inclusive = limits.is_some_and(|range| range.inclusive);
+    quote!(::apex_rt::params::ParamRange::new(#min, #max, #inclusive))
+}
+
+/// A number as an expression; `None` if there is no literal for it.
+fn float(value: f64) -> Option<TokenStream> {
+    let literal = value.is_finite().then(|| Literal::f64_unsuffixed(value.abs()))?;
+    Some(if value < 0.0 { quote!(-#literal) } else { quote!(#literal) })
+}
+
+fn option(value: Option<impl ToTokens>) -> TokenStream {
+    value.map_or(quote!(::core::option::Option::None), |value| quote!(::core::option::Option::Some(#value)))
+}
+
 fn default_value(decl: &ParamDecl) -> Option<TokenStream> {
     let default: &Expr = decl.default.as_ref()?;
-    let is_duration =
-        matches!(&decl.ty, Type::Path(p) if p.path.segments.last().is_some_and(|s| s.ident == "Duration"));
-    Some(if is_duration && matches!(default, Expr::Lit(_)) {
+    Some(if decl.is_duration() && matches!(default, Expr::Lit(_)) {
         quote! { ::core::time::Duration::from_secs_f64(f64::from(#default)) }
     } else {
         quote! { #default }

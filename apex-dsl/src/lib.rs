@@ -12,7 +12,6 @@ pub mod check;
 pub mod checked;
 pub mod claims;
 pub mod codegen;
-pub mod fraction;
 pub mod graph;
 pub mod index;
 pub mod machine;
@@ -24,4 +23,5 @@ pub mod script;
 pub mod source;
 pub mod syntax;
 pub mod threads;
-pub mod units;
+
+pub use apex_signature::{fraction, units};

@@ -8,9 +8,9 @@ use std::{
 };
 
 /// All modules, lowest layer first.
-const LAYERS: [&str; 20] = [
-    "index", "source", "fraction", "units", "report", "syntax", "catalog", "graph", "machine", "script", "resolve",
-    "analyse", "check", "claims", "threads", "checked", "program", "codegen", "passes", "lib",
+const LAYERS: [&str; 18] = [
+    "index", "source", "report", "syntax", "catalog", "graph", "machine", "script", "resolve", "analyse", "check",
+    "claims", "threads", "checked", "program", "codegen", "passes", "lib",
 ];
 
 /// Finds all Rust files in a folder and in the folders below it.

@@ -38,6 +38,13 @@ impl Ctx {
         Self { stamp, ..self }
     }
 
+    /// Returns the context of a firing whose tokens descend from sources that fired at these `stamps`.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn since_oldest<const N: usize>(self, stamps: [Time; N]) -> Self {
+        self.since(stamps.into_iter().fold(self.now, Time::min))
+    }
+
     /// Returns the firing time of the source from which the oldest token of this firing descends; for a source, the
     /// current time. It is earlier than [`now`](Self::now) if a token had to wait on its way.
     #[inline(always)]

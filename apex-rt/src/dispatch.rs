@@ -47,6 +47,12 @@ impl<const W: usize> Bits<W> {
         self.0.iter().zip(&other.0).all(|(a, b)| a & b == *b)
     }
 
+    /// Returns `true` if one of these conditions holds.
+    #[inline]
+    pub fn has_any(&self, bits: &[u32]) -> bool {
+        bits.iter().any(|bit| self.has(*bit as usize))
+    }
+
     /// Adds the conditions of `other`.
     #[inline(always)]
     pub fn insert(&mut self, other: &Self) {
@@ -96,7 +102,7 @@ impl<const W: usize> Conditions<W> for &[u32] {
 
     #[inline]
     fn meet(&self, holds: &Bits<W>) -> bool {
-        self.iter().any(|bit| holds.has(*bit as usize))
+        holds.has_any(self)
     }
 
     #[inline]

@@ -76,9 +76,9 @@ pub use list::List;
 pub use mailbox::Mailbox;
 #[doc(hidden)]
 pub use mailbox::{Arrival, first_arrival, untaken};
-#[doc(hidden)]
-pub use node::construct;
 pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, Trigger};
+#[doc(hidden)]
+pub use node::{Params, construct};
 pub use observer::Observer;
 #[doc(hidden)]
 pub use observer::turned;
@@ -102,6 +102,8 @@ pub use stop::UntilStopped;
 #[cfg(feature = "std")]
 pub use switch::Switch;
 pub use time::Time;
+#[doc(hidden)]
+pub use timer::endured;
 pub use timer::{Agenda, ProgramTime, Silence, Timeout, Timer};
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 #[doc(hidden)]

@@ -1,6 +1,8 @@
 //! The types of a node's ports and parameters, as associated types: `#[node]` writes these implementations,
 //! and generated code names the type of a token through them, so that it never has to spell a user's type.
 
+use crate::params::Declared;
+
 /// Input number `I` of a node.
 pub trait Input<const I: usize> {
     /// The type of one token.
@@ -44,6 +46,12 @@ pub trait Param<const I: usize> {
 pub trait ParamField<const I: usize>: Param<I> {
     /// Returns the field.
     fn field(&mut self) -> &mut Self::Value;
+}
+
+/// The parameters of a node.
+pub trait Params {
+    /// Their units and ranges, in the order of their declaration.
+    const DECLARED: &'static [Declared];
 }
 
 /// A node that a graph can construct from the values of its parameters, in the order of their declaration.

@@ -1,5 +1,7 @@
 //! Queue of slot tokens, and the step budget of a reaction.
 
+use crate::rows::Slot;
+
 /// Numbers of the slots with waiting tokens, in the order in which these were emitted. Each of the `N` connections to
 /// slots holds at most one token, so that there is room for all.
 #[derive(Debug, Clone)]
@@ -45,15 +47,15 @@ impl<const N: usize> Queue<N> {
         None
     }
 
-    /// Calls `found` with the slots whose tokens wait for one another, so that none is ever taken, if there are more
-    /// than are `known`. `blockers` has for each slot those whose tokens must be taken before.
-    pub fn stuck(&self, blockers: &[&[u16]; N], known: &mut usize, found: impl FnMut(u16)) {
+    /// Calls `found` with the connections whose tokens wait for one another, so that none is ever taken, if there are
+    /// more than are `known`.
+    pub fn stuck(&self, slots: &[Slot; N], known: &mut usize, found: impl FnMut(usize)) {
         let mut left = [u16::MAX; N];
         for (at, slot) in left.iter_mut().enumerate().take(self.len) {
             *slot = self.waiting[(self.start + at) % N];
         }
         loop {
-            let waits = |slot: u16| blockers[usize::from(slot)].iter().any(|other| left.contains(other));
+            let waits = |slot: u16| slots[usize::from(slot)].after.iter().any(|other| left.contains(other));
             let free = left.iter().position(|slot| *slot != u16::MAX && !waits(*slot));
             match free {
                 Some(free) => left[free] = u16::MAX,
@@ -63,7 +65,7 @@ impl<const N: usize> Queue<N> {
         let stuck = left.into_iter().filter(|slot| *slot != u16::MAX);
         let count = stuck.clone().count();
         if core::mem::replace(known, count) < count {
-            stuck.for_each(found);
+            stuck.filter_map(|slot| slots[usize::from(slot)].connection).for_each(found);
         }
     }
 }

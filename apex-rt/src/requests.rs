@@ -292,7 +292,7 @@ mod tests {
     }
 
     impl Parameters for Part {
-        fn visit_params<V: ParamVisitor>(&mut self, visitor: &mut V) {
+        fn visit_params(&mut self, visitor: &mut dyn ParamVisitor) {
             visitor.param(self.0, Some(&mut Value(&mut self.1)));
         }
     }

@@ -1,6 +1,6 @@
 //! Timers of sources, timeouts of active nodes, and the time of a program.
 
-use crate::{Next, Observer, Time};
+use crate::{Next, Observer, Param, ParamField, Time};
 use core::time::Duration;
 
 /// Time of a program. It is that of its reactions, but never goes back: if a reaction is earlier than the one before,
@@ -196,6 +196,16 @@ impl Silence for f32 {
     fn duration(&self) -> Duration {
         f64::from(*self).duration()
     }
+}
+
+/// Longest silence that a node endures: its parameter number `I`.
+#[doc(hidden)]
+pub fn endured<const I: usize, N>(node: &mut N) -> Duration
+where
+    N: ParamField<I>,
+    <N as Param<I>>::Value: Silence,
+{
+    node.field().duration()
 }
 
 /// Timeout of a node: runs while the node is active.

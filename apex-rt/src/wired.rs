@@ -140,18 +140,20 @@ pub mod rows {
         /// Number of the node.
         pub(super) node: usize,
         /// Number of the connection, unless the token comes from another thread group.
-        pub(super) connection: Option<usize>,
+        pub(crate) connection: Option<usize>,
         /// Condition "is free" of the connection.
         pub(super) frees: Option<usize>,
         /// Stamp of the connection.
         pub(super) stamp: Option<usize>,
         pub(super) brings: Brings,
+        /// Slots whose tokens are taken before.
+        pub(crate) after: &'static [u16],
     }
 
     impl Slot {
         /// Returns the connection to a slot of `node`.
         pub const fn new(node: usize) -> Self {
-            Self { node, connection: None, frees: None, stamp: None, brings: Brings::Nothing }
+            Self { node, connection: None, frees: None, stamp: None, brings: Brings::Nothing, after: &[] }
         }
 
         /// Sets the number of the connection.
@@ -170,6 +172,12 @@ pub mod rows {
         #[must_use]
         pub const fn stamp(self, stamp: usize) -> Self {
             Self { stamp: Some(stamp), ..self }
+        }
+
+        /// Adds slots whose tokens must be taken before.
+        #[must_use]
+        pub const fn after(self, after: &'static [u16]) -> Self {
+            Self { after, ..self }
         }
 
         /// Declares that the token comes from `start` and activates `node`.

@@ -1,6 +1,9 @@
 //! Interface of a node, read from Rust syntax. `#[node]` and the catalog of the compiler share this crate, so that a
 //! signature has the same meaning for both.
 
+pub mod fraction;
+pub mod units;
+
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{
@@ -85,6 +88,51 @@ pub struct ParamDecl {
     pub range: Option<syn::ExprRange>,
     /// `true` for `silence`: without tokens for this time the node is called with ⊥.
     pub is_silence: bool,
+}
+
+/// Range of a parameter, as far as it is written in plain numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// The smallest value.
+    pub min: Option<f64>,
+    /// The largest value.
+    pub max: Option<f64>,
+    /// `true` if the largest value is part of the range.
+    pub inclusive: bool,
+}
+
+impl ParamDecl {
+    /// Its range.
+    pub fn limits(&self) -> Option<Limits> {
+        let range = self.range.as_ref()?;
+        let number = |bound: &Option<Box<Expr>>| bound.as_deref().and_then(number);
+        let inclusive = matches!(range.limits, syn::RangeLimits::Closed(_));
+        Some(Limits { min: number(&range.start), max: number(&range.end), inclusive })
+    }
+
+    /// The SI unit of its values, whatever the unit of the declaration is; none for plain numbers.
+    pub fn si_unit(&self) -> Option<String> {
+        let dimension = match self.is_duration() {
+            true => units::Dimension::TIME,
+            false => units::parse(self.unit.as_deref()?).ok()?.dimension,
+        };
+        (!dimension.is_none()).then(|| dimension.to_string())
+    }
+
+    /// Returns `true` if its type is called `Duration`.
+    pub fn is_duration(&self) -> bool {
+        matches!(&self.ty, Type::Path(path) if path.path.segments.last().is_some_and(|s| s.ident == "Duration"))
+    }
+}
+
+/// A number that is written out.
+fn number(expr: &Expr) -> Option<f64> {
+    match expr {
+        Expr::Lit(ExprLit { lit: syn::Lit::Int(digits), .. }) => digits.base10_parse().ok(),
+        Expr::Lit(ExprLit { lit: syn::Lit::Float(digits), .. }) => digits.base10_parse().ok(),
+        Expr::Unary(syn::ExprUnary { op: syn::UnOp::Neg(_), expr, .. }) => number(expr).map(|value| -value),
+        _ => None,
+    }
 }
 
 /// The methods of an `#[node] impl` that matter to graphs.

@@ -545,20 +545,13 @@ fn output_field(field: &syn::Field) -> OutputField {
 }
 
 fn param(name: String, docs: String, decl: &signature::ParamDecl) -> ParamItem {
-    let bound = |e: &Option<Box<syn::Expr>>| match e.as_deref().and_then(literal) {
-        Some(Literal::Number(value, _)) => Some(value),
-        _ => None,
-    };
     ParamItem {
         name,
         docs,
         ty: Ty::from_syn(&decl.ty),
         unit: decl.unit.clone(),
         default: decl.default.as_ref().map(|expr| literal(expr).map_or(Default::Rust, Default::Literal)),
-        range: decl
-            .range
-            .as_ref()
-            .map(|r| (bound(&r.start), bound(&r.end), matches!(r.limits, syn::RangeLimits::Closed(_)))),
+        range: decl.limits().map(|range| (range.min, range.max, range.inclusive)),
         is_silence: decl.is_silence,
     }
 }

@@ -116,7 +116,7 @@ pub struct SlotSig {
 }
 
 impl Signature {
-    /// What its bounds ask of each type: `T`, and names of traits without their paths: `Clone`, `'static`.
+    /// Bounds of each type: `T`, and names of traits without their paths: `Clone`, `'static`.
     pub fn bounds(&self) -> impl Iterator<Item = (&str, impl Iterator<Item = &str>)> {
         let asked = self.bounds.iter().filter_map(|bound| bound.split_once(':'));
         asked.map(|(of, traits)| {

@@ -105,32 +105,36 @@ impl Generator<'_> {
 
     /// Expression that is `true` if a flag is set.
     pub fn is_set(&self, flag: Flag) -> TokenStream {
-        let (set, bit) = self.flag(flag);
+        let (set, bit) = self.place_of(flag);
         quote!(core.#set.has(#bit))
     }
 
     /// Sets a flag, or clears it.
     pub fn set(&self, flag: Flag, value: bool) -> TokenStream {
-        let (set, bit) = self.flag(flag);
+        let (set, bit) = self.place_of(flag);
         quote! { core.#set.set(#bit, #value); }
     }
 
     /// Clears a flag. The expression is `true` if it was set.
     pub fn take(&self, flag: Flag) -> TokenStream {
-        let (set, bit) = self.flag(flag);
+        let (set, bit) = self.place_of(flag);
         quote!(core.#set.take(#bit))
     }
 
+    fn place_of(&self, flag: Flag) -> (Ident, Literal) {
+        let (set, bit) = self.flag(flag);
+        (ident(set), Literal::usize_unsuffixed(bit))
+    }
+
     /// The set of a flag, and its number there.
-    fn flag(&self, flag: Flag) -> (Ident, Literal) {
-        let (set, bit) = match flag {
+    pub fn flag(&self, flag: Flag) -> (&'static str, usize) {
+        match flag {
             Flag::Active(node) => ("active", self.index(node)),
             Flag::Gains(node) => ("gains", self.index(node)),
             Flag::Loses(node) => ("loses", self.index(node)),
             Flag::Enabled(node) => ("enabled", self.index(node)),
             Flag::Carries(slot) => ("carries", slot),
-        };
-        (format_ident!("{set}"), Literal::usize_unsuffixed(bit))
+        }
     }
 
     /// The method of a node that is called when it becomes active, or inactive.

@@ -84,7 +84,7 @@ impl Generator<'_> {
             let set = self.set(Flag::Active(*node), true);
             quote! { if ::core::mem::take(&mut parcel.active) { #set } }
         });
-        let since = is_stamped.then(|| quote! { let ctx = &ctx.since(stamp.min(ctx.now())); });
+        let since = is_stamped.then(|| quote! { let ctx = &ctx.since_oldest([stamp]); });
         let [pass, emit, serve] = then.each_ref().map(|ops| self.ops(view, ops));
         let is_full = self.look(quote!(ends.#cell.is_full()));
         quote! {

@@ -4,13 +4,15 @@ use super::{
     Generator,
     activity::ProgramView,
     state::{Kind, StateField},
+    types::ident,
 };
 use crate::{
     claims::Decided,
     program::{Broken, ClaimCheck, Spot},
 };
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use std::collections::BTreeMap;
 use syn::Ident;
 
 impl Generator<'_> {
@@ -85,8 +87,22 @@ impl Generator<'_> {
 
     /// Expression that is `true` if one of some places has activity.
     fn any(&self, spots: &[Spot]) -> TokenStream {
-        let spots = spots.iter().map(|spot| self.has_activity(*spot));
-        quote!(false #(|| #spots)*)
+        let mut of_sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        let mut tests = vec![];
+        for spot in spots {
+            match *spot {
+                Spot::Flag(flag) => {
+                    let (set, bit) = self.flag(flag);
+                    of_sets.entry(set).or_default().push(bit);
+                }
+                Spot::Held(_) => tests.push(self.has_activity(*spot)),
+            }
+        }
+        for (set, bits) in of_sets {
+            let (set, bits) = (ident(set), bits.into_iter().map(Literal::usize_unsuffixed));
+            tests.push(quote!(core.#set.has_any(&[#(#bits),*])));
+        }
+        if tests.is_empty() { quote!(false) } else { quote!(#(#tests)||*) }
     }
 
     /// Expression that is `true` if a place has activity.

@@ -10,7 +10,7 @@ use super::{
     types::ident,
 };
 use crate::{
-    analyse::{Delivery, Guard, MANY, blockers},
+    analyse::{Delivery, Guard, MANY},
     graph::{Graph, NodeId, NodeKind},
     program::{After, Firing, Poll, Reaction},
 };
@@ -348,15 +348,6 @@ impl Generator<'_> {
         if !view.wiring.may_get_stuck {
             return quote!();
         }
-        let asynchronous = &view.analysis.asynchronous;
-        let rows = blockers(view.graph, view.analysis).into_iter().map(|before| {
-            let before = before.into_iter().map(|token| Literal::usize_unsuffixed(asynchronous.slot(token)));
-            quote!(&[#(#before),*])
-        });
-        let arms = asynchronous.slots.iter().enumerate().filter_map(|(slot, token)| {
-            let (slot, connection) = (slot as u16, self.connection(*token)?);
-            Some(quote!(#slot => observer.stuck(#connection),))
-        });
         let claim = self.undecided_live();
         let before = claim.map(|_| quote! { let before = state.stuck; });
         let claim = claim.map(|claim| quote! { if before == 0 && state.stuck > 0 { observer.claim_failed(#claim); } });
@@ -364,7 +355,7 @@ impl Generator<'_> {
             if !self.core.queue.is_empty() {
                 let Self { state, core, .. } = self;
                 #before
-                core.queue.stuck(&[#(#rows),*], &mut state.stuck, |slot| match slot { #(#arms)* _ => {} });
+                core.queue.stuck(Self::SLOTS, &mut state.stuck, |connection| observer.stuck(connection));
                 #claim
             }
         }

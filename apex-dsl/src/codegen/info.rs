@@ -23,7 +23,7 @@ struct Rows {
 }
 
 impl Generator<'_> {
-    /// The table that describes a program. `clusters` has the numbers of their nodes.
+    /// The tables that describe a program. `clusters` has the numbers of their nodes.
     pub fn info(
         &self,
         graph: &Graph,
@@ -45,22 +45,24 @@ impl Generator<'_> {
             let nodes = nodes.iter().map(|node| Literal::usize_unsuffixed(node.index()));
             quote!(&[#(#nodes),*])
         });
-        quote! {{
-            use ::apex_rt::{ConnectionInfo, KindInfo, NodeInfo, PortInfo};
-            ::apex_rt::Info {
+        quote! {
+            const NODES: &'static [::apex_rt::NodeInfo] = &[#(#nodes),*];
+            const KINDS: &'static [::apex_rt::KindInfo] = &[#(#kinds),*];
+            const CONNECTIONS: &'static [::apex_rt::ConnectionInfo] = &[#(#connections),*];
+            const INFO: ::apex_rt::Info = ::apex_rt::Info {
                 name: #name,
                 docs: #docs,
                 files: &[#(#files),*],
-                nodes: &[#(#nodes),*],
-                kinds: &[#(#kinds),*],
+                nodes: NODES,
+                kinds: KINDS,
                 graphs: &[#(#graphs),*],
-                connections: &[#(#connections),*],
+                connections: CONNECTIONS,
                 clusters: &[#(#clusters),*],
                 groups: &[#(#groups),*],
                 end_if_hung: #end_if_hung,
                 claims: &[#(#claims),*],
-            }
-        }}
+            };
+        }
     }
 
     fn rows(&self, graph: &Graph, analysis: &Analysis, prefix: &str, rows: &mut Rows) {
@@ -70,7 +72,7 @@ impl Generator<'_> {
             let (c, place) = (analysis.characteristics[id], self.place_row(node.span, &mut rows.files));
             let (required, siblings) = (c.required, c.siblings);
             let every = node.modifiers.every.map(nanos).map(|period| quote!(.every(#period)));
-            rows.nodes.push(quote!(NodeInfo::new(#name, #kind, #place, #required, #siblings)#every));
+            rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, #required, #siblings)#every));
         }
         for c in &graph.connections {
             let (from, to) =
@@ -78,7 +80,7 @@ impl Generator<'_> {
             let taker = &graph.nodes[c.to.node];
             let (output, input) = (&graph.port(c.from).name, &taker.ports[taker.declared(c.to.port)].name);
             let activity = c.active;
-            rows.connections.push(quote!(ConnectionInfo::new(#from, #output, #to, #input, #activity)));
+            rows.connections.push(quote!(::apex_rt::ConnectionInfo::new(#from, #output, #to, #input, #activity)));
         }
         for (id, node) in graph.nodes.iter_enumerated() {
             if let (NodeKind::Each(each), Some(body)) = (&node.kind, analysis.bodies.get(&id)) {
@@ -91,12 +93,12 @@ impl Generator<'_> {
     /// Adds the states of all state machines.
     fn state_rows(&self, graph: &Graph, rows: &mut Rows) {
         for (id, machine) in machines(graph, self.catalog) {
-            let kind = rows.kinds.number(quote!(KindInfo::new("state", "", &[])));
+            let kind = rows.kinds.number(quote!(::apex_rt::KindInfo::new("state", "", &[])));
             let (kind, path) = (Literal::usize_unsuffixed(kind), graph.path(id));
             let place = self.place_row(graph.nodes[id].span, &mut rows.files);
             for state in &machine.states {
                 let name = format!("{path}.{state}");
-                rows.nodes.push(quote!(NodeInfo::new(#name, #kind, #place, false, false)));
+                rows.nodes.push(quote!(::apex_rt::NodeInfo::new(#name, #kind, #place, false, false)));
             }
         }
     }
@@ -126,9 +128,9 @@ impl Generator<'_> {
                 PortKind::Slot => quote!(slot),
                 PortKind::Event => quote!(event),
             };
-            quote!(PortInfo::#kind(#name, #ty))
+            quote!(::apex_rt::PortInfo::#kind(#name, #ty))
         });
-        quote!(KindInfo::new(#name, #docs, &[#(#ports),*]))
+        quote!(::apex_rt::KindInfo::new(#name, #docs, &[#(#ports),*]))
     }
 
     /// Name of a node's kind, and the first sentence of its documentation.

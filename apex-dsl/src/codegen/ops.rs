@@ -172,7 +172,7 @@ impl Writer<'_> {
         match self.inside {
             Some((emitter, block)) if self.view.graph.port(port).kind == PortKind::Output => {
                 let token = emitter.option(port, block);
-                quote!(&#token.is_some())
+                quote!(&#token)
             }
             _ => self.generator.kept(port),
         }

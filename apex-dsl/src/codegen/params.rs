@@ -1,14 +1,12 @@
 //! The parameters of a program: a table, and a way to each.
 
-use super::Generator;
+use super::{Generator, distinct::Distinct, rows::constant_name, types::ident};
 use crate::{
     analyse::Analysis,
-    catalog::ParamSig,
-    graph::{Graph, Library, NodeId, NodeKind},
-    units,
+    graph::{Graph, Library, NodeId, NodeKind, snake},
 };
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 use syn::Ident;
 
 /// The parameters of a program.
@@ -16,6 +14,10 @@ use syn::Ident;
 pub struct ParamRows {
     /// Rows of the table.
     table: Vec<TokenStream>,
+    /// The node types with parameters.
+    types: Distinct,
+    /// Constants with what each of them declares.
+    declared: Vec<Ident>,
     /// For each node with parameters, a visit of them: the node beside which it is kept, and the visit.
     visits: Vec<(NodeId, TokenStream)>,
 }
@@ -24,14 +26,28 @@ impl ParamRows {
     /// The implementation of `Parameters` for the program `name`. `place` returns where a node is kept with those
     /// beside it.
     pub fn implementation(&self, name: &Ident, place: &dyn Fn(NodeId) -> TokenStream) -> TokenStream {
-        let table = &self.table;
+        let (table, declared, types) = (&self.table, &self.declared, self.types.rows());
         let visit = self.visit(&|node| Some(place(node)));
         quote! {
+            #(const #declared: &'static [::apex_rt::params::Declared] = <#types as ::apex_rt::Params>::DECLARED;)*
+            const PARAMS: &'static [::apex_rt::params::ParamInfo] = &[#(#table),*];
             impl ::apex_rt::params::Parameters for #name {
-                const PARAMS: &'static [::apex_rt::params::ParamInfo] = { use ::apex_rt::params::ParamInfo; &[#(#table),*] };
+                const PARAMS: &'static [::apex_rt::params::ParamInfo] = PARAMS;
                 #visit
             }
         }
+    }
+
+    /// The constant with what a node type declares: `PATH_FOLLOWER`, or `PATH_FOLLOWER_7` where another type has that
+    /// name.
+    fn declared(&mut self, name: &str, ty: TokenStream) -> Ident {
+        let number = self.types.number(ty);
+        if number == self.declared.len() {
+            let plain = ident(&constant_name(&snake(name)));
+            let is_taken = self.declared.contains(&plain);
+            self.declared.push(if is_taken { format_ident!("{plain}_{number}") } else { plain });
+        }
+        self.declared[number].clone()
     }
 
     /// The function that visits the parameters of those nodes that have a `place`.
@@ -45,7 +61,7 @@ impl ParamRows {
         });
         let visits: TokenStream = visits.collect();
         quote! {
-            fn visit_params<V: ::apex_rt::params::ParamVisitor>(&mut self, visitor: &mut V) {
+            fn visit_params(&mut self, visitor: &mut dyn ::apex_rt::params::ParamVisitor) {
                 use ::apex_rt::params::{Known as _, Opaque as _};
                 #visits
             }
@@ -66,20 +82,7 @@ impl Generator<'_> {
         for (id, node) in graph.nodes.iter_enumerated() {
             let owner = outer.unwrap_or(id);
             match &node.kind {
-                NodeKind::Library(library) if !self.catalog.signatures[library.signature].is_function => {
-                    let (path, place) = (self.node_path(graph, id).join("."), self.node_place(graph, id));
-                    let params = &self.catalog.signatures[library.signature].params;
-                    let (first, numbers) = (rows.table.len(), (0..params.len()).map(Literal::usize_unsuffixed));
-                    let rows_of = params.iter().enumerate();
-                    rows.table.extend(rows_of.map(|(param, declared)| self.param_row(library, param, declared, &path)));
-                    if !params.is_empty() {
-                        let first = Literal::usize_unsuffixed(first);
-                        let visit = quote! {
-                            ::apex_rt::visit_params!(visitor, Self::PARAMS, #first, #place, #(#numbers)*);
-                        };
-                        rows.visits.push((owner, visit));
-                    }
-                }
+                NodeKind::Library(library) => self.params_of_node(graph, id, library, owner, rows),
                 NodeKind::Each(each) => {
                     if let Some(body) = analysis.bodies.get(&id) {
                         self.inside(graph, id).param_rows(&each.body, body, Some(owner), rows);
@@ -90,29 +93,23 @@ impl Generator<'_> {
         }
     }
 
-    fn param_row(&self, library: &Library, param: usize, declared: &ParamSig, path: &str) -> TokenStream {
-        let ty = self.param_type(library, param);
-        let (name, spelled) = (format!("{path}.{}", declared.name), ty.to_string());
-        // Values are in SI, whatever the unit of the declaration is.
-        let given = declared.unit.as_deref().and_then(|unit| units::parse(unit).ok());
-        let dimension = if ty.name() == "Duration" {
-            units::Dimension::TIME
-        } else {
-            given.map_or(units::Dimension::NONE, |u| u.dimension)
-        };
-        let unit = (!dimension.is_none()).then(|| dimension.to_string()).map(|unit| quote!(.unit(#unit)));
-        let (min, max, inclusive) = declared.range.unwrap_or((None, None, false));
-        let min = min.and_then(float).map(|min| quote!(.at_least(#min)));
-        let max = max.and_then(float).map(|max| match inclusive {
-            true => quote!(.at_most(#max)),
-            false => quote!(.below(#max)),
-        });
-        quote!(ParamInfo::new(#name, #spelled) #unit #min #max)
+    /// Adds the parameters of a struct node; those of a function are part of the code.
+    fn params_of_node(&self, graph: &Graph, node: NodeId, library: &Library, owner: NodeId, rows: &mut ParamRows) {
+        let signature = &self.catalog.signatures[library.signature];
+        if signature.is_function || signature.params.is_empty() {
+            return;
+        }
+        let (path, place) = (self.node_path(graph, node).join("."), self.node_place(graph, node));
+        let declared = rows.declared(&signature.name, self.node_type(graph, library));
+        let first = Literal::usize_unsuffixed(rows.table.len());
+        let numbers = || (0..signature.params.len()).map(Literal::usize_unsuffixed);
+        for (param, number) in numbers().enumerate() {
+            let name = format!("{path}.{}", signature.params[param].name);
+            let ty = self.param_type(library, param).to_string();
+            rows.table.push(quote!(#declared[#number].of(#name, #ty)));
+        }
+        let numbers = numbers();
+        let visit = quote! { ::apex_rt::visit_params!(visitor, PARAMS, #first, #place, #(#numbers)*); };
+        rows.visits.push((owner, visit));
     }
-}
-
-/// A number as an expression; `None` if there is no literal for it.
-fn float(value: f64) -> Option<TokenStream> {
-    let literal = value.is_finite().then(|| Literal::f64_unsuffixed(value.abs()))?;
-    Some(if value < 0.0 { quote!(-#literal) } else { quote!(#literal) })
 }

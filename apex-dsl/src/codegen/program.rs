@@ -91,6 +91,7 @@ impl Generator<'_> {
         let mailboxes = self.port_mailboxes(graph, &quote!(self));
         quote! {
             #items
+            #info
             impl #name {
                 /// Reacts at `now`: runs until nothing is ready, and says when it wants to be called next.
                 #[inline]
@@ -98,7 +99,7 @@ impl Generator<'_> {
                 #own_react
             }
             impl ::apex_rt::Program for #name {
-                const INFO: ::apex_rt::Info = #info;
+                const INFO: ::apex_rt::Info = INFO;
                 #mailboxes
                 #recording
                 #react

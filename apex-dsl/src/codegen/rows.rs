@@ -7,7 +7,7 @@ use super::{
     types::{ident, nanos},
 };
 use crate::{
-    analyse::Delivery,
+    analyse::{Delivery, blockers},
     graph::NodeId,
     program::{Carries, Flag, Port, Send, Slot},
 };
@@ -75,10 +75,7 @@ impl Generator<'_> {
 
     fn port_row(&self, view: ProgramView<'_>, port: &Port) -> TokenStream {
         let mut row = Row(quote!(::apex_rt::rows::Port::NEW));
-        let number = |flag: &Flag| match *flag {
-            Flag::Active(node) | Flag::Gains(node) | Flag::Loses(node) | Flag::Enabled(node) => self.index(node),
-            Flag::Carries(slot) => slot,
-        };
+        let number = |flag: &Flag| self.flag(*flag).1;
         if let Some(along) = &port.passes {
             // A delay keeps what its tokens carry, and has no activity of its own.
             if let Some(name) = view.labels.nodes.get(&port.end.node) {
@@ -97,7 +94,13 @@ impl Generator<'_> {
 
     /// The table of connections to slots.
     fn slot_table(&self, view: ProgramView<'_>) -> TokenStream {
-        let rows = view.wiring.slots.iter().enumerate().map(|(number, slot)| self.slot_row(view, number, slot));
+        let blockers = if view.wiring.may_get_stuck { blockers(view.graph, view.analysis) } else { vec![] };
+        let rows = view.wiring.slots.iter().enumerate().map(|(number, slot)| {
+            let mut row = self.slot_row(view, number, slot);
+            let before = blockers.get(number).into_iter().flatten();
+            row.list("after", before.map(|token| view.analysis.asynchronous.slot(*token)));
+            row.0
+        });
         let (rows, count) = (rows.collect::<Vec<_>>(), view.wiring.slots.len());
         if count == 0 {
             return quote!();
@@ -106,7 +109,7 @@ impl Generator<'_> {
     }
 
     /// The row of a connection to a slot.
-    fn slot_row(&self, view: ProgramView<'_>, number: usize, slot: &Slot) -> TokenStream {
+    fn slot_row(&self, view: ProgramView<'_>, number: usize, slot: &Slot) -> Row {
         let node = Literal::usize_unsuffixed(self.index(slot.node));
         let mut row = Row(quote!(Slot::new(#node)));
         row.number("on", self.connection(slot.connection));
@@ -123,7 +126,7 @@ impl Generator<'_> {
             }
             Carries::Away => row.add("deactivates", &node()),
         }
-        row.0
+        row
     }
 
     /// The row of a node that can be active.
@@ -214,7 +217,20 @@ fn add_sends<'a>(row: &mut Row, view: ProgramView<'_>, sends: impl Iterator<Item
 
 /// Name of a constant: `WAITING_SIGNAL` of `waiting.signal`. Its own names are those of the tables.
 pub fn constant_name(name: &str) -> String {
-    const OWN: [&str; 9] = ["CLUSTERS", "MISSING", "NEEDS", "ORDER", "FREE", "INFO", "PARAMS", "SLOTS", "SELF"];
+    const OWN: [&str; 12] = [
+        "CLUSTERS",
+        "CONNECTIONS",
+        "FREE",
+        "INFO",
+        "KINDS",
+        "MISSING",
+        "NEEDS",
+        "NODES",
+        "ORDER",
+        "PARAMS",
+        "SLOTS",
+        "SELF",
+    ];
     let name = name.trim_start_matches("r#").chars().flat_map(char::to_uppercase);
     let mut name: String = name.map(valid).collect();
     if OWN.contains(&name.as_str()) {

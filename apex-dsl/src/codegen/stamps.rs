@@ -49,7 +49,7 @@ pub fn of_firing(upstream: &[ClusterId], stamps: &[usize], leaves: Option<Cluste
         quote!(state.#name)
     });
     let ages: Vec<TokenStream> = upstream.chain(stamps.iter().map(|index| quote!(core.stamps[#index]))).collect();
-    let since = (!ages.is_empty()).then(|| quote! { let ctx = &ctx.since(ctx.now() #(.min(#ages))*); });
+    let since = (!ages.is_empty()).then(|| quote! { let ctx = &ctx.since_oldest([#(#ages),*]); });
     let left = leaves.map(|cluster| {
         let name = of_cluster(cluster);
         quote! { state.#name = ctx.stamp(); }

@@ -63,40 +63,76 @@ pub fn text(
 }
 
 /// A module that sees what every module sees, also where the crate around it does not. The runtime is called `rt` in
-/// it, unless something of the text is.
+/// it, and types that every module sees need no path, unless something of the text has such a name.
 pub fn module(name: &Ident, graph: &str, items: TokenStream) -> TokenStream {
-    let (alias, items) = match graph == RUNTIME {
-        true => (quote!(), items),
-        false => (quote! { use ::apex_rt as rt; }, abbreviated(items)),
-    };
+    let short = Short { except: graph };
+    let alias = short.may_be_called(RUNTIME).then(|| quote! { use ::apex_rt as rt; });
+    let items = short.code(items);
     quote! { pub mod #name { use ::core::prelude::rust_2024::*; use ::apex_rt::{Observer as _, Wired as _}; #alias #items } }
 }
 
 /// Name of the runtime in the module of a program.
 const RUNTIME: &str = "rt";
 
-/// `rt` instead of `::apex_rt`, and numbers without the suffix `usize`, which the types around them say.
-fn abbreviated(code: TokenStream) -> TokenStream {
-    let mut short: Vec<TokenTree> = vec![];
-    for token in code {
-        match token {
-            TokenTree::Group(group) => {
-                let (delimiter, span, stream) = (group.delimiter(), group.span(), group.stream());
-                // The tokens are moved, as nothing else holds them.
-                drop(group);
-                let mut inner = Group::new(delimiter, abbreviated(stream));
-                inner.set_span(span);
-                short.push(inner.into());
-            }
-            TokenTree::Ident(name) if name == "apex_rt" && ends_in_colons(&short) => {
-                short.truncate(short.len() - 2);
-                short.push(Ident::new(RUNTIME, name.span()).into());
-            }
-            TokenTree::Literal(literal) => short.push(plain(literal).into()),
-            token => short.push(token),
-        }
+/// Paths that are left out before a name: every module sees what is called so.
+const SEEN: [[&str; 2]; 2] = [["core", "option"], ["core", "primitive"]];
+
+/// Shorter code with the same meaning.
+struct Short<'a> {
+    /// A name that means something else.
+    except: &'a str,
+}
+
+impl Short<'_> {
+    fn may_be_called(&self, name: &str) -> bool {
+        self.except != name
     }
-    short.into_iter().collect()
+
+    /// `rt` instead of `::apex_rt`, `f32` instead of `::core::primitive::f32`, and numbers without the suffix `usize`,
+    /// which the types around them say.
+    fn code(&self, code: TokenStream) -> TokenStream {
+        let mut short: Vec<TokenTree> = vec![];
+        for token in code {
+            match token {
+                TokenTree::Group(group) => {
+                    let (delimiter, span, stream) = (group.delimiter(), group.span(), group.stream());
+                    // The tokens are moved, as nothing else holds them.
+                    drop(group);
+                    let mut inner = Group::new(delimiter, self.code(stream));
+                    inner.set_span(span);
+                    short.push(inner.into());
+                }
+                TokenTree::Ident(name) => {
+                    let name = self.name(name, &mut short);
+                    short.push(name.into());
+                }
+                TokenTree::Literal(literal) => short.push(plain(literal).into()),
+                token => short.push(token),
+            }
+        }
+        short.into_iter().collect()
+    }
+
+    /// A name after `before`, from which a path is removed that it does not need.
+    fn name(&self, name: Ident, before: &mut Vec<TokenTree>) -> Ident {
+        if name == "apex_rt" && self.may_be_called(RUNTIME) && begins_path(before) {
+            before.truncate(before.len() - 2);
+            return Ident::new(RUNTIME, name.span());
+        }
+        // `::core::option::` are eight tokens.
+        let Some(path) = before.len().checked_sub(8) else { return name };
+        let is_seen = SEEN.iter().any(|modules| is_path(&before[path..], modules));
+        if is_seen && begins_path(&before[..path + 2]) && self.may_be_called(&name.to_string()) {
+            before.truncate(path);
+        }
+        name
+    }
+}
+
+/// Returns `true` if these tokens are `::first::second::`.
+fn is_path(tokens: &[TokenTree], modules: &[&str; 2]) -> bool {
+    let is = |at: usize, module: &str| matches!(&tokens[at], TokenTree::Ident(name) if name == module);
+    is(2, modules[0]) && is(5, modules[1]) && [0, 3, 6].iter().all(|at| is_colons(&tokens[*at..at + 2]))
 }
 
 /// A number of type `usize` without its suffix.
@@ -109,12 +145,15 @@ fn plain(literal: Literal) -> Literal {
 }
 
 /// Returns `true` if a path begins here: `::` without a name before it.
-fn ends_in_colons(tokens: &[TokenTree]) -> bool {
-    let is_colon = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ':');
-    let [before @ .., first, second] = tokens else { return false };
+fn begins_path(tokens: &[TokenTree]) -> bool {
     let goes_on = |name: &Ident| !["as", "dyn", "impl", "in", "mut", "return", "use"].iter().any(|word| name == word);
-    let after_name = matches!(before.last(), Some(TokenTree::Ident(name)) if goes_on(name));
-    is_colon(first) && is_colon(second) && !after_name
+    let Some(before) = tokens.len().checked_sub(2) else { return false };
+    let after_name = matches!(tokens[..before].last(), Some(TokenTree::Ident(name)) if goes_on(name));
+    is_colons(&tokens[before..]) && !after_name
+}
+
+fn is_colons(tokens: &[TokenTree]) -> bool {
+    tokens.iter().all(|token| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ':'))
 }
 
 /// The names that a program has in Rust.

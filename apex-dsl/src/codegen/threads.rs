@@ -282,6 +282,7 @@ impl Program<'_> {
         let recording = self.generator.recording(self.graph);
         let endless = parts.iter().filter(|p| p.analysis.asynchronous.endless).map(part_name);
         quote! {
+            #info
             impl #name {
                 /// Reacts at `now`, all thread groups in turn: runs until nothing is ready, and says when it wants to
                 /// be called next.
@@ -293,7 +294,7 @@ impl Program<'_> {
                 #own_react
             }
             impl ::apex_rt::Program for #name {
-                const INFO: ::apex_rt::Info = #info;
+                const INFO: ::apex_rt::Info = INFO;
                 #mailboxes
                 #recording
                 #react

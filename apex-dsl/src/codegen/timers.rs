@@ -123,7 +123,8 @@ impl Generator<'_> {
         let times = silence.nodes.iter().filter_map(|&node| {
             let parameter = silence_parameter(view.graph, self.catalog, node)?;
             let place = self.node_place(view.graph, node);
-            Some(quote!(::apex_rt::Silence::duration(::apex_rt::ParamField::<#parameter>::field(&mut #place))))
+            let parameter = Literal::usize_unsuffixed(parameter);
+            Some(quote!(::apex_rt::endured::<#parameter, _>(&mut #place)))
         });
         times
             .reduce(|shortest, next| quote!(#shortest.min(#next)))

@@ -18,7 +18,7 @@ use std::{
 };
 
 pub use condition::{Condition, is_arithmetic};
-pub use names::camel;
+pub use names::{camel, snake};
 pub use node::{CellEnd, Each, Library, Modifiers, Node, NodeKind, Port, PortId, Standard, TypeArg};
 pub use value::{Claim, ClaimKind, FieldValue, Number, StructValue, Subject, Value};
 

@@ -9,3 +9,15 @@ pub fn camel(word: &str) -> String {
         })
         .collect()
 }
+
+/// Converts a name to snake case: `JumpDistance` → `jump_distance`.
+pub fn snake(word: &str) -> String {
+    let mut text = String::new();
+    for (i, c) in word.chars().enumerate() {
+        if c.is_uppercase() && i > 0 && !text.ends_with('_') {
+            text.push('_');
+        }
+        text.extend(c.to_lowercase());
+    }
+    text
+}

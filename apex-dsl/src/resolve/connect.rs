@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     catalog::{Match, Type},
-    graph::{self, Given, NodeKind, Port, PortId, Wire, WireEnd},
+    graph::{self, Given, NodeKind, Port, PortId, Wire, WireEnd, snake},
     report::Diagnostic,
     source::Span,
     syntax::tree::{Arrow, Endpoint, Expr, GraphItem, Ident, PortKind, PortRef, PortsOf},
@@ -552,16 +552,4 @@ pub fn list(ports: &[&Candidate]) -> String {
         ty => format!("{} `{}: {ty}`", p.kind.word(), p.name),
     };
     ports.iter().map(word).collect::<Vec<_>>().join(", ")
-}
-
-/// Converts a name to snake case: `JumpDistance` → `jump_distance`.
-fn snake(word: &str) -> String {
-    let mut text = String::new();
-    for (i, c) in word.chars().enumerate() {
-        if c.is_uppercase() && i > 0 && !text.ends_with('_') {
-            text.push('_');
-        }
-        text.extend(c.to_lowercase());
-    }
-    text
 }

@@ -62,34 +62,30 @@ pub struct ParamRange {
     pub inclusive: bool,
 }
 
+/// A parameter in the declaration of its node type.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct Declared {
+    unit: Option<&'static str>,
+    range: ParamRange,
+}
+
+impl Declared {
+    /// Returns a parameter with the SI unit of its numbers, and its range.
+    pub const fn new(unit: Option<&'static str>, range: ParamRange) -> Self {
+        Self { unit, range }
+    }
+
+    /// Returns the row of such a parameter of a program.
+    pub const fn of(&self, name: &'static str, ty: &'static str) -> ParamInfo {
+        ParamInfo { name, ty, unit: self.unit, range: self.range }
+    }
+}
+
 impl ParamInfo {
     /// Returns the row of a parameter without unit and range.
     pub const fn new(name: &'static str, ty: &'static str) -> Self {
         Self { name, ty, unit: None, range: ParamRange::new(None, None, false) }
-    }
-
-    /// Sets the SI unit.
-    #[must_use]
-    pub const fn unit(self, unit: &'static str) -> Self {
-        Self { unit: Some(unit), ..self }
-    }
-
-    /// Sets the smallest value.
-    #[must_use]
-    pub const fn at_least(self, min: f64) -> Self {
-        Self { range: ParamRange { min: Some(min), ..self.range }, ..self }
-    }
-
-    /// Sets the largest value.
-    #[must_use]
-    pub const fn at_most(self, max: f64) -> Self {
-        Self { range: ParamRange { max: Some(max), inclusive: true, ..self.range }, ..self }
-    }
-
-    /// Sets the end of the range, which is not part of it.
-    #[must_use]
-    pub const fn below(self, max: f64) -> Self {
-        Self { range: ParamRange { max: Some(max), inclusive: false, ..self.range }, ..self }
     }
 }
 
@@ -146,7 +142,7 @@ pub trait Parameters {
 
     /// Passes the parameters to `visitor`, in the order of [`Parameters::PARAMS`]; of a thread group, those of its
     /// nodes.
-    fn visit_params<V: ParamVisitor>(&mut self, visitor: &mut V) {
+    fn visit_params(&mut self, visitor: &mut dyn ParamVisitor) {
         let _ = visitor;
     }
 
@@ -172,7 +168,7 @@ pub trait Parameters {
 impl<P: Parameters> Parameters for &mut P {
     const PARAMS: &'static [ParamInfo] = P::PARAMS;
 
-    fn visit_params<V: ParamVisitor>(&mut self, visitor: &mut V) {
+    fn visit_params(&mut self, visitor: &mut dyn ParamVisitor) {
         (**self).visit_params(visitor);
     }
 }

@@ -41,7 +41,7 @@ where
 /// A parameter whose type is a [`ParamValue`].
 pub trait Known {
     /// Passes the parameter to `visitor`, with access.
-    fn visit<V: ParamVisitor>(self, info: &'static ParamInfo, visitor: &mut V);
+    fn visit(self, info: &'static ParamInfo, visitor: &mut dyn ParamVisitor);
 }
 
 impl<N, const I: usize> Known for Probe<'_, N, I>
@@ -49,7 +49,7 @@ where
     N: ParamField<I>,
     <N as Param<I>>::Value: ParamValue,
 {
-    fn visit<V: ParamVisitor>(mut self, info: &'static ParamInfo, visitor: &mut V) {
+    fn visit(mut self, info: &'static ParamInfo, visitor: &mut dyn ParamVisitor) {
         visitor.param(info, Some(&mut self));
     }
 }
@@ -57,11 +57,11 @@ where
 /// A parameter of any other type.
 pub trait Opaque {
     /// Passes the parameter to `visitor`, without access.
-    fn visit<V: ParamVisitor>(self, info: &'static ParamInfo, visitor: &mut V);
+    fn visit(self, info: &'static ParamInfo, visitor: &mut dyn ParamVisitor);
 }
 
 impl<N, const I: usize> Opaque for &Probe<'_, N, I> {
-    fn visit<V: ParamVisitor>(self, info: &'static ParamInfo, visitor: &mut V) {
+    fn visit(self, info: &'static ParamInfo, visitor: &mut dyn ParamVisitor) {
         visitor.param(info, None);
     }
 }

@@ -459,7 +459,7 @@ impl Replay {
     }
 
     /// Repeats a check of a cell between groups. Returns the recorded result, and waits until the token is there.
-    pub(super) fn looked(&mut self, finds: impl Fn() -> bool) -> bool {
+    pub(super) fn looked(&mut self, finds: &dyn Fn() -> bool) -> bool {
         let Some(group) = &self.group else { return finds() };
         let look = self.looks;
         self.looks += 1;

@@ -61,7 +61,7 @@ impl Tap {
     }
 
     /// Checks a cell between two groups. Returns `true` if there is something in it; in a replay, if there was.
-    pub fn looked(&mut self, finds: impl Fn() -> bool) -> bool {
+    pub fn looked(&mut self, finds: &dyn Fn() -> bool) -> bool {
         match self {
             Self::Record(recorder) => recorder.looked(finds()),
             Self::Replay(replay) => replay.looked(finds),
@@ -195,7 +195,7 @@ impl Tap {
 #[inline]
 pub fn looked<O: Observer>(observer: &mut O, finds: impl Fn() -> bool) -> bool {
     match observer.tap() {
-        Some(tap) => tap.looked(finds),
+        Some(tap) => tap.looked(&finds),
         None => finds(),
     }
 }

@@ -51,7 +51,7 @@ impl ReplayBarrier {
     }
 
     /// Waits in group `group` until `finds` returns `true`, or until that cannot happen any more.
-    pub fn wait(&self, group: usize, finds: impl Fn() -> bool) -> WaitOutcome {
+    pub fn wait(&self, group: usize, finds: &dyn Fn() -> bool) -> WaitOutcome {
         for _ in 0..SPINS {
             if finds() {
                 return WaitOutcome::Found;

@@ -2,7 +2,7 @@ use super::{
     checkpoint::Checkpoints,
     message::{self, Report},
     server::Server,
-    shared::{Shared, Turn},
+    shared::{Latest, Shared, Turn},
     times::Times,
 };
 use crate::{Info, Next, Observer, Parameters, Time, record::Codec, requests::ServedRequests};
@@ -15,7 +15,7 @@ use std::{
     format,
     string::{String, ToString as _},
     sync::{
-        Arc,
+        Arc, MutexGuard,
         atomic::Ordering::{Acquire, Relaxed},
     },
     thread,
@@ -46,11 +46,14 @@ pub struct Stream {
 impl Stream {
     /// Sends a message if there is a viewer.
     fn send(&mut self, report: impl FnOnce() -> Report) {
-        if !self.shared.watched.load(Relaxed) {
-            return;
+        if self.shared.watched.load(Relaxed) {
+            self.write(&report());
         }
+    }
+
+    fn write(&mut self, report: &Report) {
         self.frame.clear();
-        message::write(&report(), &mut self.frame);
+        message::write(report, &mut self.frame);
         while self.ring.push_entire_slice(&self.frame).is_err() {
             // In simulated time the program waits, so that everything is seen.
             let is_over = self.ring.is_abandoned() || !self.shared.watched.load(Acquire);
@@ -60,6 +63,20 @@ impl Stream {
             }
             thread::sleep(PAUSE);
         }
+    }
+
+    /// Reports that a token was sent. Returns the place for its bytes, if a viewer wants to see them.
+    fn latest(&mut self, channel: usize) -> Option<MutexGuard<'_, Latest>> {
+        if self.shared.followed.load(Relaxed) {
+            self.send(|| Report::Sent(channel as u32));
+        }
+        let wanted = &self.shared.channels[channel];
+        // The thread that talks to viewers has the lock for a moment: this token is then not sent.
+        let mut latest = wanted.is.load(Relaxed).then(|| wanted.latest.try_lock().ok()).flatten()?;
+        latest.bytes.clear();
+        latest.is_new = false;
+        latest.now = self.now;
+        Some(latest)
     }
 }
 
@@ -234,19 +251,11 @@ impl Observer for Option<Stream> {
     }
 
     fn sent<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
-        let Some(stream) = self else { return };
-        if stream.shared.followed.load(Relaxed) {
-            stream.send(|| Report::Sent(channel as u32));
+        if let Some(mut latest) = self.as_mut().and_then(|stream| stream.latest(channel))
+            && let Some(codec) = codec
+        {
+            latest.is_new = (codec.write)(token, &mut latest.bytes);
         }
-        let (wanted, Some(codec)) = (&stream.shared.channels[channel], codec) else { return };
-        if !wanted.is.load(Relaxed) {
-            return;
-        }
-        // The thread that talks to viewers has the lock for a moment: this token is then not sent.
-        let Ok(mut latest) = wanted.latest.try_lock() else { return };
-        latest.bytes.clear();
-        latest.is_new = (codec.write)(token, &mut latest.bytes);
-        latest.now = stream.now;
     }
 }
 

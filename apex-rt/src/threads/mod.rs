@@ -121,7 +121,7 @@ pub struct SingleGroup<'a, P>(pub &'a mut P);
 impl<P: Program> Parameters for SingleGroup<'_, P> {
     const PARAMS: &'static [ParamInfo] = P::PARAMS;
 
-    fn visit_params<V: ParamVisitor>(&mut self, visitor: &mut V) {
+    fn visit_params(&mut self, visitor: &mut dyn ParamVisitor) {
         self.0.visit_params(visitor);
     }
 }
