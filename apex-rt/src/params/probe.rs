@@ -24,18 +24,21 @@ where
     }
 
     fn check(&self, value: ParamRef<'_>) -> Result<(), Rejection> {
-        let value = ParamValue::take(value)?;
-        if N::accepts(&value) { Ok(()) } else { Err(Rejection::Range) }
+        accepted(value, N::accepts).map(drop)
     }
 
     fn set(&mut self, value: ParamRef<'_>) -> Result<(), Rejection> {
-        let value = ParamValue::take(value)?;
-        if !N::accepts(&value) {
-            return Err(Rejection::Range);
-        }
-        *self.0.field() = value;
+        *self.0.field() = accepted(value, N::accepts)?;
         Ok(())
     }
+}
+
+/// Returns the value for a parameter that accepts it.
+///
+/// It depends on the type of the value alone, so that it is compiled once for all parameters of that type.
+fn accepted<V: ParamValue>(value: ParamRef<'_>, accepts: fn(&V) -> bool) -> Result<V, Rejection> {
+    let value = V::take(value)?;
+    if accepts(&value) { Ok(value) } else { Err(Rejection::Range) }
 }
 
 /// A parameter whose type is a [`ParamValue`].

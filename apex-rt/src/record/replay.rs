@@ -555,10 +555,18 @@ impl Replay {
     }
 
     pub(super) fn compare<T>(&mut self, channel: usize, codec: Option<Codec<T>>, token: &T) {
-        let Some(codec) = codec.filter(|_| !self.over && !self.leads_in) else { return };
-        let mut bytes = mem::take(&mut self.bytes);
-        bytes.clear();
-        (codec.write)(token, &mut bytes);
+        if let Some(codec) = codec
+            && !self.over
+            && !self.leads_in
+        {
+            self.bytes.clear();
+            (codec.write)(token, &mut self.bytes);
+            self.compare_bytes(channel);
+        }
+    }
+
+    fn compare_bytes(&mut self, channel: usize) {
+        let bytes = mem::take(&mut self.bytes);
         let was = self.reaction.tokens[channel].pop_front().map(|(_, was)| was);
         self.compared(channel, was.as_deref(), Some(&bytes));
         self.bytes = bytes;
