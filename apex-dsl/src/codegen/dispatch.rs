@@ -89,7 +89,6 @@ impl Generator<'_> {
                 code.extend(self.serve(view));
             }
         }
-        code.extend(self.row_constants(view));
         code.extend(self.expire_functions(view));
         if view.program.lower.has_start() {
             let begin = self.ops(view, &view.program.first);
@@ -348,14 +347,14 @@ impl Generator<'_> {
         if !view.wiring.may_get_stuck {
             return quote!();
         }
-        let claim = self.undecided_live();
+        let (claim, slots) = (self.undecided_live(), self.slot_rows(view));
         let before = claim.map(|_| quote! { let before = state.stuck; });
         let claim = claim.map(|claim| quote! { if before == 0 && state.stuck > 0 { observer.claim_failed(#claim); } });
         quote! {
             if !self.core.queue.is_empty() {
                 let Self { state, core, .. } = self;
                 #before
-                core.queue.stuck(Self::SLOTS, &mut state.stuck, |connection| observer.stuck(connection));
+                core.queue.stuck(#slots, &mut state.stuck, |connection| observer.stuck(connection));
                 #claim
             }
         }

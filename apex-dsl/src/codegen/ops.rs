@@ -63,8 +63,8 @@ impl Writer<'_> {
         if port != sent || !is_alone || !is_plain || self.inside.is_some() || self.op(&ops[at + 1]).is_empty() {
             return None;
         }
-        let (name, token) = (ident(&self.view.labels.ports[port]), self.generator.kept(*port));
-        Some(quote! { core.leave(&Self::#name, #token, ctx, observer); })
+        let (row, token) = (self.generator.port_row(self.view, *port), self.generator.kept(*port));
+        Some(quote! { core.leave(&#row, #token, ctx, observer); })
     }
 
     fn op(&self, op: &Op) -> TokenStream {
@@ -88,12 +88,12 @@ impl Writer<'_> {
                 quote! { state.#held.clear(); }
             }
             Op::Pass { port, then } => {
-                let (name, token) = (ident(&view.labels.ports[port]), self.presence(*port));
-                followed(&quote!(core.pass(&Self::#name, #token, observer)), &self.ops(then))
+                let (row, token) = (generator.port_row(view, *port), self.presence(*port));
+                followed(&quote!(core.pass(&#row, #token, observer)), &self.ops(then))
             }
             Op::PassHeld(port) => {
-                let (name, held) = (ident(&view.labels.ports[port]), generator.held_activity(port.node));
-                quote! { if state.#held.take().is_some() { core.carry(&Self::#name); } }
+                let (row, held) = (generator.port_row(view, *port), generator.held_activity(port.node));
+                quote! { if state.#held.take().is_some() { core.carry(&#row); } }
             }
             Op::Hook { node, active } => generator.hook(view.graph, *node, *active),
             Op::CheckClaims => quote! { Self::check_claims(state, core, observer); },

@@ -148,7 +148,7 @@ impl Generator<'_> {
         let (types, makes, items) =
             (all.iter().map(|s| &s.ty), all.iter().map(|s| &s.make), all.iter().map(|s| &s.item));
         let (clusters, stop) = (self.clusters(view), self.stop_nodes(graph, analysis));
-        let (dispatcher, claims) = (self.dispatcher(view), self.claim_function(view));
+        let (dispatcher, claims, rows) = (self.dispatcher(view), self.claim_function(view), self.row_constants(view));
         let witnesses = self.witnesses(graph);
         let inner = around_text();
         quote! {
@@ -166,6 +166,7 @@ impl Generator<'_> {
                 #stop
             }
             #default
+            #rows
             #witnesses
         }
     }

@@ -8,11 +8,11 @@ use super::{
 };
 use crate::{
     analyse::{Delivery, blockers},
-    graph::NodeId,
+    graph::{NodeId, PortId},
     program::{Carries, Flag, Port, Send, Slot},
 };
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens as _, format_ident, quote};
 use syn::Ident;
 
 /// A row in the making: a constant, with the methods that add to it.
@@ -40,29 +40,59 @@ impl Row {
 }
 
 impl Generator<'_> {
-    /// Constants for the nodes that can be active and for the ports whose tokens have effects.
+    /// The module with the rows: of the nodes that can be active, of the ports whose tokens have effects, and of the
+    /// connections to slots.
     pub fn row_constants(&self, view: ProgramView<'_>) -> TokenStream {
         let nodes = view.labels.nodes.iter().map(|(node, name)| {
-            let (name, row) = (ident(name), self.node_row(view, *node));
-            quote! { const #name: ::apex_rt::rows::Node = #row; }
+            let (name, row) = (ident(name), self.row_of_node(view, *node));
+            quote! { pub const #name: Node = #row; }
         });
         let ports = view.wiring.ports().map(|port| {
-            let (name, row) = (ident(&view.labels.ports[&port.end]), self.port_row(view, port));
-            quote! { const #name: ::apex_rt::rows::Port = #row; }
+            let (name, row) = (ident(&view.labels.ports[&port.end]), self.row_of_port(view, port));
+            quote! { pub const #name: Port = #row; }
         });
         let anyway = view.wiring.ports().filter(|port| port.sends.iter().any(|send| send.absent)).map(|port| {
-            let mut row = Row(quote!(::apex_rt::rows::Port::NEW));
+            let mut row = Row(quote!(Port::NEW));
             add_sends(&mut row, view, port.sends.iter().filter(|send| send.absent));
             let (name, row) = (anyway(view, port), row.0);
-            quote! { const #name: ::apex_rt::rows::Port = #row; }
+            quote! { pub const #name: Port = #row; }
         });
-        let slots = self.slot_table(view);
-        quote! { #(#nodes)* #(#ports)* #(#anyway)* #slots }
+        let rows: TokenStream = nodes.chain(ports).chain(anyway).chain(self.slot_table(view)).collect();
+        let module = self.rows_module(view);
+        match rows.is_empty() {
+            true => quote!(),
+            false => quote! {
+                /// Effects of tokens on activity and on other nodes.
+                mod #module { use super::*; use ::apex_rt::rows::{Node, Port, Slot}; #rows }
+            },
+        }
     }
 
-    fn node_row(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+    /// Name of the module with the rows of a program or of a part of one. A program has the name that the text gives
+    /// it.
+    fn rows_module(&self, view: ProgramView<'_>) -> Ident {
+        match self.part {
+            Some((_, part)) => format_ident!("rows_of_{}", part.group),
+            None if view.graph.name == "rows" => ident("rows_"),
+            None => ident("rows"),
+        }
+    }
+
+    /// The row of a port.
+    pub fn port_row(&self, view: ProgramView<'_>, port: PortId) -> TokenStream {
+        let (module, name) = (self.rows_module(view), ident(&view.labels.ports[&port]));
+        quote!(#module::#name)
+    }
+
+    /// The rows of the connections to slots.
+    pub fn slot_rows(&self, view: ProgramView<'_>) -> TokenStream {
+        let module = self.rows_module(view);
+        quote!(#module::SLOTS)
+    }
+
+    fn row_of_node(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         let number = Literal::usize_unsuffixed(self.index(node));
-        let mut row = Row(quote!(::apex_rt::rows::Node::new(#number)));
+        let mut row = Row(quote!(Node::new(#number)));
         if let Some(timeout) = view.wiring.timeout(node) {
             let (number, after) = (Literal::usize_unsuffixed(timeout), nanos(view.wiring.timeouts[timeout].after));
             row.add("timeout", &quote!(#number, #after));
@@ -73,14 +103,14 @@ impl Generator<'_> {
         row.0
     }
 
-    fn port_row(&self, view: ProgramView<'_>, port: &Port) -> TokenStream {
-        let mut row = Row(quote!(::apex_rt::rows::Port::NEW));
+    fn row_of_port(&self, view: ProgramView<'_>, port: &Port) -> TokenStream {
+        let mut row = Row(quote!(Port::NEW));
         let number = |flag: &Flag| self.flag(*flag).1;
         if let Some(along) = &port.passes {
             // A delay keeps what its tokens carry, and has no activity of its own.
             if let Some(name) = view.labels.nodes.get(&port.end.node) {
                 let name = ident(name);
-                row.add("passes", &quote!(Self::#name));
+                row.add("passes", &quote!(#name));
             }
             let (carries, gains): (Vec<&Flag>, Vec<&Flag>) =
                 along.iter().partition(|flag| matches!(flag, Flag::Carries(_)));
@@ -93,7 +123,7 @@ impl Generator<'_> {
     }
 
     /// The table of connections to slots.
-    fn slot_table(&self, view: ProgramView<'_>) -> TokenStream {
+    fn slot_table(&self, view: ProgramView<'_>) -> Option<TokenStream> {
         let blockers = if view.wiring.may_get_stuck { blockers(view.graph, view.analysis) } else { vec![] };
         let rows = view.wiring.slots.iter().enumerate().map(|(number, slot)| {
             let mut row = self.slot_row(view, number, slot);
@@ -102,10 +132,7 @@ impl Generator<'_> {
             row.0
         });
         let (rows, count) = (rows.collect::<Vec<_>>(), view.wiring.slots.len());
-        if count == 0 {
-            return quote!();
-        }
-        quote! { const SLOTS: &'static [::apex_rt::rows::Slot; #count] = { use ::apex_rt::rows::Slot; &[#(#rows),*] }; }
+        (count > 0).then(|| quote! { pub const SLOTS: &[Slot; #count] = &[#(#rows),*]; })
     }
 
     /// The row of a connection to a slot.
@@ -116,7 +143,10 @@ impl Generator<'_> {
         row.number("frees", slot.frees);
         row.number("stamp", view.program.lower.stamp(slot.connection));
         let number = Literal::usize_unsuffixed(number);
-        let node = || self.node_constant(view, slot.node);
+        let node = || match view.labels.nodes.get(&slot.node) {
+            Some(name) => ident(name).into_token_stream(),
+            None => self.no_row(view, slot.node),
+        };
         match slot.carries_to(view.graph) {
             Carries::Nothing => {}
             Carries::Always => row.add("always_activates", &node()),
@@ -133,11 +163,15 @@ impl Generator<'_> {
     pub fn node_constant(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
         match view.labels.nodes.get(&node) {
             Some(name) => {
-                let name = ident(name);
-                quote!(Self::#name)
+                let (module, name) = (self.rows_module(view), ident(name));
+                quote!(#module::#name)
             }
-            None => self.bug(view.graph.nodes[node].span, "a node that becomes active has no row"),
+            None => self.no_row(view, node),
         }
+    }
+
+    fn no_row(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        self.bug(view.graph.nodes[node].span, "a node that becomes active has no row")
     }
 
     /// The parts of the state that rows refer to.
@@ -181,17 +215,18 @@ impl Generator<'_> {
         let goes = |absent: bool| port.sends.iter().any(|send| send.absent == absent && has_effect(view, send));
         let anyway = goes(true).then(|| {
             let name = anyway(view, port);
-            quote! { core.send(&Self::#name, &true, ctx); }
+            let module = self.rows_module(view);
+            quote! { core.send(&#module::#name, &true, ctx); }
         });
-        let (name, present) = (ident(&view.labels.ports[&port.end]), self.waits(view.graph, port.end));
+        let (row, present) = (self.port_row(view, port.end), self.waits(view.graph, port.end));
         let sent = match (goes(false), self.observed_event(view.graph, port.end)) {
             (false, None) => quote!(),
             (true, None) => {
                 let token = self.kept(port.end);
-                quote! { core.send(&Self::#name, #token, ctx); }
+                quote! { core.send(&#row, #token, ctx); }
             }
             (false, Some(observed)) => quote! { if #present { #observed } },
-            (true, Some(observed)) => quote! { if #present { #observed core.send(&Self::#name, &true, ctx); } },
+            (true, Some(observed)) => quote! { if #present { #observed core.send(&#row, &true, ctx); } },
         };
         quote! { #anyway #sent }
     }

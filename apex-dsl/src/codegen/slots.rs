@@ -48,14 +48,14 @@ impl Generator<'_> {
         if view.analysis.asynchronous.delivery == Delivery::Queued {
             return self.slots(view).functions();
         }
-        let slots = &view.wiring.slots;
+        let (slots, rows) = (&view.wiring.slots, self.slot_rows(view));
         let inline = inlined(slots.len());
         let functions = slots.iter().enumerate().map(|(number, slot)| {
             let (name, docs) =
                 (ident(&view.labels.slots[number]), self.docs_of_connection(view.graph, slot.connection));
             let code = self.slot(view, number, slot);
             let code = match code.is_empty() {
-                true => quote! { core.only_enter(&Self::SLOTS[#number], ctx, observer); },
+                true => quote! { core.only_enter(&#rows[#number], ctx, observer); },
                 false => code,
             };
             quote! {
@@ -78,7 +78,8 @@ impl Generator<'_> {
             Arm { number, docs, code: self.slot(view, number, slot) }
         });
         let arms = arms.filter(|arm| !arm.code.is_empty()).collect();
-        let rest = quote!(core.only_enter(&Self::SLOTS[slot as usize], ctx, observer));
+        let rows = self.slot_rows(view);
+        let rest = quote!(core.only_enter(&#rows[slot as usize], ctx, observer));
         Numbered { name: "slot", count: view.wiring.slots.len(), arms, rest }
     }
 
@@ -99,9 +100,9 @@ impl Generator<'_> {
             true => (quote!(_), quote!()),
             false => (quote!(turned), quote! { if *turned { #turned } }),
         };
-        let index = self.index(slot.node);
+        let (index, rows) = (self.index(slot.node), self.slot_rows(view));
         quote! {
-            let (ctx, #name) = &core.enter(&Self::SLOTS[#number], ctx, observer);
+            let (ctx, #name) = &core.enter(&#rows[#number], ctx, observer);
             #clear #effects #call
             observer.finished(#index);
             #after
