@@ -1,15 +1,17 @@
 //! Commands of the program.
 
-mod args;
-
-use apex_sim::{in_order, say};
-use args::{Args, Seeds};
-use follow::{
-    field::{Ending, Options},
-    runs::{Accuracy, HEAD, Row, Run, accuracy, picture, summary},
+use apex_sim::{
+    experiment::{Command, Options, Seeds, rows, write_file},
+    say,
 };
-use lexopt::Parser;
-use std::{env, ffi::OsString, fs, path::Path, process::ExitCode};
+use follow::{
+    experiments::{Accuracy, HEAD, Row, Run, accuracy, picture, run, summary},
+    world::{self, Ending},
+};
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
 const HELP: &str = "\
 A skid-steered robot follows a runner outdoors, in simulation: over hills, between trees, rocks, ditches and people.
@@ -50,30 +52,49 @@ Exit codes: 0 fine, 1 the robot lost the runner for longer than 5 s, touched som
 failed; for `perception`, a rate below 95 %; 2 nothing could be done.
 ";
 
-/// Runs the command that the arguments of the program name.
-pub fn run() -> Result<ExitCode, String> {
-    let mut args = env::args_os().skip(1).peekable();
-    let is_name = |arg: &OsString| !arg.as_encoded_bytes().starts_with(b"-");
-    let name = args.next_if(is_name);
-    let rest: Vec<OsString> = args.collect();
-    if rest.iter().any(|arg| arg == "--help" || arg == "-h") {
-        return say(HELP).map(|()| ExitCode::SUCCESS);
+pub const COMMANDS: [Command; 3] = [
+    Command { name: "follow", help: HELP, run: follow_one },
+    Command { name: "missions", help: HELP, run: missions },
+    Command { name: "perception", help: HELP, run: perception },
+];
+
+/// Options of the world, and the file of the picture.
+struct World {
+    metres: u64,
+    people: bool,
+    out: PathBuf,
+}
+
+impl World {
+    fn new() -> Self {
+        Self { metres: 1700, people: true, out: PathBuf::from("out/follow/track.svg") }
     }
-    let parser = Parser::from_args(rest);
-    match name.as_ref().map(|name| name.to_string_lossy()).as_deref() {
-        None | Some("follow") => follow_one(&Args::read(parser, &["seed", "metres", "no-people", "out"])?),
-        Some("missions") => {
-            missions(&Args::read(parser, &["first-seed", "seeds", "jobs", "metres", "no-people", "out"])?)
+
+    /// Reads the value of the option `name`.
+    fn read(&mut self, name: &str, options: &mut Options) -> Result<(), String> {
+        match name {
+            "metres" => self.metres = options.number(name, 300..=5000)?,
+            "no-people" => self.people = false,
+            "out" => self.out = options.path()?,
+            _ => return Err(Options::unknown(name)),
         }
-        Some("perception") => perception(&Args::read(parser, &["first-seed", "seeds", "jobs"])?.seeds),
-        Some(other) => {
-            Err(format!("`{other}` is not a command; there are `follow`, `missions`, `perception`, and `--help`"))
-        }
+        Ok(())
+    }
+
+    fn of(&self, seed: u64) -> world::Options {
+        world::Options { seed, length: self.metres as f32, people: self.people }
     }
 }
 
-fn follow_one(args: &Args) -> Result<ExitCode, String> {
-    let run = follow::runs::run(&options(args, args.seed))?;
+fn follow_one(options: &mut Options) -> Result<ExitCode, String> {
+    let (mut seed, mut world) = (1, World::new());
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "seed" => seed = options.number(&name, 0..)?,
+            _ => world.read(&name, options)?,
+        }
+    }
+    let run = run(&world.of(seed))?;
     say(&format!("{HEAD}\n{}\n\nActive nodes:\n", Row(&run)))?;
     let mut activity = run.activity.clone();
     activity.sort_by_key(|(_, time)| std::cmp::Reverse(*time));
@@ -87,38 +108,31 @@ fn follow_one(args: &Args) -> Result<ExitCode, String> {
         let what = if contact.is_person { "a person" } else { "a thing" };
         say(&format!("touched {what} at {} with {:.2} m/s\n", contact.at, contact.speed))?;
     }
-    draw(&run, &args.out)?;
+    draw(&run, &world.out)?;
     Ok(verdict(&[run]))
 }
 
-fn missions(args: &Args) -> Result<ExitCode, String> {
-    say(&format!("{HEAD}\n"))?;
-    let jobs: Vec<Options> = args.seeds.all().into_iter().map(|seed| options(args, seed)).collect();
-    let mut said = Ok(());
-    let show = |run: &Result<Run, String>| {
-        if let (Ok(run), Ok(())) = (run, &said) {
-            said = say(&format!("{}\n", Row(run)));
+fn missions(options: &mut Options) -> Result<ExitCode, String> {
+    let (mut seeds, mut world) = (Seeds::new(1), World::new());
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "first-seed" | "seeds" | "jobs" => seeds.read(&name, options)?,
+            _ => world.read(&name, options)?,
         }
-    };
-    let runs = in_order(&jobs, args.seeds.jobs, follow::runs::run, show).map_err(|e| e.to_string())?;
-    said?;
-    let runs = runs.into_iter().collect::<Result<Vec<Run>, String>>()?;
+    }
+    say(&format!("{HEAD}\n"))?;
+    let runs =
+        rows("runs", &seeds.all(), seeds.jobs, |seed| run(&world.of(*seed)), |_, run| Some(Row(run).to_string()))?;
     say(&format!("\n{}", summary(&runs)))?;
-    draw(&runs[0], &args.out)?;
+    draw(&runs[0], &world.out)?;
     Ok(verdict(&runs))
 }
 
-fn perception(seeds: &Seeds) -> Result<ExitCode, String> {
+fn perception(options: &mut Options) -> Result<ExitCode, String> {
+    let seeds = Seeds::new(1).read_all(options)?;
     say("        precision and recall of ground, of obstacles          time of a turn\n")?;
     say("  seed    ground                 obstacles                  median     most\n")?;
-    let mut said = Ok(());
-    let show = |accuracy: &Accuracy| {
-        if said.is_ok() {
-            said = say(&format!("{accuracy}\n"));
-        }
-    };
-    let all = in_order(&seeds.all(), seeds.jobs, |seed| accuracy(*seed), show).map_err(|e| e.to_string())?;
-    said?;
+    let all = rows("seeds", &seeds.all(), seeds.jobs, |seed| Ok(accuracy(*seed)), |_, all| Some(all.to_string()))?;
     let mut sum = Accuracy::default();
     all.iter().for_each(|one| sum.add(one));
     say(&format!("\n{}", sum.table()))?;
@@ -126,16 +140,8 @@ fn perception(seeds: &Seeds) -> Result<ExitCode, String> {
     Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
-fn options(args: &Args, seed: u64) -> Options {
-    Options { seed, length: args.metres as f32, people: args.people }
-}
-
 fn draw(run: &Run, out: &Path) -> Result<(), String> {
-    let cannot = |e: std::io::Error| format!("cannot write {}: {e}", out.display());
-    if let Some(folder) = out.parent() {
-        fs::create_dir_all(folder).map_err(cannot)?;
-    }
-    fs::write(out, picture(run)).map_err(cannot)?;
+    write_file(out, &picture(run))?;
     say(&format!("picture: {}\n", out.display()))
 }
 

@@ -1,6 +1,6 @@
 use crate::{
-    field::{Field, Options},
     perception::Perceive,
+    world::{Options, State},
 };
 use apex_nodes::{
     cloud::{Label, RingCloud},
@@ -48,8 +48,7 @@ const SURFACES: [(Surface, &str); 7] = [
 
 /// Measures the detection of obstacles on the terrain of a seed, on turns along the track, and its computing time.
 pub fn accuracy(seed: u64) -> Accuracy {
-    let field = Field::new(&Options { seed, ..Options::default() });
-    let state = field.state();
+    let state = State::new(&Options { seed, ..Options::default() });
     let (terrain, track) = (&state.terrain, &state.track);
     let mut random = state.stream(20);
     let mut scanner = RingScanner::default();

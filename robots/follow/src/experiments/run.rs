@@ -1,10 +1,12 @@
-use super::activity::Watch;
 use crate::{
-    field::{Camera, Field, Judge, Motors, Options, Report, Scanner, State, Wheels},
     robot::{Summit, SummitParts},
+    world::{Camera, Field, Judge, Motors, Options, Report, Scanner, State, Wheels},
 };
-use apex_rt::{Clock as _, Next, Program as _, SimClock, Time, UntilStopped};
-use apex_sim::outdoor::{Terrain, Track};
+use apex_rt::Time;
+use apex_sim::{
+    experiment::{self, Failure},
+    outdoor::{Terrain, Track},
+};
 use std::time::{Duration, Instant};
 
 /// Period of the reactions of a robot that could always react.
@@ -20,7 +22,7 @@ pub struct Run {
     /// Events, by the true state.
     pub report: Report,
     /// Failures of nodes and claims that did not hold, each once.
-    pub failures: Vec<String>,
+    pub failures: Vec<Failure>,
     /// Nodes that were active, and for how long.
     pub activity: Vec<(&'static str, Duration)>,
     /// Simulated time.
@@ -39,7 +41,7 @@ pub struct Run {
 /// If it is stopped by a signal.
 pub fn run(options: &Options) -> Result<Run, String> {
     let began = Instant::now();
-    let field = Field::new(options);
+    let field = Field::new(State::new(options));
     let mut robot = Box::new(Summit::new(SummitParts {
         scanner: Scanner::new(&field),
         wheels: Wheels::new(&field),
@@ -48,30 +50,16 @@ pub fn run(options: &Options) -> Result<Run, String> {
         judge: Judge::new(&field),
     }));
     let end = Time::ZERO + Duration::from_secs_f32(30.0 + options.length / SLOWEST);
-    let mut watch = Watch::new();
-    let mut clock = UntilStopped::ctrl_c(SimClock::until(end).with_step(STEP))?;
-    let now = loop {
-        let now = clock.now();
-        watch.now = now;
-        let next = robot.react_with(now, &mut watch);
-        let time = if let Next::At(time) = next { time } else { now };
-        if field.state().report().ending.is_some() || !clock.wait_until(time) {
-            break now;
-        }
-    };
-    robot.stop();
-    if clock.is_stopped() {
-        return Err(format!("stopped by a signal after {now} of the run"));
-    }
-    let mut state = field.state();
+    let log = experiment::run(&mut *robot, end, STEP, &mut (), |_, ()| field.present().report().ending.is_none())?;
+    let mut state = field.present();
     state.end();
     let State { terrain, track, .. } = &*state;
     Ok(Run {
         options: *options,
         report: state.report().clone(),
-        activity: watch.at(now),
-        failures: watch.failures,
-        lasted: now.since(Time::ZERO),
+        activity: log.activity(log.now),
+        failures: log.failures,
+        lasted: log.now.since(Time::ZERO),
         took: began.elapsed(),
         terrain: terrain.clone(),
         track: track.clone(),

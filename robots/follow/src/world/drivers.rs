@@ -34,7 +34,7 @@ pub struct Scanner {
 impl Scanner {
     /// Creates the scanner of the robot in a world.
     pub fn new(field: &Field) -> Self {
-        let random = field.state().stream(10);
+        let random = field.present().stream(10);
         Self { field: field.clone(), scanner: RingScanner::default(), random, truth: vec![], due: Time::ZERO + TURN }
     }
 
@@ -85,7 +85,7 @@ pub struct Camera {
 impl Camera {
     /// Creates the camera of the robot in a world.
     pub fn new(field: &Field) -> Self {
-        let random = field.state().stream(11);
+        let random = field.present().stream(11);
         Self {
             field: field.clone(),
             detector: StereoDetector::default(),

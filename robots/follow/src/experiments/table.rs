@@ -1,5 +1,5 @@
 use super::Run;
-use crate::field::Ending;
+use crate::world::Ending;
 use std::fmt;
 
 /// Names of the columns of [`Row`].

@@ -7,15 +7,11 @@ use apex_nodes::{
 };
 use apex_rt::Time;
 use apex_sim::{
-    Limits, Random,
+    HeldTwist, Limits, Random, Shared, Simulation,
     outdoor::{Attitude, Passersby, Runner, Sample, SkidBase, SkidShape, Terrain, Track, Walker},
 };
 use core::f32::consts::PI;
-use std::{
-    collections::VecDeque,
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
-    time::Duration,
-};
+use std::{collections::VecDeque, time::Duration};
 
 /// Step of the simulation.
 const STEP: Duration = Duration::from_millis(10);
@@ -57,7 +53,7 @@ impl Default for Options {
     }
 }
 
-/// World of one seed. The same seed and the same commands give the same result, bit for bit.
+/// World of one seed.
 #[derive(Debug)]
 pub struct State {
     now: Time,
@@ -69,7 +65,7 @@ pub struct State {
     runner: Runner,
     passersby: Option<Passersby>,
     base: SkidBase,
-    command: (Twist, Time),
+    command: HeldTwist,
     samples: VecDeque<Sample>,
     wheels: Pose2,
     noise: Random,
@@ -81,33 +77,12 @@ pub struct State {
     report: Report,
 }
 
-/// Handle of a world, which all drivers of the robot share.
-#[derive(Debug, Clone)]
-pub struct Field {
-    state: Arc<Mutex<State>>,
-}
-
-impl Field {
-    /// Creates the world of a seed.
-    pub fn new(options: &Options) -> Self {
-        Self { state: Arc::new(Mutex::new(State::new(options))) }
-    }
-
-    /// The world at a time.
-    pub fn at(&self, now: Time) -> MutexGuard<'_, State> {
-        let mut state = self.state();
-        state.advance(now);
-        state
-    }
-
-    /// The world as it is, even if another thread panicked while using it.
-    pub fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
+/// World that all drivers of the robot share.
+pub type Field = Shared<State>;
 
 impl State {
-    fn new(options: &Options) -> Self {
+    /// Creates the world of a seed.
+    pub fn new(options: &Options) -> Self {
         let mut random = stream(options.seed, 0);
         let track = Track::new(&mut random, options.length);
         let terrain = Terrain::around(&track, &mut random);
@@ -129,7 +104,7 @@ impl State {
             runner,
             passersby,
             base,
-            command: (Twist::ZERO, Time::ZERO),
+            command: HeldTwist::new(Some(COMMAND_TIMEOUT)),
             samples: std::iter::repeat_n(sample, SAMPLES).collect(),
             wheels: Pose2::default(),
             noise,
@@ -176,7 +151,7 @@ impl State {
 
     /// Sets the twist of the motors.
     pub fn drive(&mut self, twist: Twist) {
-        self.command = (twist, self.now);
+        self.command.set(twist, self.now);
     }
 
     /// Compares where the robot believes the runner to be with where the runner is. `pose` is that of the robot in the
@@ -198,13 +173,6 @@ impl State {
     fn end_loss(&mut self) {
         if let Some((from, place)) = self.lost.take() {
             self.report.losses.push(Loss { from, lasted: self.now.since(from).as_secs_f32(), place });
-        }
-    }
-
-    /// Advances to a time, unless the run has ended.
-    pub fn advance(&mut self, now: Time) {
-        while self.now + STEP <= now && self.report.ending.is_none() {
-            self.step();
         }
     }
 
@@ -232,8 +200,7 @@ impl State {
     }
 
     fn move_base(&mut self, dt: f32) {
-        let (twist, at) = self.command;
-        let twist = if self.now.since(at) <= COMMAND_TIMEOUT { twist } else { Twist::ZERO };
+        let twist = self.command.at(self.now);
         let before = self.base.clone();
         let free = self.clearance();
         self.base.step(&twist, dt, &self.terrain);
@@ -309,6 +276,15 @@ impl State {
     pub fn end(&mut self) {
         self.end_loss();
         self.report.ending.get_or_insert(Ending::Time);
+    }
+}
+
+impl Simulation for State {
+    /// Advances to a time, unless the run has ended.
+    fn advance(&mut self, now: Time) {
+        while self.now + STEP <= now && self.report.ending.is_none() {
+            self.step();
+        }
     }
 }
 
