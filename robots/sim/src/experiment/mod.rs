@@ -1,4 +1,4 @@
-//! What experiments with simulated robots share: runs with a log of activity and failures, recordings, commands with
+//! Tools of programs that measure simulated robots: runs with a log of activity and failures, recordings, commands with
 //! seeds, tables with a line for each run, and drawings.
 
 mod commands;
