@@ -1,8 +1,8 @@
 //! A skid-steered robot that follows a runner outdoors at running speed (thesis 8.4), in simulation: the robot as
-//! `follow.afg`, its world, and what becomes of its runs.
+//! `follow.afg`, its [world], and [experiments] with it.
 
-pub mod field;
-pub mod runs;
+pub mod experiments;
+pub mod world;
 
 use apex_nodes::{
     map::{Grid, Occupancy, Raster},

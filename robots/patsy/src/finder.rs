@@ -57,7 +57,7 @@ pub struct Finder {
 }
 
 impl Search {
-    /// Container carts (see [`Cart`](crate::Cart)).
+    /// Container carts (see [`Cart`](crate::world::Cart)).
     pub const CART: Self = Self {
         near: 0.05,
         gap: 0.15,

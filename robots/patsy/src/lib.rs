@@ -1,31 +1,24 @@
 //! PATSY, a robot that fetches hospital containers: the detection of containers by their wheels (thesis 6.6.1), and a
 //! simulation to evaluate it as in the thesis (6.10.2, experiment 1).
 //!
+//! The modules here are the robot; [`world`] has what surrounds it in simulation, with its drivers there, and
+//! [`experiments`] what is measured.
+//!
 //! The scanner is at the origin and faces along x; a cart moves in front of it.
 
-pub mod accuracy;
-pub mod approach;
 mod beneath;
-mod cart;
-pub mod chart;
-pub mod clinic;
+mod container;
+mod detector;
 mod drive;
-mod evaluate;
-mod file;
+pub mod experiments;
 mod finder;
 mod mission_control;
-pub mod missions;
-mod motion;
-pub mod obstacles;
+mod order;
 mod placed;
-mod progress;
-mod referee;
-mod report;
-mod room;
-mod sim_laser;
-pub mod times;
-mod tractor;
-pub mod validate;
+pub mod world;
+
+/// File with the plan of the building, below the folder in which the program runs: the simulated clinic writes it there.
+pub const PLAN: &str = "out/patsy/building.csv";
 
 /// A container two metres ahead, for tests.
 pub const CONTAINER_AHEAD: apex_nodes::scan::Container = apex_nodes::scan::Container {
@@ -42,19 +35,13 @@ pub const CONTAINER_BEFORE: apex_nodes::scan::Container =
     apex_nodes::scan::Container { pose: apex_nodes::scan::Pose2 { x: 0.9, y: 0.0, theta: 0.0 }, ..CONTAINER_AHEAD };
 
 pub use beneath::Beneath;
-pub use cart::{Cart, LENGTH, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
+pub use container::{BODY, LENGTH, TOP, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
+pub use detector::{Detector, Weights};
 pub use drive::Drive;
-pub use evaluate::{Evaluate, Score, Statistics};
-pub use file::write_file;
 pub use finder::{Finder, Search};
 pub use mission_control::{MissionControl, ahead};
-pub use motion::Scenario;
+pub use order::Order;
 pub use placed::Placed;
-pub use progress::Progress;
-pub use referee::{Ends, Referee};
-pub use report::{RECORDED_SCANNER, Report};
-pub use sim_laser::{SimLaser, Truth};
-use tractor::tractor;
 
 /// Compiled robots of `patsy.afg`.
 pub mod programs {
@@ -64,6 +51,16 @@ pub mod programs {
 /// The vehicle in the clinic: `clinic.afg`.
 pub mod vehicle {
     apex_macros::graph!("clinic.afg");
+}
+
+/// Detection of obstacles in clouds: `obstacles.afg`.
+pub mod obstacles {
+    apex_macros::graph!("obstacles.afg");
+}
+
+/// The vehicle before things on the floor: `lookout.afg`.
+mod lookout {
+    apex_macros::graph!("lookout.afg");
 }
 
 /// The collection of a container, with the tests of `collect.afg`.

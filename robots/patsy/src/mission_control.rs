@@ -1,4 +1,4 @@
-use crate::clinic::Order;
+use crate::Order;
 use apex_nodes::scan::{Container, Pose2};
 use apex_rt::{Ctx, Event, node};
 

@@ -2,8 +2,8 @@
 
 use apex_rt::Time;
 use patsy::{
-    clinic::{Fault, FaultKind, Options},
-    missions::{Run, run},
+    experiments::missions::{Run, run},
+    world::clinic::{Fault, FaultKind, Options},
 };
 use std::time::Duration;
 

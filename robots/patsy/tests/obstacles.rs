@@ -4,7 +4,7 @@
 //! `CI=true`.
 
 use apex_nodes::cloud::Label;
-use patsy::obstacles::{Method, RecordedTable, Summary, labelled_scores, recorded_labels};
+use patsy::experiments::obstacles::{Method, RecordedTable, Summary, labelled_scores, recorded_labels};
 use std::path::{Path, PathBuf};
 
 /// Folder of the recordings, or `None` (with a message) if it does not exist.

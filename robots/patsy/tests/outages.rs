@@ -2,7 +2,7 @@
 //! missions --outages` has many of these runs.
 
 use apex_sim::OutageTable;
-use patsy::{clinic::Options, missions::run_with_outages};
+use patsy::{experiments::missions::run_with_outages, world::clinic::Options};
 use std::time::Duration;
 
 #[test]

@@ -10,7 +10,7 @@ use std::{env, fs};
 
 graph! {
     use apex_nodes::scan::{JumpDistance, RangeFilter, SegmentFilter};
-    use patsy::SimLaser;
+    use patsy::world::SimLaser;
 
     /// First nodes of the perception.
     robot Sensors {

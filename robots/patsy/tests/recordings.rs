@@ -6,7 +6,7 @@
 use apex_nodes::io::ScanLog;
 use apex_rt::Time;
 use patsy::{
-    RECORDED_SCANNER, Report,
+    experiments::{RECORDED_SCANNER, Report},
     programs::{RecordedPallets, RecordedPalletsParts},
 };
 use std::path::{Path, PathBuf};

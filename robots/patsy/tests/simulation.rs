@@ -2,7 +2,12 @@
 
 use apex_rt::{Clock, Construct, Ctx, Event, Next, Out, SimClock, Time};
 use core::f32::consts::PI;
-use patsy::{Ends, Evaluate, Finder, Search, SimLaser, programs::Simulated};
+use patsy::{
+    Finder, Search,
+    experiments::{Ends, Evaluate},
+    programs::Simulated,
+    world::SimLaser,
+};
 use std::time::{Duration, Instant};
 
 /// Plays the simulation. Returns the results and the computing time per scan.

@@ -6,7 +6,7 @@ use apex_nodes::{
     scan::{Pose2, Scan},
 };
 use apex_rt::{Ctx, Out, Time};
-use sick_robot_day::contest::{Base, Drivers, Hall};
+use sick_robot_day::world::contest::{Base, Drivers, Hall};
 use std::time::{Duration, Instant};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

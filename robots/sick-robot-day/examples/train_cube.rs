@@ -9,7 +9,7 @@ use apex_nodes::{
     math::Random,
 };
 use apex_rt::Out;
-use sick_robot_day::Hopper;
+use sick_robot_day::world::Hopper;
 use std::{env, fs, process::ExitCode};
 
 const EPOCHS: u32 = 40;

@@ -1,29 +1,19 @@
-//! The robot of the SICK Robot Day 2014, which fetches labelled cubes and delivers them (thesis chapter 4): a
-//! simulation of the arena, the robot's perception and mission, their evaluation, and the report of a run.
+//! The robot of the SICK Robot Day 2014, which fetches labelled cubes and delivers them (thesis chapter 4). The modules
+//! here are the robot; [`world`] has the simulated competition with the robot's drivers there, and [`experiments`] its
+//! runs, their reports, and what is measured.
 
-mod arena;
-pub mod bench;
-pub mod contest;
-mod hopper;
-mod knowledge_log;
-pub mod measure;
+pub mod experiments;
 mod nodes;
 mod places;
-pub mod run;
-pub mod run_report;
 mod sensors;
-mod signs;
+pub mod world;
 
-pub use arena::{Arena, ISLAND_SIDE, NUMBER_HEIGHT, Station, TARGET_HEIGHT, WALL_HEIGHT};
-pub use hopper::{CUBE_SIDE, Cube, HOPPER_SIZE, Hopper};
-pub use knowledge_log::KnowledgeLog;
 pub use nodes::{
     CUBE, NUMBERS, NumberSign, NumberSigns, clearest, cube_number, is_cube, number_sign, on_paper, sign_number,
     sign_target,
 };
 pub use places::{BorderTour, ChooseStation, is_word, origin};
-pub use sensors::{LASER, Sensors, View, camera, hall_light};
-pub use signs::{NUMBER_WIDTH, TARGET_WIDTH};
+pub use sensors::{LASER, camera};
 
 /// Compiled graphs.
 pub mod programs {

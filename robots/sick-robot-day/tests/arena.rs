@@ -2,7 +2,10 @@
 
 use apex_nodes::scan::{Point2, Pose2, Scan};
 use apex_sim::{Laser, Light, Random};
-use sick_robot_day::{Arena, Sensors, TARGET_HEIGHT, camera};
+use sick_robot_day::{
+    camera,
+    world::{Arena, Sensors, TARGET_HEIGHT},
+};
 use std::f32::consts::{PI, TAU};
 
 #[test]

@@ -29,7 +29,7 @@ fn help_tells_about_everything() {
     {
         assert!(text.contains(word), "{word}");
     }
-    for kind in sick_robot_day::contest::FaultKind::ALL {
+    for kind in sick_robot_day::world::contest::FaultKind::ALL {
         assert!(text.contains(kind.name()), "{}", kind.name());
     }
     assert_eq!(run(Path::new("."), &["bench", "-h"]), (code, text, messages));
@@ -38,7 +38,7 @@ fn help_tells_about_everything() {
 #[test]
 fn what_cannot_be_meant_is_refused() {
     let cases: [(&[&str], &str); 14] = [
-        (&["dance"], "`dance` is no command; there are `compete`, `bench` and `perception`, and `--help`"),
+        (&["dance"], "`dance` is not a command; there are `compete`, `bench`, `perception`, and `--help`"),
         (&["--sed", "1"], "invalid option '--sed'; `--help` lists the options"),
         (&["bench", "--seed", "1"], "invalid option '--seed'; `--help` lists the options"),
         (&["--seed", "-1"], "`--seed` is a whole number from 0, not `-1`"),

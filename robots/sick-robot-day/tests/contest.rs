@@ -5,8 +5,8 @@ use apex_nodes::{
     scan::{Point2, Pose2},
 };
 use apex_rt::{Ctx, Out, Time};
-use apex_sim::Random;
-use sick_robot_day::{
+use apex_sim::{Random, Simulation as _};
+use sick_robot_day::world::{
     Arena, Station,
     contest::{
         Base, Contest, DURATION, Drivers, Fault, FaultKind, FrontCamera, FrontLaser, Hall, Lamp, Obstacle, RADIUS,
@@ -231,7 +231,7 @@ fn a_hall_is_driven_by_its_nodes() {
 mod wired {
     apex_macros::graph! {
         use apex_nodes::{image::{Camera, GrayImage}, nav::Twist, scan::{Pose2, Scan}};
-        use sick_robot_day::contest::{
+        use sick_robot_day::world::contest::{
             Base, FrontCamera, FrontLaser, HopperCamera, Lamp, RearLaser, Remote, WheelOdometry,
         };
 
@@ -294,7 +294,7 @@ fn all_drivers_work_in_a_compiled_graph() {
     assert!(seen.pose.is_some_and(|pose| (0.2..0.4).contains(&pose.x)), "{:?}", seen.pose);
     let size = |image: &Option<apex_nodes::image::GrayImage>| image.as_ref().map(|image| (image.stamp, image.size()));
     assert_eq!(size(&seen.image), Some((ms(1000), (960, 720))));
-    assert_eq!(size(&seen.cubes), Some((ms(1000), sick_robot_day::HOPPER_SIZE)));
+    assert_eq!(size(&seen.cubes), Some((ms(1000), sick_robot_day::world::HOPPER_SIZE)));
     assert_eq!((seen.camera, seen.word.as_deref()), (Some(sick_robot_day::camera()), Some("go")));
     assert!(hall.robots()[0].lamp);
 }

@@ -2,9 +2,9 @@
 
 use apex_rt::{Program, Time, record::replay};
 use sick_robot_day::{
-    contest::{Fault, FaultKind, Hall, START},
+    experiments::run::{Mission, Outcome, Recording, Robot as _, Setup},
     programs::Competition,
-    run::{Mission, Outcome, Recording, Robot as _, Setup},
+    world::contest::{Fault, FaultKind, Hall, START},
 };
 use std::{fs, time::Duration};
 

@@ -2,7 +2,7 @@
 //! `bench --outages` has many of these runs.
 
 use apex_sim::OutageTable;
-use sick_robot_day::{bench::Outages, run::Setup};
+use sick_robot_day::experiments::{bench::Outages, run::Setup};
 use std::time::Duration;
 
 /// The odometry stops in the runs with the seeds 12 and 64, once while the robot creeps.

@@ -9,8 +9,9 @@ use apex_rt::Time;
 use apex_sim::{CameraSim, Light, Look, Panel, Picture, Random, Scene, World};
 use image::{ImageBuffer, Luma};
 use sick_robot_day::{
-    Arena, HOPPER_SIZE, Hopper, LASER, NumberSign, Sensors, TARGET_HEIGHT, TARGET_WIDTH, View, camera, hall_light,
+    LASER, NumberSign, camera,
     programs::{CubeByDeviation, CubeByNetwork, CubeNumber, FindCross, FindSign, FindTarget},
+    world::{Arena, HOPPER_SIZE, Hopper, Sensors, TARGET_HEIGHT, TARGET_WIDTH, View, hall_light},
 };
 use std::{f32::consts::PI, path::Path};
 

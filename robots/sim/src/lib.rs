@@ -1,6 +1,7 @@
 //! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, cameras
 //! (feature `camera`), time-of-flight cameras (feature `tof`), buildings from plans (feature `building`), people
-//! (feature `people`), and open country (feature `outdoor`).
+//! (feature `people`), and open country (feature `outdoor`). Programs that run robots in such worlds and measure them use
+//! `experiment` (feature `experiment`).
 //!
 //! Available as nodes: a [`DifferentialBase`], a [`TractorBase`] with trailer and lift, a [`Battery`], and a
 //! [`LaserScanner`] in a world drawn with characters ([`FloorPlan`]), and a [`LiveView`] of it. `apex new` creates a
@@ -17,6 +18,10 @@ mod building;
 #[cfg(feature = "camera")]
 mod camera;
 mod drive;
+#[cfg(feature = "experiment")]
+pub mod experiment;
+mod fault;
+mod held_twist;
 mod jobs;
 mod laser;
 mod odometry;
@@ -33,6 +38,8 @@ mod say;
 mod scanner;
 #[cfg(feature = "camera")]
 mod scene;
+mod shared;
+mod stream;
 #[cfg(feature = "tof")]
 pub mod tof;
 #[cfg(feature = "building")]
@@ -49,6 +56,8 @@ pub use building::Building;
 #[cfg(feature = "camera")]
 pub use camera::{CameraSim, Light, NotLevel, expose};
 pub use drive::{Differential, Limits, Omnidirectional, Tractor};
+pub use fault::Fault;
+pub use held_twist::HeldTwist;
 pub use jobs::in_order;
 pub use laser::Laser;
 pub use odometry::{Odometry, OdometryNoise};
@@ -63,6 +72,8 @@ pub use say::say;
 pub use scanner::LaserScanner;
 #[cfg(feature = "camera")]
 pub use scene::{Look, Panel, Picture, Pillar, Scene};
+pub use shared::{Shared, Simulation};
+pub use stream::stream;
 #[cfg(feature = "building")]
 pub use tour::{BuildingTour, Tour, TourError};
 pub use tractor::TractorBase;

@@ -1,13 +1,13 @@
-use super::args::{Seeds, next, number, path, seeds_option};
-use apex_sim::{OutageTable, in_order, say};
-use lexopt::{Parser, prelude::Long};
+use apex_sim::{
+    OutageTable,
+    experiment::{Options, Seeds, broken_promises, rows, write_file},
+    say,
+};
 use patsy::{
-    clinic::{FaultKind, Options, PEOPLE},
-    missions::{
-        BudgetTable, Row, Run, activity_table, fault_at, fault_of, faults_table, picture, run, run_with_outages,
-        summary, timeline,
+    experiments::missions::{
+        BudgetTable, Row, activity_table, fault_at, faults_table, picture, run, run_with_outages, summary, timeline,
     },
-    write_file,
+    world::clinic::{self, Fault, FaultKind, PEOPLE, words},
 };
 use std::{path::PathBuf, process::ExitCode, time::Duration};
 
@@ -25,13 +25,13 @@ struct Missions {
 }
 
 /// Runs the vehicle in many clinics, also with faults, and counts what came of it.
-pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
-    let missions = read(parser)?;
+pub fn missions(options: &mut Options) -> Result<ExitCode, String> {
+    let missions = read(options)?;
     if missions.outages {
         return missions.outages();
     }
     let seeds = missions.seeds.all();
-    let mut jobs: Vec<Options> = seeds.iter().map(|seed| missions.options(*seed, None)).collect();
+    let mut jobs: Vec<clinic::Options> = seeds.iter().map(|seed| missions.options(*seed, None)).collect();
     if missions.faults {
         let kinds = FaultKind::MEASURED.into_iter();
         jobs.extend(
@@ -41,17 +41,9 @@ pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
         );
     }
     say(&format!("{}\n", Row::HEAD))?;
-    let mut said = Ok(());
-    let show = |run: &Result<Run, String>| {
-        if let (Ok(run), Ok(())) = (run, &said) {
-            said = say(&format!("{}\n", Row(run)));
-        }
-    };
-    let record = |options: &Options| missions.record.as_deref().filter(|_| *options == jobs[0]);
-    let work = |options: &Options| run(options, missions.duration, record(options));
-    let runs = in_order(&jobs, missions.seeds.jobs, work, show).map_err(|e| e.to_string())?;
-    said?;
-    let runs = runs.into_iter().collect::<Result<Vec<Run>, String>>()?;
+    let record = |options: &clinic::Options| missions.record.as_deref().filter(|_| *options == jobs[0]);
+    let work = |options: &clinic::Options| run(options, missions.duration, record(options));
+    let runs = rows("runs", &jobs, missions.seeds.jobs, work, |_, run| Some(Row(run).to_string()))?;
     let (without, with) = runs.split_at(seeds.len());
     say(&format!("\n{}\n{}\nActive nodes:\n{}\n", summary(without), BudgetTable(without), activity_table(without)))?;
     if missions.faults {
@@ -61,8 +53,7 @@ pub fn missions(parser: &mut Parser) -> Result<ExitCode, String> {
     if let Some(path) = &missions.timeline {
         write_file(path, &timeline(&without[0]))?;
     }
-    let (first, last) = (seeds[0], seeds[seeds.len() - 1]);
-    say(&format!("seeds {first} to {last}; picture: {}\n", missions.out.display()))?;
+    say(&format!("{}; picture: {}\n", missions.seeds, missions.out.display()))?;
     Ok(if runs.iter().all(|run| run.failures.is_empty()) { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
@@ -71,27 +62,19 @@ impl Missions {
     fn outages(&self) -> Result<ExitCode, String> {
         let seeds = self.seeds.all();
         let work = |seed: &u64| run_with_outages(&self.options(*seed, None), self.duration);
-        let runs = in_order(&seeds, self.seeds.jobs, work, |_| ()).map_err(|e| e.to_string())?;
-        let watches = runs.into_iter().collect::<Result<Vec<_>, String>>()?;
+        let watches = rows("runs", &seeds, self.seeds.jobs, work, |_, _| None)?;
         say(&format!("{}", OutageTable(&watches)))?;
-        let mut is_fine = true;
-        for (seed, (outage, time)) in
-            seeds.iter().zip(&watches).flat_map(|(s, w)| w.broken().into_iter().map(move |b| (s, b)))
-        {
-            is_fine = false;
-            say(&format!("seed {seed}: {}: moves for {:.2} s\n", fault_of(&outage), time.as_secs_f64()))?;
-        }
-        Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(1) })
+        broken_promises(&seeds, &watches, |outage| words(&Fault::of(outage, &FaultKind::OF_SENSORS)))
     }
 
-    fn options(&self, seed: u64, kind: Option<FaultKind>) -> Options {
+    fn options(&self, seed: u64, kind: Option<FaultKind>) -> clinic::Options {
         let faults = kind.map(|kind| fault_at(kind, seed, self.duration)).into_iter().collect();
-        let command_timeout = Options::default().command_timeout.filter(|_| !self.keeps_twist);
-        Options { seed, people: self.people, faults, command_timeout }
+        let command_timeout = clinic::Options::default().command_timeout.filter(|_| !self.keeps_twist);
+        clinic::Options { seed, people: self.people, faults, command_timeout }
     }
 }
 
-fn read(parser: &mut Parser) -> Result<Missions, String> {
+fn read(options: &mut Options) -> Result<Missions, String> {
     let mut missions = Missions {
         seeds: Seeds::new(1),
         duration: Duration::from_secs(600),
@@ -103,20 +86,17 @@ fn read(parser: &mut Parser) -> Result<Missions, String> {
         record: None,
         timeline: None,
     };
-    while let Some(arg) = next(parser)? {
-        match arg {
-            Long("minutes") => missions.duration = Duration::from_secs(60 * number(parser, "--minutes", 1..=600)?),
-            Long("people") => missions.people = number(parser, "--people", 0..=100)? as usize,
-            Long("faults") => missions.faults = true,
-            Long("keeps-twist") => missions.keeps_twist = true,
-            Long("outages") => missions.outages = true,
-            Long("out") => missions.out = path(parser)?,
-            Long("record") => missions.record = Some(path(parser)?),
-            Long("timeline") => missions.timeline = Some(path(parser)?),
-            arg => {
-                let (option, message) = seeds_option(arg);
-                missions.seeds.read(parser, option, message)?;
-            }
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "minutes" => missions.duration = options.minutes(&name)?,
+            "people" => missions.people = options.number(&name, 0..=100)? as usize,
+            "faults" => missions.faults = true,
+            "keeps-twist" => missions.keeps_twist = true,
+            "outages" => missions.outages = true,
+            "out" => missions.out = options.path()?,
+            "record" => missions.record = Some(options.path()?),
+            "timeline" => missions.timeline = Some(options.path()?),
+            _ => missions.seeds.read(&name, options)?,
         }
     }
     Ok(missions)

@@ -2,15 +2,14 @@
 
 mod accuracy;
 mod approach;
-mod args;
 mod missions;
+mod obstacles;
 mod simulate;
 mod times;
 mod validate;
 
-use apex_sim::say;
-use lexopt::Parser;
-use std::{env, ffi::OsString, process::ExitCode};
+use apex_sim::experiment::{Command, Options, Seeds};
+use std::path::PathBuf;
 
 const HELP: &str = "\
 PATSY looks for containers in laser scans and draws what it sees.
@@ -72,37 +71,25 @@ finds in that block, and does so for each block.
 Exit codes: 0 fine, 1 some scans could not be read, 2 nothing could be done.
 ";
 
-/// Command: reads its options and does its work. An error is the reason why this was not possible.
-type Command = fn(&mut Parser) -> Result<ExitCode, String>;
-
-const COMMANDS: [(&str, Command); 5] = [
-    ("accuracy", accuracy::accuracy),
-    ("approach", approach::approach),
-    ("missions", missions::missions),
-    ("times", times::times),
-    ("validate", validate::validate),
+pub const COMMANDS: [Command; 7] = [
+    Command { name: "", help: HELP, run: simulate::simulate_or_replay },
+    Command { name: "obstacles", help: obstacles::HELP, run: obstacles::obstacles },
+    Command { name: "accuracy", help: HELP, run: accuracy::accuracy },
+    Command { name: "approach", help: HELP, run: approach::approach },
+    Command { name: "missions", help: HELP, run: missions::missions },
+    Command { name: "times", help: HELP, run: times::times },
+    Command { name: "validate", help: HELP, run: validate::validate },
 ];
 
-/// Runs the command that the arguments of the program name. Without a name, it is the simulation.
-pub fn run() -> Result<ExitCode, String> {
-    let mut args = env::args_os().skip(1).peekable();
-    let is_name = |arg: &OsString| !arg.as_encoded_bytes().starts_with(b"-");
-    let name = args.next_if(is_name);
-    // It has a help of its own.
-    if name.as_ref().is_some_and(|name| name == "obstacles") {
-        return patsy::obstacles::run(args);
+/// Reads the options of a measurement that draws: those of [`Seeds`], and `--out` for the file, which is `out` without
+/// it.
+fn seeds_and_out(options: &mut Options, mut seeds: Seeds, out: &str) -> Result<(Seeds, PathBuf), String> {
+    let mut out = PathBuf::from(out);
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "out" => out = options.path()?,
+            _ => seeds.read(&name, options)?,
+        }
     }
-    let args: Vec<OsString> = args.collect();
-    if args.iter().any(|arg| arg == "--help" || arg == "-h") {
-        return say(HELP).map(|()| ExitCode::SUCCESS);
-    }
-    let mut parser = Parser::from_args(args);
-    let Some(name) = name else { return simulate::simulate_or_replay(&mut parser) };
-    let command = COMMANDS.iter().find(|(known, _)| name == *known);
-    let (_, command) = command.ok_or_else(|| {
-        let known = ["obstacles"].into_iter().chain(COMMANDS.map(|(known, _)| known));
-        let known: Vec<String> = known.map(|known| format!("`{known}`")).collect();
-        format!("`{}` is not a command; there are {}, and `--help`", name.display(), known.join(", "))
-    })?;
-    command(&mut parser)
+    Ok((seeds, out))
 }

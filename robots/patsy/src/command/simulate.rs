@@ -1,15 +1,13 @@
-use super::args::{path, unknown};
 use apex_nodes::io::ScanLog;
 use apex_rt::prelude::*;
-use apex_sim::say;
-use lexopt::{Parser, prelude::Long};
+use apex_sim::{experiment::Options, say};
 use patsy::{
-    RECORDED_SCANNER, Report,
+    experiments::{RECORDED_SCANNER, Report},
     programs::{RecordedCarts, RecordedCartsParts, RecordedPallets, RecordedPalletsParts, Simulated},
 };
 use std::{path::PathBuf, process::ExitCode};
 
-struct Options {
+struct Recording {
     log: PathBuf,
     carts: bool,
     labels: Option<PathBuf>,
@@ -17,29 +15,30 @@ struct Options {
 }
 
 /// Searches for containers in simulated rooms, or on recorded scans.
-pub fn simulate_or_replay(parser: &mut Parser) -> Result<ExitCode, String> {
-    options(parser)?.map_or_else(simulate, recorded)
+pub fn simulate_or_replay(options: &mut Options) -> Result<ExitCode, String> {
+    recording(options)?.map_or_else(simulate, recorded)
 }
 
 /// Reads the options. `None` selects the simulation.
-fn options(parser: &mut Parser) -> Result<Option<Options>, String> {
+fn recording(options: &mut Options) -> Result<Option<Recording>, String> {
     let (mut log, mut carts, mut labels, mut table) = (None, false, None, None);
-    while let Some(argument) = parser.next().map_err(|e| e.to_string())? {
-        match argument {
-            Long("log") => log = Some(path(parser)?),
-            Long("labels") => labels = Some(path(parser)?),
-            Long("table") => table = Some(path(parser)?),
-            Long("container") => match path(parser)?.to_str() {
-                Some("pallet") => carts = false,
-                Some("cart") => carts = true,
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "log" => log = Some(options.path()?),
+            "labels" => labels = Some(options.path()?),
+            "table" => table = Some(options.path()?),
+            "container" => match options.text()?.as_str() {
+                "pallet" => carts = false,
+                "cart" => carts = true,
                 _ => return Err("`--container` is `pallet` or `cart`".to_owned()),
             },
-            other => return Err(unknown(other)),
+            _ => return Err(Options::unknown(&name)),
         }
     }
     match log {
         Some(log) => {
-            Ok(Some(Options { log, carts, labels, table: table.unwrap_or_else(|| "out/patsy/detections.csv".into()) }))
+            let table = table.unwrap_or_else(|| "out/patsy/detections.csv".into());
+            Ok(Some(Recording { log, carts, labels, table }))
         }
         None if carts || labels.is_some() || table.is_some() => Err("these options need `--log`".to_owned()),
         None => Ok(None),
@@ -59,9 +58,9 @@ fn simulate() -> Result<ExitCode, String> {
     Ok(watch.code())
 }
 
-fn recorded(options: Options) -> Result<ExitCode, String> {
-    let log = ScanLog::open(&options.log, RECORDED_SCANNER).map_err(|e| e.to_string())?;
-    let report = Report::new(&options.table, options.labels.as_deref())?;
+fn recorded(recording: Recording) -> Result<ExitCode, String> {
+    let log = ScanLog::open(&recording.log, RECORDED_SCANNER).map_err(|e| e.to_string())?;
+    let report = Report::new(&recording.table, recording.labels.as_deref())?;
     let mut clock = SimClock::until(Time::MAX);
     // The two programs differ in type, but are driven in the same way.
     macro_rules! play {
@@ -75,7 +74,7 @@ fn recorded(options: Options) -> Result<ExitCode, String> {
             watch.code()
         }};
     }
-    Ok(if options.carts {
+    Ok(if recording.carts {
         play!(RecordedCarts::new(RecordedCartsParts { log, report }), RecordedCarts)
     } else {
         play!(RecordedPallets::new(RecordedPalletsParts { log, report }), RecordedPallets)

@@ -1,18 +1,19 @@
-use super::args::{Seeds, next, seeds_option};
-use apex_sim::say;
-use lexopt::Parser;
-use patsy::times::Times;
+use apex_sim::{
+    experiment::{Options, Seeds},
+    say,
+};
+use patsy::experiments::times::Times;
 use std::process::ExitCode;
 
 /// Measures the computing time of the detection (thesis table 6.3).
-pub fn times(parser: &mut Parser) -> Result<ExitCode, String> {
+pub fn times(options: &mut Options) -> Result<ExitCode, String> {
     let mut seeds = Seeds::new(3);
-    while let Some(arg) = next(parser)? {
-        let (option, message) = seeds_option(arg);
-        seeds.read(parser, option.filter(|option| *option != "jobs"), message)?;
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "jobs" => return Err(Options::unknown(&name)),
+            _ => seeds.read(&name, options)?,
+        }
     }
-    let all = seeds.all();
-    say(&format!("{}\n", Times::measure(&all)?))?;
-    say(&format!("seeds {} to {}\n", all[0], all[all.len() - 1]))?;
+    say(&format!("{}\n{seeds}\n", Times::measure(&seeds.all())?))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,21 +1,22 @@
-use super::args::{Seeds, next, number, path, seeds_option};
-use apex_sim::say;
-use lexopt::{Parser, prelude::Long};
-use patsy::validate::{Data, validate as cross_validate};
+use apex_sim::{
+    experiment::{Options, Seeds},
+    say,
+};
+use patsy::experiments::validate::{Data, validate as cross_validate};
 use std::process::ExitCode;
 
 /// Cross-validates the limits of the search for pallets on a recording.
-pub fn validate(parser: &mut Parser) -> Result<ExitCode, String> {
+pub fn validate(options: &mut Options) -> Result<ExitCode, String> {
     let (mut seeds, mut folds) = (Seeds::new(1), 5);
     let (mut with, mut labels, mut without) = (None, None, None);
-    while let Some(arg) = next(parser)? {
-        match arg {
-            Long("with") => with = Some(path(parser)?),
-            Long("labels") => labels = Some(path(parser)?),
-            Long("without") => without = Some(path(parser)?),
-            Long("folds") => folds = number(parser, "--folds", 2..=100)? as usize,
-            Long("jobs") => seeds.read(parser, Some("jobs"), String::new())?,
-            other => return Err(seeds_option(other).1),
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "with" => with = Some(options.path()?),
+            "labels" => labels = Some(options.path()?),
+            "without" => without = Some(options.path()?),
+            "folds" => folds = options.number(&name, 2..=100)? as usize,
+            "jobs" => seeds.read(&name, options)?,
+            _ => return Err(Options::unknown(&name)),
         }
     }
     let (Some(with), Some(labels), Some(without)) = (with, labels, without) else {

@@ -1,20 +1,52 @@
-use super::{args::PICTURES, say};
+use super::read_setup;
+use apex_sim::{
+    experiment::{Options, write_file},
+    say,
+};
 use sick_robot_day::{
-    Arena,
-    contest::{Fault, Hall},
-    measure::ImageWriter,
-    run::{Outcome, Setup, StepView, Watch},
-    run_report::{Film, LiveView, Snapshot},
+    experiments::{
+        measure::ImageWriter,
+        run::{Outcome, Recording, Setup, StepView, Watch},
+        run_report::{Film, LiveView, Snapshot},
+    },
+    world::{
+        Arena,
+        contest::{Fault, Hall},
+    },
 };
 use std::{
     fmt::Write as _,
-    fs,
     path::{Path, PathBuf},
     process::ExitCode,
+    time::Duration,
 };
 
+/// Default folder of the pictures.
+const PICTURES: &str = "out/sick-robot-day";
+
 /// Plays a competition, and prints its result.
-pub fn compete(setup: &Setup, out: Option<PathBuf>, film: Option<&Path>) -> Result<ExitCode, String> {
+pub fn compete(options: &mut Options) -> Result<ExitCode, String> {
+    let mut setup = Setup { seed: 1, duration: Duration::from_secs(600), ..Setup::default() };
+    let (mut out, mut film, mut file, mut images) = (None, None, None, false);
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "seed" => setup.seed = options.number(&name, 0..)?,
+            "fault" => setup.faults.push(options.text()?.parse()?),
+            "out" => out = Some(options.path()?),
+            "film" => film = Some(options.path()?),
+            "record" => file = Some(options.path()?),
+            "record-images" => images = true,
+            _ => read_setup(&mut setup, &name, options)?,
+        }
+    }
+    if images && file.is_none() {
+        return Err("`--record-images` needs `--record`, which says where".to_owned());
+    }
+    setup.record = file.map(|path| Recording { path, images });
+    play(&setup, out, film.as_deref())
+}
+
+fn play(setup: &Setup, out: Option<PathBuf>, film: Option<&Path>) -> Result<ExitCode, String> {
     let folder = out.unwrap_or_else(free_folder);
     // Checked before the run: the folder of the pictures must be usable.
     let image_writer = ImageWriter::new(&folder)?;
@@ -23,8 +55,7 @@ pub fn compete(setup: &Setup, out: Option<PathBuf>, film: Option<&Path>) -> Resu
     let outcome = setup.run(&mut view, studio.as_ref())?;
     outcome.run_report.write(&image_writer)?;
     if let Some(path) = film {
-        fs::write(path, view.film.svg(&outcome.run_report))
-            .map_err(|e| format!("cannot write {}: {e}", path.display()))?;
+        write_file(path, &view.film.svg(&outcome.run_report))?;
     }
     say(&summary(setup, &outcome, &folder))?;
     Ok(if outcome.is_fine() { ExitCode::SUCCESS } else { ExitCode::from(1) })

@@ -1,0 +1,156 @@
+//! Commands of the program.
+
+use apex_sim::{
+    experiment::{Command, Options, Seeds, rows, write_file},
+    say,
+};
+use follow::{
+    experiments::{Accuracy, HEAD, Row, Run, accuracy, picture, run, summary},
+    world::{self, Ending},
+};
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+const HELP: &str = "\
+A skid-steered robot follows a runner outdoors, in simulation: over hills, between trees, rocks, ditches and people.
+
+Usage: follow [follow] [--seed N] [--metres N] [--no-people] [--out FILE]
+       follow missions [--first-seed N] [--seeds N] [--jobs N] [--metres N] [--no-people] [--out FILE]
+       follow perception [--first-seed N] [--seeds N] [--jobs N]
+
+`follow` runs the robot on the track of one seed and tells what became of it, and which nodes were active. It draws the
+track into out/follow/track.svg: the runner in orange, the robot in blue, contacts as red circles, places where the
+robot lost the runner as violet ones.
+
+  --seed N          seed of the country, the runner, the passers-by and all noise (default 1)
+  --metres N        length of the track (default 1700)
+  --no-people       without people who cross the track and stand beside it
+  --out FILE        the picture (default out/follow/track.svg)
+
+`missions` does so for many seeds, with a line for each, and draws the first run.
+
+  --first-seed N    first seed (default 1)
+  --seeds N         number of seeds (default 1)
+  --jobs N          number of threads (default: as many as there are cores)
+
+What the columns are, by the true state of the simulation:
+  ran, driven       distances of the runner and of the robot
+  lost, longest     spells of more than 1 s in which the robot did not know to within 1.5 m where the runner is, after it
+                    had known it, and the longest of all spells
+  contacts, people  contacts with anything while the robot drove, and those of them with people
+  tips, falls       the robot tipped over, or a wheel was in a ditch: the run then ends
+  distance kept     from the runner
+  slow              share of the time of following in which the robot followed slowly
+  took              computing time of the simulation and the robot on one core
+
+`perception` measures how many points are taken for ground and for obstacles, on 60 turns of the scanner on the track of
+each seed, and the computing time of perception for a turn of 28,800 points.
+
+Exit codes: 0 fine, 1 the robot lost the runner for longer than 5 s, touched something, tipped or fell, or a node
+failed; for `perception`, a rate below 95 %; 2 nothing could be done.
+";
+
+pub const COMMANDS: [Command; 3] = [
+    Command { name: "follow", help: HELP, run: follow_one },
+    Command { name: "missions", help: HELP, run: missions },
+    Command { name: "perception", help: HELP, run: perception },
+];
+
+/// Options of the world, and the file of the picture.
+struct World {
+    metres: u64,
+    people: bool,
+    out: PathBuf,
+}
+
+impl World {
+    fn new() -> Self {
+        Self { metres: 1700, people: true, out: PathBuf::from("out/follow/track.svg") }
+    }
+
+    /// Reads the value of the option `name`.
+    fn read(&mut self, name: &str, options: &mut Options) -> Result<(), String> {
+        match name {
+            "metres" => self.metres = options.number(name, 300..=5000)?,
+            "no-people" => self.people = false,
+            "out" => self.out = options.path()?,
+            _ => return Err(Options::unknown(name)),
+        }
+        Ok(())
+    }
+
+    fn of(&self, seed: u64) -> world::Options {
+        world::Options { seed, length: self.metres as f32, people: self.people }
+    }
+}
+
+fn follow_one(options: &mut Options) -> Result<ExitCode, String> {
+    let (mut seed, mut world) = (1, World::new());
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "seed" => seed = options.number(&name, 0..)?,
+            _ => world.read(&name, options)?,
+        }
+    }
+    let run = run(&world.of(seed))?;
+    say(&format!("{HEAD}\n{}\n\nActive nodes:\n", Row(&run)))?;
+    let mut activity = run.activity.clone();
+    activity.sort_by_key(|(_, time)| std::cmp::Reverse(*time));
+    for (name, time) in activity {
+        say(&format!("{name:<40}{:>8.1} s\n", time.as_secs_f32()))?;
+    }
+    for loss in &run.report.losses {
+        say(&format!("lost at {} for {:.2} s\n", loss.from, loss.lasted))?;
+    }
+    for contact in &run.report.contacts {
+        let what = if contact.is_person { "a person" } else { "a thing" };
+        say(&format!("touched {what} at {} with {:.2} m/s\n", contact.at, contact.speed))?;
+    }
+    draw(&run, &world.out)?;
+    Ok(verdict(&[run]))
+}
+
+fn missions(options: &mut Options) -> Result<ExitCode, String> {
+    let (mut seeds, mut world) = (Seeds::new(1), World::new());
+    while let Some(name) = options.next_name()? {
+        match name.as_str() {
+            "first-seed" | "seeds" | "jobs" => seeds.read(&name, options)?,
+            _ => world.read(&name, options)?,
+        }
+    }
+    say(&format!("{HEAD}\n"))?;
+    let runs =
+        rows("runs", &seeds.all(), seeds.jobs, |seed| run(&world.of(*seed)), |_, run| Some(Row(run).to_string()))?;
+    say(&format!("\n{}", summary(&runs)))?;
+    draw(&runs[0], &world.out)?;
+    Ok(verdict(&runs))
+}
+
+fn perception(options: &mut Options) -> Result<ExitCode, String> {
+    let seeds = Seeds::new(1).read_all(options)?;
+    say("        precision and recall of ground, of obstacles          time of a turn\n")?;
+    say("  seed    ground                 obstacles                  median     most\n")?;
+    let all = rows("seeds", &seeds.all(), seeds.jobs, |seed| Ok(accuracy(*seed)), |_, all| Some(all.to_string()))?;
+    let mut sum = Accuracy::default();
+    all.iter().for_each(|one| sum.add(one));
+    say(&format!("\n{}", sum.table()))?;
+    let is_fine = all.iter().all(|one| one.rates().iter().all(|rate| *rate >= 0.95));
+    Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+fn draw(run: &Run, out: &Path) -> Result<(), String> {
+    write_file(out, &picture(run))?;
+    say(&format!("picture: {}\n", out.display()))
+}
+
+/// Exit code: 0 if each run met the goals.
+fn verdict(runs: &[Run]) -> ExitCode {
+    let is_fine = |run: &Run| {
+        let report = &run.report;
+        let ends_well = report.ending == Some(Ending::Arrived);
+        ends_well && report.contacts.is_empty() && report.longest_loss() <= 5.0 && run.failures.is_empty()
+    };
+    if runs.iter().all(is_fine) { ExitCode::SUCCESS } else { ExitCode::from(1) }
+}

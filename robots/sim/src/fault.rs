@@ -1,0 +1,67 @@
+use crate::Outage;
+use apex_rt::Time;
+use std::{fmt, str::FromStr, time::Duration};
+
+/// Temporary fault of a device of a robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Fault<K> {
+    /// Kind of the fault.
+    pub kind: K,
+    /// Start of the fault.
+    pub from: Time,
+    /// End of the fault.
+    pub until: Time,
+}
+
+impl<K: Copy + PartialEq> Fault<K> {
+    /// Fault of an outage, whose kind is the number of one of `kinds`.
+    pub fn of(outage: &Outage, kinds: &[K]) -> Self {
+        Self { kind: kinds[outage.kind], from: outage.from, until: outage.until }
+    }
+
+    /// Returns `true` if this is a fault of a kind, at this time.
+    pub fn is_on(&self, kind: K, now: Time) -> bool {
+        self.kind == kind && self.from <= now && now < self.until
+    }
+}
+
+impl<K: FromStr<Err = String>> FromStr for Fault<K> {
+    type Err = String;
+
+    /// Parses a fault such as `laser-frozen@100s..103s`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let cannot = |why: &str| format!("`{text}` is no fault: {why}; write one as `laser-frozen@100s..103s`");
+        let (kind, times) = text.split_once('@').ok_or_else(|| cannot("there is no `@`"))?;
+        let kind = kind.parse()?;
+        let (from, until) = times.split_once("..").ok_or_else(|| cannot("there is no `..` between its times"))?;
+        let time = |text: &str| read_time(text).ok_or_else(|| cannot(&format!("`{text}` is no time in `s`")));
+        let fault = Self { kind, from: time(from)?, until: time(until)? };
+        if fault.from < fault.until { Ok(fault) } else { Err(cannot("it ends before it begins")) }
+    }
+}
+
+/// Parses a time such as `1.5s`.
+fn read_time(text: &str) -> Option<Time> {
+    let seconds: f64 = text.strip_suffix('s')?.parse().ok()?;
+    Duration::try_from_secs_f64(seconds).ok().filter(|time| time.as_secs() < 1_000_000).map(|time| Time::ZERO + time)
+}
+
+impl<K: fmt::Display> fmt::Display for Fault<K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}@{}s..{}s", self.kind, self.from.as_secs_f64(), self.until.as_secs_f64())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_is_on_from_its_start_to_its_end() {
+        let outage = Outage { kind: 1, from: Time::from_secs(2), until: Time::from_secs(3) };
+        let fault = Fault::of(&outage, &["laser", "camera"]);
+        let at = [1999, 2000, 2999, 3000].map(|ms| fault.is_on("camera", Time::from_millis(ms)));
+        assert_eq!(at, [false, true, true, false]);
+        assert!(!fault.is_on("laser", outage.from));
+    }
+}
