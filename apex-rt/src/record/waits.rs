@@ -114,7 +114,7 @@ mod tests {
     fn one_that_waits_for_another_finds_what_comes() {
         let (waits, there) = (ReplayBarrier::new(2), AtomicBool::new(false));
         thread::scope(|scope| {
-            let waiting = scope.spawn(|| waits.wait(0, || there.load(Ordering::Acquire)));
+            let waiting = scope.spawn(|| waits.wait(0, &|| there.load(Ordering::Acquire)));
             thread::sleep(Duration::from_millis(20));
             there.store(true, Ordering::Release);
             waits.end(1, false);
@@ -126,9 +126,9 @@ mod tests {
     fn the_first_of_those_that_wait_in_vain_gives_up_and_others_may_go_on() {
         let (waits, there) = (ReplayBarrier::new(3), AtomicBool::new(false));
         thread::scope(|scope| {
-            let second = scope.spawn(|| waits.wait(1, || there.load(Ordering::Acquire)));
+            let second = scope.spawn(|| waits.wait(1, &|| there.load(Ordering::Acquire)));
             let first = scope.spawn(|| {
-                let waited = waits.wait(0, || false);
+                let waited = waits.wait(0, &|| false);
                 there.store(true, Ordering::Release);
                 waits.end(0, false);
                 waited
@@ -145,6 +145,6 @@ mod tests {
     fn what_would_come_after_a_cut_is_told_apart() {
         let waits = ReplayBarrier::new(2);
         waits.end(1, true);
-        assert_eq!(waits.wait(0, || false), WaitOutcome::Cut);
+        assert_eq!(waits.wait(0, &|| false), WaitOutcome::Cut);
     }
 }
