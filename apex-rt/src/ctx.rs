@@ -27,7 +27,7 @@ pub struct Ctx {
 }
 
 impl Ctx {
-    /// Returns the context of a reaction at `now`.
+    /// Returns the context of a reaction at `now`, for a node that is not active.
     pub const fn new(now: Time) -> Self {
         Self::at(now, now)
     }

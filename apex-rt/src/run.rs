@@ -69,7 +69,8 @@ impl Next {
     }
 }
 
-/// A compiled graph. `graph!` generates a struct that implements this trait.
+/// A compiled graph. `graph!` generates a struct that implements this trait. The struct itself has the functions `new`,
+/// `react`, `inputs`, `outputs`, `events` and `nodes`.
 ///
 /// ```
 /// use apex_rt::prelude::*;

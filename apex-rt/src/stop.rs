@@ -36,7 +36,7 @@ impl<C: Clock> UntilStopped<C> {
     /// apex_macros::graph!("examples/blink.afg");
     ///
     /// # fn main() -> Result<(), String> {
-    /// // `drive` does this for the machine's clock alone.
+    /// // By the machine's clock, `drive` handles the signals itself.
     /// let clock = UntilStopped::ctrl_c(SimClock::until(Time::from_secs(60)))?;
     /// assert_eq!(drive(Blink::new(), clock), 0);
     /// # Ok(())
