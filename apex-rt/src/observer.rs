@@ -365,12 +365,12 @@ static BESIDE: std::sync::Mutex<(u64, std::collections::VecDeque<std::string::St
 ///
 /// ```
 /// use apex_rt::tell_viewers;
-/// use std::net::UdpSocket;
+/// use std::{io::Error, net::UdpSocket};
 ///
 /// /// Opens the socket of a driver.
 /// fn open(address: &str) -> Option<UdpSocket> {
-///     let opened = UdpSocket::bind(address).inspect_err(|error| tell_viewers(&format!("no lidar at {address}: {error}")));
-///     opened.ok()
+///     let tell = |error: &Error| tell_viewers(&format!("no lidar at {address}: {error}"));
+///     UdpSocket::bind(address).inspect_err(tell).ok()
 /// }
 ///
 /// assert!(open("127.0.0.1:0").is_some());

@@ -6,7 +6,7 @@ use std::{
     fs,
     path::{Path, PathBuf},
 };
-use syn::{Attribute, ImplItem, Item, ItemImpl, ItemUse, Meta, TraitItem, Type, UseTree, Visibility};
+use syn::{Attribute, Ident, ImplItem, Item, ItemImpl, ItemUse, Meta, TraitItem, Type, UseTree, Visibility};
 
 /// Crate with the macros that the runtime re-exports, each with an example at the re-export: there it can be used.
 const MACROS: &str = "apex_attributes";
@@ -43,11 +43,10 @@ impl Module {
                     let module = Self::read(&self.folder, &item.ident.to_string()).expect("it has a file");
                     module.add_visible(called);
                 }
-                Item::Fn(item) if is_public(&item.vis) => called.extend(self.called(&item.sig.ident.to_string())),
-                Item::Trait(item) if is_public(&item.vis) => called.extend(self.called(&item.ident.to_string())),
-                Item::Struct(item) if is_public(&item.vis) => called.extend(self.called(&item.ident.to_string())),
-                Item::Enum(item) if is_public(&item.vis) => called.extend(self.called(&item.ident.to_string())),
-                _ => {}
+                item => {
+                    let public = definition(item).filter(|(visibility, ..)| is_public(visibility));
+                    called.extend(public.and_then(|(_, name, _)| self.called(&name.to_string())));
+                }
             }
         }
     }
@@ -66,36 +65,39 @@ impl Module {
 
     /// Returns the item `name` if users can call it: a function, or a trait or type with visible functions.
     fn called(&self, name: &str) -> Option<Called> {
-        let mut attributes = vec![];
-        let mut is_called = false;
-        for item in &self.items {
-            match item {
-                Item::Fn(item) if item.sig.ident == name && is_shown(&item.attrs) => {
-                    attributes.push(&item.attrs);
-                    is_called = true;
-                }
-                Item::Trait(item) if item.ident == name && is_shown(&item.attrs) => {
-                    attributes.push(&item.attrs);
-                    let functions = item.items.iter().filter_map(function_of_trait).filter(|attrs| is_shown(attrs));
-                    functions.for_each(|attrs| {
-                        attributes.push(attrs);
-                        is_called = true;
-                    });
-                }
-                Item::Struct(item) if item.ident == name && is_shown(&item.attrs) => attributes.push(&item.attrs),
-                Item::Enum(item) if item.ident == name && is_shown(&item.attrs) => attributes.push(&item.attrs),
-                Item::Impl(item) if is_of(item, name) && is_shown(&item.attrs) => {
-                    let functions = item.items.iter().filter_map(public_function).filter(|attrs| is_shown(attrs));
-                    functions.for_each(|attrs| {
-                        attributes.push(attrs);
-                        is_called = true;
-                    });
-                }
-                _ => {}
-            }
+        let defined = self.items.iter().filter_map(definition).filter(|(_, ident, _)| *ident == name);
+        let mut comments: Vec<_> = defined.map(|(.., attributes)| attributes).collect();
+        comments.retain(|attributes| is_shown(attributes));
+        let mut functions: Vec<_> = self.items.iter().flat_map(|item| functions(item, name)).collect();
+        functions.retain(|attributes| is_shown(attributes));
+        if comments.is_empty() || functions.is_empty() {
+            return None;
         }
-        let has_example = attributes.iter().any(|attrs| has_example(attrs));
-        is_called.then(|| Called { name: name.to_owned(), has_example })
+        let has_example = comments.iter().chain(&functions).any(|attributes| has_example(attributes));
+        Some(Called { name: name.to_owned(), has_example })
+    }
+}
+
+/// Visibility, name and attributes of a function, a trait or a type.
+fn definition(item: &Item) -> Option<(&Visibility, &Ident, &Vec<Attribute>)> {
+    match item {
+        Item::Fn(item) => Some((&item.vis, &item.sig.ident, &item.attrs)),
+        Item::Trait(item) => Some((&item.vis, &item.ident, &item.attrs)),
+        Item::Struct(item) => Some((&item.vis, &item.ident, &item.attrs)),
+        Item::Enum(item) => Some((&item.vis, &item.ident, &item.attrs)),
+        _ => None,
+    }
+}
+
+/// Attributes of the functions that an item has for users of `name`.
+fn functions<'a>(item: &'a Item, name: &str) -> Vec<&'a Vec<Attribute>> {
+    match item {
+        Item::Fn(item) if item.sig.ident == name => vec![&item.attrs],
+        Item::Trait(item) if item.ident == name => item.items.iter().filter_map(function_of_trait).collect(),
+        Item::Impl(item) if is_of(item, name) && is_shown(&item.attrs) => {
+            item.items.iter().filter_map(public_function).collect()
+        }
+        _ => vec![],
     }
 }
 
