@@ -266,13 +266,16 @@ impl Workspace {
     }
 }
 
-/// Returns the packages on which `package` depends, including itself. The metadata describe the whole workspace.
+/// Returns the packages on which `package` depends, including itself. The metadata describe the whole workspace: what
+/// only the tests of another package need does not count.
 fn needed(nodes: &[Value], package: &str) -> BTreeSet<String> {
     let id = |v: &Value| v.as_str().unwrap_or_default().to_owned();
-    let needs: BTreeMap<String, Vec<String>> = nodes
-        .iter()
-        .map(|node| (id(&node["id"]), node["deps"].as_array().into_iter().flatten().map(|d| id(&d["pkg"])).collect()))
-        .collect();
+    let is_for_tests = |dep: &Value| dep["dep_kinds"].as_array().is_some_and(|k| k.iter().all(|k| k["kind"] == "dev"));
+    let deps = |node: &Value| {
+        let deps = node["deps"].as_array().into_iter().flatten();
+        deps.filter(|dep| node["id"] == package || !is_for_tests(dep)).map(|dep| id(&dep["pkg"])).collect()
+    };
+    let needs: BTreeMap<String, Vec<String>> = nodes.iter().map(|node| (id(&node["id"]), deps(node))).collect();
     let (mut needed, mut open) = (BTreeSet::new(), vec![package.to_owned()]);
     while let Some(id) = open.pop() {
         if needed.insert(id.clone()) {
@@ -406,6 +409,23 @@ fn host_triple() -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn what_the_tests_of_a_dependency_need_is_not_needed() {
+        let nodes = [
+            json!({ "id": "robot", "deps": [{ "pkg": "runtime", "dep_kinds": [{ "kind": null }] }] }),
+            json!({ "id": "runtime", "deps": [
+                { "pkg": "nodes", "dep_kinds": [{ "kind": "dev" }] },
+                { "pkg": "bag", "dep_kinds": [{ "kind": "dev" }, { "kind": null }] },
+            ] }),
+            json!({ "id": "nodes", "deps": [{ "pkg": "runtime", "dep_kinds": [{ "kind": null }] }] }),
+            json!({ "id": "bag", "deps": [] }),
+        ];
+        let needed = |package| needed(&nodes, package).into_iter().collect::<Vec<_>>();
+        assert_eq!(needed("robot"), ["bag", "robot", "runtime"]);
+        assert_eq!(needed("runtime"), ["bag", "nodes", "runtime"]);
+    }
 
     /// Paths that differ in one character, in characters that a file system may not distinguish, or only in length.
     #[test]

@@ -31,6 +31,22 @@ const LATE: u32 = 8;
 ///
 /// Call [`describe`](Self::describe) before the first reaction, and whenever a byte comes from the other side: a viewer
 /// that has come later knows nothing before the next description.
+///
+/// ```
+/// use apex_rt::{bytes::ByteStream, prelude::*};
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() {
+/// let (mut blink, mut line) = (Blink::new(), vec![]);
+/// // A robot sends the bytes over a serial line.
+/// let mut stream = ByteStream::new(|bytes: &[u8]| line.extend_from_slice(bytes));
+/// stream.describe(&blink);
+/// stream.before_reaction(Time::ZERO, &mut blink);
+/// blink.react_with(Time::ZERO, &mut stream);
+/// assert!(line.windows(5).any(|bytes| bytes == b"clock"));
+/// # }
+/// ```
 pub struct ByteStream<S> {
     sink: S,
 }

@@ -1,6 +1,35 @@
 use crate::Time;
 
 /// Source of a program's time.
+///
+/// ```
+/// use apex_rt::{drive, prelude::*};
+/// use std::time::Duration;
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// /// The time of a simulator that runs for a second, in steps of 10 ms.
+/// struct Simulator(Time);
+///
+/// impl Clock for Simulator {
+///     const SIMULATED: bool = true;
+///
+///     fn now(&mut self) -> Time {
+///         self.0
+///     }
+///
+///     fn wait_until(&mut self, time: Time) -> bool {
+///         while self.0 < time {
+///             self.0 += Duration::from_millis(10);
+///         }
+///         self.0 < Time::from_secs(1)
+///     }
+/// }
+///
+/// # fn main() {
+/// assert_eq!(drive(Blink::new(), Simulator(Time::ZERO)), 0);
+/// # }
+/// ```
 pub trait Clock {
     /// `true` if time only passes while the program waits.
     const SIMULATED: bool = false;
@@ -33,6 +62,15 @@ pub trait Clock {
 /// Simulated clock: jumps to the time of the next reaction, and ends at a given time.
 ///
 /// A program that asks for another reaction at once advances the clock by `step`.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// let mut clock = SimClock::until(Time::from_secs(60));
+/// assert!(clock.wait_until(Time::from_secs(59)));
+/// assert_eq!(clock.now(), Time::from_secs(59));
+/// assert!(!clock.wait_until(Time::from_secs(60)));
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct SimClock {
     now: Time,
@@ -47,6 +85,17 @@ impl SimClock {
     }
 
     /// Returns the clock with another step.
+    ///
+    /// ```
+    /// use apex_rt::prelude::*;
+    /// use std::time::Duration;
+    ///
+    /// let mut clock = SimClock::until(Time::from_secs(60)).with_step(Duration::from_millis(10));
+    /// // A source without a period asks for another reaction at once.
+    /// let now = clock.now();
+    /// assert!(clock.wait_until(now));
+    /// assert_eq!(clock.now(), Time::from_millis(10));
+    /// ```
     #[must_use]
     pub const fn with_step(self, step: core::time::Duration) -> Self {
         Self { step, ..self }
@@ -67,6 +116,14 @@ impl Clock for SimClock {
 }
 
 /// The machine's monotonic clock. Its zero is the time of its construction.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// let mut clock = WallClock::new();
+/// assert!(clock.wait_until(Time::from_millis(2)));
+/// assert!(clock.now() >= Time::from_millis(2));
+/// ```
 #[cfg(feature = "std")]
 #[derive(Debug, Clone, Copy)]
 pub struct WallClock {

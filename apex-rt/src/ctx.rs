@@ -2,6 +2,21 @@ use crate::{Observer, Time};
 use core::time::Duration;
 
 /// Context of a firing: time, stamp and activity.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// /// Age of a measurement in s, while the node is active.
+/// #[node]
+/// fn age(measured: &Time, ctx: &Ctx) -> Option<f64> {
+///     ctx.active().then(|| ctx.now().since(*measured).as_secs_f64())
+/// }
+///
+/// // A test can call it without a graph: in a context in which it is not active.
+/// let ctx = Ctx::new(Time::from_secs(3));
+/// assert_eq!(age(&Time::from_secs(1), &ctx), None);
+/// assert_eq!(ctx.now(), Time::from_secs(3));
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Ctx {
     now: Time,
@@ -12,7 +27,7 @@ pub struct Ctx {
 }
 
 impl Ctx {
-    /// Returns the context of a reaction at `now`.
+    /// Returns the context of a reaction at `now`, for a node that is not active.
     pub const fn new(now: Time) -> Self {
         Self::at(now, now)
     }

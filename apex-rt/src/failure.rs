@@ -3,6 +3,29 @@
 use core::fmt::{self, Display, Write};
 
 /// The failure of a node: the text of its error or of its panic, cut to [`Failure::ROOM`] bytes.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// /// Shows why a node failed: `printer.failed -> screen.show`.
+/// #[node]
+/// #[derive(Default)]
+/// struct Screen {
+///     line: String,
+/// }
+///
+/// #[node]
+/// impl Screen {
+///     #[slot]
+///     fn show(&mut self, failure: &Failure) {
+///         self.line = format!("error: {failure}");
+///     }
+/// }
+///
+/// let mut screen = Screen::default();
+/// screen.show(&Failure::new(&"no more paper"));
+/// assert_eq!(screen.line, "error: no more paper");
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Failure {
     text: [u8; Failure::ROOM],

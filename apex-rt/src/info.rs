@@ -1,4 +1,19 @@
 /// Description of a compiled graph: a static table for recorders, monitors and `explain`.
+///
+/// ```
+/// use apex_rt::{Info, prelude::*};
+/// use std::time::Duration;
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() {
+/// const INFO: Info = Blink::INFO;
+/// assert_eq!((INFO.nodes[0].name, INFO.kind(0).name), ("clock", "tick"));
+/// assert_eq!(INFO.nodes[0].every, Some(Duration::from_millis(20)));
+/// let to = &INFO.connections[0];
+/// assert_eq!((to.output, INFO.nodes[to.to].name, to.input), ("signal", "count", "put"));
+/// # }
+/// ```
 #[derive(Debug)]
 pub struct Info {
     /// Name of the graph or robot.
@@ -129,6 +144,7 @@ impl Info {
     }
 }
 
+#[doc(hidden)]
 impl NodeInfo {
     /// Returns a row of the table of nodes. `place` has file, line and column.
     pub const fn new(name: &'static str, kind: usize, place: [u32; 3], required: bool, siblings: bool) -> Self {
@@ -144,6 +160,7 @@ impl NodeInfo {
     }
 }
 
+#[doc(hidden)]
 impl KindInfo {
     /// Returns a row of the table of kinds.
     pub const fn new(name: &'static str, docs: &'static str, ports: &'static [PortInfo]) -> Self {
@@ -151,6 +168,7 @@ impl KindInfo {
     }
 }
 
+#[doc(hidden)]
 impl PortInfo {
     /// Returns the row of an input.
     pub const fn input(name: &'static str, ty: &'static str) -> Self {
@@ -173,6 +191,7 @@ impl PortInfo {
     }
 }
 
+#[doc(hidden)]
 impl ConnectionInfo {
     /// Returns a row of the table of connections.
     pub const fn new(from: usize, output: &'static str, to: usize, input: &'static str, activity: bool) -> Self {

@@ -1,4 +1,30 @@
-//! The runtime of Apex: everything that a compiled graph calls.
+//! The runtime of Apex: what nodes are written with, and what drives a compiled graph.
+//!
+//! A program is a graph that `graph!` has compiled, or a [`Program`] of another kind. It reacts when it is called, and
+//! [`run`] and [`drive`] call it by a [`Clock`]:
+//!
+//! ```
+//! use apex_macros::graph;
+//! use apex_rt::prelude::*;
+//!
+//! graph! {
+//!     use apex_nodes::math::scale;
+//!
+//!     graph Double {
+//!         in  x: f64;
+//!         out y: f64;
+//!
+//!         x -> scale(factor = 2) -> y;
+//!     }
+//! }
+//!
+//! # fn main() {
+//! let mut double = Double::new();
+//! assert_eq!(double.inputs().x.put(21.0), Ok(()));
+//! double.react(Time::ZERO);
+//! assert_eq!(double.outputs().y, Some(42.0));
+//! # }
+//! ```
 //!
 //! `no_std`, without a heap, and without `unsafe` except in the cell between two threads. The feature `std` adds a wall
 //! clock, a runner that sleeps between reactions, and messages on standard error.
@@ -59,37 +85,95 @@ mod watchdog;
 mod wired;
 mod witness;
 
-pub use apex_attributes::{Outputs, Units, node};
+/// Derives the outputs of a node from the fields of a struct.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// /// Values by their sign.
+/// #[derive(Outputs)]
+/// pub struct BySign {
+///     pub positive: Option<f64>,
+///     pub negative: Option<f64>,
+/// }
+///
+/// #[node]
+/// pub fn by_sign(x: &f64) -> BySign {
+///     BySign { positive: (*x > 0.0).then_some(*x), negative: (*x < 0.0).then_some(*x) }
+/// }
+///
+/// let outputs = by_sign(&3.0);
+/// assert_eq!((outputs.positive, outputs.negative), (Some(3.0), None));
+/// ```
+pub use apex_attributes::Outputs;
+/// Derives the units of numbers from the fields of a struct.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// /// A source file writes `Point { x: 1m, y: 20cm }`.
+/// #[derive(Units)]
+/// pub struct Point {
+///     #[unit("m")]
+///     pub x: f64,
+///     #[unit("m")]
+///     pub y: f64,
+/// }
+///
+/// #[node]
+/// pub fn distance(point: &Point) -> f64 {
+///     point.x.hypot(point.y)
+/// }
+///
+/// assert_eq!(distance(&Point { x: 3.0, y: 4.0 }), 5.0);
+/// ```
+pub use apex_attributes::Units;
+/// Turns plain Rust into a node: arguments become ports, and marked fields become parameters.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// /// Passes on what is above a level.
+/// #[node]
+/// pub struct Above {
+///     /// Largest value that does not pass.
+///     #[param(unit = "m", default = 0.5, range = 0.0..=1.0)]
+///     level: f64,
+///     passed: u32,
+/// }
+///
+/// #[node]
+/// impl Above {
+///     fn process(&mut self, x: &f64) -> Option<f64> {
+///         let passes = *x > self.level;
+///         self.passed += u32::from(passes);
+///         passes.then_some(*x)
+///     }
+/// }
+///
+/// // A test can call it without a graph.
+/// let mut above = Above { level: 0.5, passed: 0 };
+/// assert_eq!([above.process(&0.4), above.process(&0.6)], [None, Some(0.6)]);
+/// assert_eq!(above.passed, 1);
+/// ```
+pub use apex_attributes::node;
 
-pub use cell::{CellReceiver, CellSender, TokenCell};
 #[cfg(feature = "std")]
 pub use clock::WallClock;
 pub use clock::{Clock, SimClock};
 pub use ctx::Ctx;
-pub use dispatch::{Bits, Cluster, Conditions, Dispatcher, Missing};
-pub use event::Event;
-#[doc(hidden)]
-pub use event::event;
-pub use failure::{Explains, Failure, contain, contain_fallible, explains};
+pub use event::{Event, event};
+pub use failure::Failure;
 pub use info::{ConnectionInfo, GroupInfo, Info, KindInfo, NodeInfo, Place, PortInfo, PortKind};
 pub use list::List;
 pub use mailbox::Mailbox;
-#[doc(hidden)]
-pub use mailbox::{Arrival, first_arrival, untaken};
-pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Slot, Trigger};
-#[doc(hidden)]
-pub use node::{Params, construct};
 pub use observer::Observer;
-#[doc(hidden)]
-pub use observer::turned;
 #[cfg(feature = "std")]
 pub use observer::{StdErr, listen_to_problems, tell_viewers};
 pub use out::Out;
-pub use parallel::par_map;
 pub use params::Parameters;
 #[cfg(feature = "std")]
 pub use ports::{PortReceiver, PortSender, Ports};
-pub use queue::{Queue, Steps};
 #[cfg(feature = "std")]
 pub use remote::RemoteParams;
 #[cfg(feature = "std")]
@@ -102,9 +186,27 @@ pub use stop::UntilStopped;
 #[cfg(feature = "std")]
 pub use switch::Switch;
 pub use time::Time;
+
+// What generated code calls.
 #[doc(hidden)]
-pub use timer::endured;
-pub use timer::{Agenda, ProgramTime, Silence, Timeout, Timer};
+pub use cell::{CellReceiver, CellSender, TokenCell};
+#[doc(hidden)]
+pub use dispatch::{Bits, Cluster, Conditions, Dispatcher, Missing};
+#[doc(hidden)]
+pub use failure::{Explains, contain, contain_fallible, explains};
+#[doc(hidden)]
+pub use mailbox::{Arrival, first_arrival, untaken};
+#[doc(hidden)]
+pub use node::{Construct, Field, Fresh, Input, Output, Param, ParamField, Params, Slot, Trigger, construct};
+#[doc(hidden)]
+pub use observer::turned;
+#[doc(hidden)]
+pub use parallel::par_map;
+#[doc(hidden)]
+pub use queue::{Queue, Steps};
+#[doc(hidden)]
+pub use timer::{Agenda, ProgramTime, Silence, Timeout, Timer, endured};
+#[doc(hidden)]
 pub use token::{Delay, checked_param, gather, sent, set_param, spread, store};
 #[doc(hidden)]
 pub use wired::{Wired, rows};

@@ -1,4 +1,17 @@
 /// A list that `each` can iterate over, and the list of the same kind that collects its results.
+///
+/// ```
+/// use apex_rt::List;
+///
+/// /// Halves all elements, into a list of the same kind.
+/// fn halves<L: List<Item = i32>>(list: &L) -> L::Of<f64> {
+///     let mut halves = L::Of::<f64>::default();
+///     halves.append(list.items().iter().map(|x| f64::from(*x) / 2.0));
+///     halves
+/// }
+///
+/// assert_eq!(halves(&vec![1, 2, 3]), [0.5, 1.0, 1.5]);
+/// ```
 pub trait List {
     /// The type of one element.
     type Item;

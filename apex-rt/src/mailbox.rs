@@ -8,6 +8,20 @@ use core::sync::atomic::{AtomicU32, Ordering};
 /// As in every connection, there is at most one token and nothing is ever overwritten. The sender of an event is held
 /// back until the token in the mailbox has been taken. Tokens in several slots are served in the order in which they
 /// were put in.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// apex_macros::graph!("examples/count.afg");
+///
+/// # fn main() {
+/// let mut count = Count::new();
+/// let tick: &mut Mailbox<()> = &mut count.inputs().tick;
+/// assert_eq!([tick.put(()), tick.put(())], [Ok(()), Err(())]);
+/// count.react(Time::ZERO);
+/// assert_eq!(count.events().count.take(), Some(1));
+/// # }
+/// ```
 #[derive(Debug, Clone)]
 pub struct Mailbox<T> {
     token: Option<T>,
@@ -75,6 +89,15 @@ impl<T> Mailbox<T> {
     }
 
     /// Returns the token in the mailbox.
+    ///
+    /// ```
+    /// use apex_rt::prelude::*;
+    ///
+    /// let mut mailbox = Mailbox::new();
+    /// assert_eq!(mailbox.peek(), None);
+    /// assert_eq!(mailbox.put(7), Ok(()));
+    /// assert_eq!((mailbox.peek(), mailbox.is_full()), (Some(&7), true));
+    /// ```
     pub const fn peek(&self) -> Option<&T> {
         self.token.as_ref()
     }

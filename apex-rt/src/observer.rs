@@ -9,6 +9,28 @@ use core::{
 ///
 /// Nodes are given by their index in [`Info::nodes`](crate::Info::nodes), connections by their index in
 /// [`Info::connections`](crate::Info::connections).
+///
+/// ```
+/// use apex_rt::{drive_with, prelude::*};
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// /// Counts reactions, and keeps the time of the last one.
+/// #[derive(Default)]
+/// struct Reactions(u32, Time);
+///
+/// impl Observer for Reactions {
+///     fn before_reaction(&mut self, now: Time, _params: &mut impl Parameters) {
+///         *self = Self(self.0 + 1, now);
+///     }
+/// }
+///
+/// # fn main() {
+/// let mut reactions = Reactions::default();
+/// drive_with(Blink::new(), SimClock::until(Time::from_secs(1)), &mut reactions);
+/// assert_eq!((reactions.0, reactions.1), (50, Time::from_millis(980)));
+/// # }
+/// ```
 pub trait Observer {
     /// Called before a reaction at `now`, on the thread that drives the program or one of its thread groups. `params`
     /// are the parameters of this group, which may be set here.
@@ -303,6 +325,21 @@ static LISTENERS: std::sync::Mutex<std::vec::Vec<Listener>> = std::sync::Mutex::
 
 /// Calls `listener` with each problem that the programs of this process write to standard error, too, until it returns
 /// `false`: a driver can pass them on. It is called within reactions, so it must not wait.
+///
+/// ```
+/// use apex_rt::{Info, listen_to_problems, prelude::*};
+/// use std::sync::mpsc;
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() {
+/// let (sender, problems) = mpsc::channel();
+/// listen_to_problems(move |problem| sender.send(problem.to_owned()).is_ok());
+/// const INFO: Info = Blink::INFO;
+/// StdErr(&INFO).failed(0, &"no more paper");
+/// assert_eq!(problems.recv().as_deref(), Ok("Blink: `clock` failed: no more paper"));
+/// # }
+/// ```
 #[cfg(feature = "std")]
 pub fn listen_to_problems(listener: impl Fn(&str) -> bool + Send + 'static) {
     listeners().push(std::boxed::Box::new(listener));
@@ -325,6 +362,20 @@ static BESIDE: std::sync::Mutex<(u64, std::collections::VecDeque<std::string::St
 /// Shows a problem that is not one of a node, as a network that is silent, to the viewers of the programs of this
 /// process: in the studio. Viewers that come later get the last hundred of them. Without the feature `studio` there are
 /// no viewers.
+///
+/// ```
+/// use apex_rt::tell_viewers;
+/// use std::{io::Error, net::UdpSocket};
+///
+/// /// Opens the socket of a driver.
+/// fn open(address: &str) -> Option<UdpSocket> {
+///     let tell = |error: &Error| tell_viewers(&format!("no lidar at {address}: {error}"));
+///     UdpSocket::bind(address).inspect_err(tell).ok()
+/// }
+///
+/// assert!(open("127.0.0.1:0").is_some());
+/// assert!(open("203.0.113.1:2368").is_none());
+/// ```
 #[cfg(feature = "std")]
 pub fn tell_viewers(problem: &str) {
     let mut told = BESIDE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -356,6 +407,19 @@ macro_rules! tell {
 
 /// Observer that writes failures, missed deadlines, hanging nodes, refused parameter values, deadlocks, endless loops,
 /// violated claims, and what is odd about the time to standard error, with the names of the nodes.
+///
+/// ```
+/// use apex_rt::{Info, drive_with, prelude::*};
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() {
+/// const INFO: Info = Blink::INFO;
+/// // `drive` has this observer; `drive_with` has only those that it is given.
+/// let observer = StdErr(&INFO);
+/// assert_eq!(drive_with(Blink::new(), SimClock::until(Time::from_secs(1)), observer), 0);
+/// # }
+/// ```
 #[cfg(feature = "std")]
 #[derive(Debug, Clone, Copy)]
 pub struct StdErr(pub &'static crate::Info);

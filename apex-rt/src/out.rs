@@ -2,6 +2,22 @@
 ///
 /// The last value stays in the storage, so that a node which refills it ([`Out::get_mut`]) allocates nothing in steady
 /// state. An output that is not written during a firing carries ⊥ ("no message").
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// /// Keeps the values that are not negative.
+/// #[node]
+/// fn positive(values: &Vec<f64>, kept: &mut Out<Vec<f64>>) {
+///     let kept = kept.get_mut();
+///     kept.clear();
+///     kept.extend(values.iter().filter(|x| **x >= 0.0));
+/// }
+///
+/// let mut kept = Out::new();
+/// positive(&vec![1.0, -2.0, 3.0], &mut kept);
+/// assert_eq!(kept.get(), Some(&vec![1.0, 3.0]));
+/// ```
 #[derive(Debug, Clone)]
 pub struct Out<T> {
     value: Option<T>,

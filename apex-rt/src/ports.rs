@@ -15,6 +15,25 @@ use std::sync::{
 /// put in wakes the program. A program that waits for input does not end while one of the [`PortSender`]s exists.
 ///
 /// As in every connection, there is room for one token between a sender or receiver and the mailbox of the program.
+///
+/// ```
+/// use apex_rt::{Ports, drive_from, prelude::*};
+/// use std::thread;
+///
+/// apex_macros::graph!("examples/count.afg");
+///
+/// # fn main() {
+/// let mut ports = Ports::<Count>::new();
+/// let ticks = ports.input(|inputs| &mut inputs.tick);
+/// let counts = ports.event(|events| &mut events.count);
+/// let user = thread::spawn(move || {
+///     let count = || ticks.send(()).ok().and_then(|()| counts.receive());
+///     [count(), count()]
+/// });
+/// assert_eq!(drive_from(Count::new(), WallClock::new(), ports), 0);
+/// assert_eq!(user.join().expect("it does not panic"), [Some(1), Some(2)]);
+/// # }
+/// ```
 pub struct Ports<P: Program>(pub(crate) Ways<P::Inputs, P::Events>);
 
 impl<P: Program> Ports<P> {
@@ -64,6 +83,21 @@ impl<P: Program> Default for Ports<P> {
 }
 
 /// Sender of tokens to a graph-level input or slot, for another thread.
+///
+/// ```
+/// use apex_rt::{Ports, drive_from, prelude::*};
+///
+/// apex_macros::graph!("examples/count.afg");
+///
+/// # fn main() {
+/// let mut ports = Ports::<Count>::new();
+/// let ticks = ports.input(|inputs| &mut inputs.tick);
+/// assert_eq!(ticks.put(()), Ok(()));
+/// assert_eq!(ticks.put(()), Err(()), "the first one was not taken");
+/// drive_from(Count::new(), SimClock::until(Time::MAX), ports);
+/// assert_eq!(ticks.put(()), Err(()), "the program has ended");
+/// # }
+/// ```
 pub struct PortSender<T> {
     cell: Arc<Cell<T>>,
     outside: Arc<Others>,
@@ -115,6 +149,21 @@ impl<T> Drop for PortSender<T> {
 }
 
 /// Receiver of the tokens of a program's event, for another thread.
+///
+/// ```
+/// use apex_rt::{Ports, drive_from, prelude::*};
+///
+/// apex_macros::graph!("examples/count.afg");
+///
+/// # fn main() {
+/// let mut ports = Ports::<Count>::new();
+/// let ticks = ports.input(|inputs| &mut inputs.tick);
+/// let counts = ports.event(|events| &mut events.count);
+/// assert_eq!((ticks.put(()), counts.take()), (Ok(()), None));
+/// drive_from(Count::new(), SimClock::until(Time::MAX), ports);
+/// assert_eq!((counts.take(), counts.receive()), (Some(1), None));
+/// # }
+/// ```
 pub struct PortReceiver<T> {
     cell: Arc<Cell<T>>,
     outside: Arc<Others>,

@@ -20,6 +20,25 @@ use std::{
 pub const MAX_TRACED: u64 = 1_000_000;
 
 /// Measured times of a program.
+///
+/// ```
+/// use apex_rt::{Info, drive_with, prelude::*, profile::Profile};
+/// use std::sync::Mutex;
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let trace = std::env::temp_dir().join(format!("apex-profile-{}.json", std::process::id()));
+/// const INFO: Info = Blink::INFO;
+/// let mut profile = Mutex::new(Profile::to_file(&INFO, &trace)?);
+/// drive_with(Blink::new(), SimClock::until(Time::from_secs(1)), Profile::of_group(&profile, 0));
+/// let profile = profile.get_mut().expect("no thread has panicked");
+/// profile.finish()?;
+/// assert!(profile.table().lines().any(|line| line.starts_with("clock")));
+/// # std::fs::remove_file(trace)?;
+/// # Ok(())
+/// # }
+/// ```
 pub struct Profile {
     info: &'static Info,
     start: Instant,

@@ -21,6 +21,25 @@ use std::{
 /// recording contains the new values, so that a replay sets them at the same reactions.
 ///
 /// Do not call it from a node: a node runs within a reaction, which would wait for itself.
+///
+/// ```
+/// use apex_rt::{Ports, drive_from, prelude::*};
+/// use std::thread;
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// # fn main() {
+/// let mut ports = Ports::<Smooth>::new();
+/// let (x, params) = (ports.input(|inputs| &mut inputs.x), ports.params());
+/// let robot = thread::spawn(|| drive_from(Smooth::new(), WallClock::new(), ports));
+/// assert_eq!(params.set("filter.weight", 0.25), Ok(()));
+/// assert_eq!(params.get("filter.weight"), Ok(0.25));
+/// assert_eq!(params.get_text("filter.weight").as_deref(), Ok("0.25"));
+/// // A program that waits for input runs as long as it may get some.
+/// drop(x);
+/// assert_eq!(robot.join().expect("it does not panic"), 0);
+/// # }
+/// ```
 #[derive(Clone)]
 pub struct RemoteParams {
     requests: Arc<Requests>,

@@ -12,6 +12,23 @@ use core::time::Duration;
 use std::sync::Arc;
 
 /// Time of a program's next reaction.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() {
+/// let (mut blink, mut now) = (Blink::new(), Time::ZERO);
+/// // A loop of your own. A robot would sleep until `time`.
+/// while let Next::At(time) = blink.react(now)
+///     && time <= Time::from_secs(1)
+/// {
+///     now = time;
+/// }
+/// assert_eq!(now, Time::from_secs(1));
+/// # }
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Next {
     /// At once: a source without a period is to fire again.
@@ -26,6 +43,13 @@ pub enum Next {
 
 impl Next {
     /// Returns the earlier of two times. An exit comes first.
+    ///
+    /// ```
+    /// use apex_rt::prelude::*;
+    ///
+    /// let (early, late) = (Next::At(Time::from_secs(1)), Next::At(Time::from_secs(2)));
+    /// assert_eq!([late.or(early), late.or(Next::Input), late.or(Next::Now)], [early, late, Next::Now]);
+    /// ```
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         match (self, other) {
@@ -45,7 +69,27 @@ impl Next {
     }
 }
 
-/// A compiled graph. `graph!` generates a struct that implements this trait.
+/// A compiled graph. `graph!` generates a struct that implements this trait. The struct itself has the functions `new`,
+/// `react`, `inputs`, `outputs`, `events` and `nodes`.
+///
+/// ```
+/// use apex_rt::prelude::*;
+/// use std::time::Duration;
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// /// Returns the shortest period of the sources of a program.
+/// fn period<P: Program>(_program: &P) -> Option<Duration> {
+///     P::INFO.nodes.iter().filter_map(|node| node.every).min()
+/// }
+///
+/// # fn main() {
+/// let mut blink = Blink::new();
+/// assert_eq!(period(&blink), Some(Duration::from_millis(20)));
+/// // With an observer; `react` is the same without one.
+/// assert_eq!(blink.react_with(Time::ZERO, &mut ()), Next::At(Time::from_millis(20)));
+/// # }
+/// ```
 pub trait Program: Parameters {
     /// Static description of the graph.
     const INFO: Info;
@@ -64,6 +108,7 @@ pub trait Program: Parameters {
 
     /// Returns the event of the program whose token has been waiting the longest, by its name, and the number of the
     /// token.
+    #[doc(hidden)]
     fn untaken(&self) -> Option<(&'static str, Arrival)> {
         None
     }
@@ -95,6 +140,7 @@ pub trait Program: Parameters {
 
     /// Passes the thread groups of a program to `spawn`, the main group last. `wake` is called when a group has to
     /// react.
+    #[doc(hidden)]
     fn on_threads<'a, W, S>(&'a mut self, wake: W, spawn: &mut S)
     where
         W: Wake + Copy + Send + 'a,
@@ -342,6 +388,25 @@ impl<P> Outside<P> for () {
 /// By the machine's clock, the signals that end a process (SIGINT, SIGTERM, SIGHUP) end the program after its present
 /// reaction, unless they have another handler; a second signal ends the process within a second. However the driving
 /// ends, the `#[on_stop]` methods of all nodes are called.
+///
+/// ```
+/// use apex_macros::graph;
+/// use apex_rt::{drive, prelude::*};
+///
+/// graph! {
+///     use apex_nodes::flow::tick;
+///
+///     robot EggTimer {
+///         node done = tick() after 4min;
+///         done -> exit;
+///     }
+/// }
+///
+/// # fn main() {
+/// // Four minutes of simulated time, at once. `WallClock::new()` would take four minutes.
+/// assert_eq!(drive(EggTimer::new(), SimClock::until(Time::MAX)), 0);
+/// # }
+/// ```
 pub fn drive<P: Program, C: Clock>(program: P, clock: C) -> u8 {
     #[cfg(feature = "std")]
     on_signals(&clock);
@@ -380,6 +445,25 @@ fn drive_alone<P: Program, C: Clock>(program: P, clock: C) -> u8 {
 ///
 /// In simulated time a program that only waits for input ends nevertheless: its time does not advance, so that tokens
 /// of other threads would come at no defined time.
+///
+/// ```
+/// use apex_rt::{Ports, drive_from, prelude::*};
+/// use std::thread;
+///
+/// apex_macros::graph!("examples/count.afg");
+///
+/// # fn main() {
+/// let mut ports = Ports::<Count>::new();
+/// let ticks = ports.input(|inputs| &mut inputs.tick);
+/// let counts = ports.event(|events| &mut events.count);
+/// // It sleeps until a token comes, and ends when `ticks` is dropped.
+/// let robot = thread::spawn(|| drive_from(Count::new(), WallClock::new(), ports));
+/// assert_eq!(ticks.send(()), Ok(()));
+/// assert_eq!(counts.receive(), Some(1));
+/// drop(ticks);
+/// assert_eq!(robot.join().expect("it does not panic"), 0);
+/// # }
+/// ```
 #[cfg(feature = "std")]
 pub fn drive_from<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>) -> u8 {
     on_signals(&clock);
@@ -425,6 +509,28 @@ pub(crate) fn drive_ports<P: Program, C: Clock, O: Observer>(
 
 /// Drives a program as [`drive`] does, with an observer. Nothing is then written to standard error, unless
 /// [`StdErr`](crate::StdErr) is a part of the observer.
+///
+/// ```
+/// use apex_rt::{Info, drive_with, prelude::*};
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// /// Counts the firings of each node.
+/// struct Firings([u32; Blink::INFO.nodes.len()]);
+///
+/// impl Observer for Firings {
+///     fn fired(&mut self, node: usize) {
+///         self.0[node] += 1;
+///     }
+/// }
+///
+/// # fn main() {
+/// const INFO: Info = Blink::INFO;
+/// let mut firings = Firings([0, 0]);
+/// drive_with(Blink::new(), SimClock::until(Time::from_secs(1)), (StdErr(&INFO), &mut firings));
+/// assert_eq!(firings.0, [50, 0]);
+/// # }
+/// ```
 pub fn drive_with<P: Program, C: Clock, O: Observer>(program: P, clock: C, mut observer: O) -> u8 {
     drive_beside(program, clock, &mut observer, ())
 }
@@ -468,6 +574,16 @@ fn drive_beside<P: Program, C: Clock, O: Observer, W: Outside<P>>(
 /// Drives a program as [`drive`] does, for the end of `main`: after `abort` the process exits with code 1.
 ///
 /// The signals that end a process (SIGINT, SIGTERM, SIGHUP) end the program, as its clock does.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// fn main() {
+///     run(Blink::new(), SimClock::until(Time::from_secs(60)));
+/// }
+/// ```
 pub fn run<P: Program, C: Clock>(program: P, clock: C) {
     #[cfg(feature = "std")]
     crate::end::on_signals();

@@ -3,6 +3,16 @@ use crate::end;
 use crate::{Clock, Switch, Time};
 
 /// A clock that ends when a switch is turned, by the handler of a signal or by another thread.
+///
+/// ```
+/// use apex_rt::{Switch, UntilStopped, prelude::*};
+///
+/// static STOP: Switch = Switch::new();
+/// let mut clock = UntilStopped::new(SimClock::until(Time::MAX), &STOP);
+/// assert!(clock.wait_until(Time::from_secs(1)));
+/// STOP.set();
+/// assert!(clock.is_stopped() && !clock.wait_until(Time::from_secs(2)));
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct UntilStopped<C> {
     clock: C,
@@ -19,6 +29,19 @@ impl<C: Clock> UntilStopped<C> {
     /// Returns `clock` with an end at Ctrl-C or another signal that would otherwise end the process. A second signal
     /// ends the process within a second, in case a node hangs.
     /// [`run`](crate::run) and [`drive`](crate::drive) by the machine's clock need none.
+    ///
+    /// ```
+    /// use apex_rt::{UntilStopped, drive, prelude::*};
+    ///
+    /// apex_macros::graph!("examples/blink.afg");
+    ///
+    /// # fn main() -> Result<(), String> {
+    /// // By the machine's clock, `drive` handles the signals itself.
+    /// let clock = UntilStopped::ctrl_c(SimClock::until(Time::from_secs(60)))?;
+    /// assert_eq!(drive(Blink::new(), clock), 0);
+    /// # Ok(())
+    /// # }
+    /// ```
     ///
     /// # Errors
     /// The signals cannot be handled, or already have another handler.

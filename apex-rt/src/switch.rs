@@ -68,6 +68,21 @@ impl Drop for Listens<'_> {
 
 /// A switch that ends programs, even while they wait. The handler of a signal or another thread turns it; it cannot be
 /// turned back.
+///
+/// ```
+/// use apex_rt::{Switch, UntilStopped, drive, prelude::*};
+/// use std::thread;
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() {
+/// static STOP: Switch = Switch::new();
+/// assert!(!STOP.is_set());
+/// thread::spawn(|| STOP.set());
+/// assert_eq!(drive(Blink::new(), UntilStopped::new(WallClock::new(), &STOP)), 0);
+/// assert!(STOP.is_set());
+/// # }
+/// ```
 #[derive(Debug)]
 pub struct Switch(Bell);
 

@@ -7,6 +7,17 @@ use core::{
 /// A point on the program's clock: nanoseconds since the clock's zero (about ±292 years).
 ///
 /// Sums saturate at both ends instead of wrapping.
+///
+/// ```
+/// use apex_rt::Time;
+/// use std::time::Duration;
+///
+/// let time = Time::from_millis(1500);
+/// assert_eq!(time + Duration::from_millis(500), Time::from_secs(2));
+/// assert_eq!(time.since(Time::from_secs(1)), Duration::from_millis(500));
+/// assert_eq!(Time::from_secs(1).since(time), Duration::ZERO);
+/// assert_eq!(time.to_string(), "1.500000 s");
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 #[cfg_attr(feature = "record", derive(serde::Serialize, serde::Deserialize))]
 pub struct Time(i64);

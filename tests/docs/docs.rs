@@ -16,6 +16,7 @@ use std::{
 
 mod book;
 mod embedding;
+mod examples;
 mod from;
 mod generated;
 mod language;

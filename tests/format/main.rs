@@ -23,7 +23,7 @@ fn root() -> PathBuf {
 /// All source files of the repository by name.
 fn texts() -> Vec<(String, String)> {
     let mut texts = vec![];
-    for folder in ["benches", "nodes", "robots", "tests"] {
+    for folder in ["apex-rt", "benches", "nodes", "robots", "tests"] {
         collect(&root().join(folder), &mut texts);
     }
     texts.sort();

@@ -39,6 +39,18 @@ pub enum Rejection {
 }
 
 /// Reason why a parameter could not be read or set.
+///
+/// ```
+/// use apex_rt::{params::ParamError, prelude::*};
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// # fn main() {
+/// let error = Smooth::new().set_param("filter.wight", 0.25).expect_err("it is misspelt");
+/// assert_eq!(error, ParamError::Unknown { nearest: Some("filter.weight") });
+/// assert_eq!(error.to_string(), "there is no parameter of this name; did you mean `filter.weight`?");
+/// # }
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ParamError {
     /// There is no parameter of this name.

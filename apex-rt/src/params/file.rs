@@ -13,6 +13,22 @@ const MAX_BYTES: u64 = 4 << 20;
 
 /// Sets the parameters in the file, as [`load`] does.
 ///
+/// ```
+/// use apex_rt::{params::load_file, prelude::*};
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let file = std::env::temp_dir().join(format!("apex-load-{}.toml", std::process::id()));
+/// let mut smooth = Smooth::new();
+/// std::fs::write(&file, "[filter]\nweight = 0.25\n")?;
+/// load_file(&mut smooth, &file)?;
+/// assert_eq!(smooth.param("filter.weight"), Ok(0.25));
+/// # std::fs::remove_file(file)?;
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 /// The file cannot be read, or has errors; then no parameter is changed.
 pub fn load_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> Result<(), LoadError> {
@@ -26,6 +42,21 @@ pub fn load_file<P: Parameters>(program: &mut P, path: impl AsRef<Path>) -> Resu
 
 /// Writes all parameters into a file, as [`save`] does. An existing file is replaced atomically: concurrent readers see
 /// the old file or the new one.
+///
+/// ```
+/// use apex_rt::{params::save_file, prelude::*};
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let file = std::env::temp_dir().join(format!("apex-save-{}.toml", std::process::id()));
+/// let mut smooth = Smooth::new();
+/// save_file(&mut smooth, &file)?;
+/// assert_eq!(std::fs::read_to_string(&file)?, "[filter]\nweight = 0.5 # 0..=1\n");
+/// # std::fs::remove_file(file)?;
+/// # Ok(())
+/// # }
+/// ```
 ///
 /// # Errors
 /// The file cannot be written, or is not a regular file (a device, a pipe). An existing file is then not changed.

@@ -29,6 +29,7 @@ pub use probe::{Known, Opaque, Probe};
 #[cfg(feature = "studio")]
 pub(crate) use room::room;
 #[cfg(feature = "params")]
+#[doc(hidden)]
 pub use run::run_with_files;
 #[cfg(feature = "params")]
 pub(crate) use text::parsed;
@@ -39,6 +40,18 @@ pub use value::{GivenList, IntoParam, ParamRef, ParamValue};
 use core::fmt;
 
 /// A parameter of a program.
+///
+/// ```
+/// use apex_rt::prelude::*;
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// # fn main() {
+/// let weight = &Smooth::PARAMS[0];
+/// assert_eq!((weight.name, weight.ty, weight.unit), ("filter.weight", "f64", None));
+/// assert_eq!(weight.range.to_string(), "0..=1");
+/// # }
+/// ```
 #[derive(Debug, PartialEq)]
 pub struct ParamInfo {
     /// Full name: `fast.planner.speed`.
@@ -52,6 +65,14 @@ pub struct ParamInfo {
 }
 
 /// Range of a parameter, as far as the compiler knows it. A bound that is not a plain number is missing.
+///
+/// ```
+/// use apex_rt::params::ParamRange;
+///
+/// let range = ParamRange { min: Some(0.0), max: None, inclusive: false };
+/// assert!(range.is_known());
+/// assert_eq!(range.to_string(), "0..");
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParamRange {
     /// The smallest value.
@@ -82,6 +103,7 @@ impl Declared {
     }
 }
 
+#[doc(hidden)]
 impl ParamInfo {
     /// Returns the row of a parameter without unit and range.
     pub const fn new(name: &'static str, ty: &'static str) -> Self {
@@ -112,6 +134,32 @@ impl fmt::Display for ParamRange {
 }
 
 /// Access to the value of one parameter.
+///
+/// ```
+/// use apex_rt::{
+///     params::{Access, IntoParam, ParamInfo, ParamVisitor},
+///     prelude::*,
+/// };
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// /// Sets all parameters to zero that may be zero.
+/// struct ToZero;
+///
+/// impl ParamVisitor for ToZero {
+///     fn param(&mut self, _info: &'static ParamInfo, access: Option<&mut dyn Access>) {
+///         if let Some(access) = access.filter(|access| access.check(0u8.give()).is_ok()) {
+///             assert_eq!(access.set(0u8.give()), Ok(()));
+///         }
+///     }
+/// }
+///
+/// # fn main() {
+/// let mut smooth = Smooth::new();
+/// smooth.visit_params(&mut ToZero);
+/// assert_eq!(smooth.param("filter.weight"), Ok(0.0));
+/// # }
+/// ```
 pub trait Access {
     /// Returns the value.
     fn get(&mut self) -> ParamRef<'_>;
@@ -130,12 +178,62 @@ pub trait Access {
 }
 
 /// Visitor of the parameters of a program.
+///
+/// ```
+/// use apex_rt::{
+///     params::{Access, ParamInfo, ParamVisitor},
+///     prelude::*,
+/// };
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// /// Lists parameters with their values.
+/// #[derive(Default)]
+/// struct Values(Vec<String>);
+///
+/// impl ParamVisitor for Values {
+///     fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>) {
+///         self.0.extend(access.map(|access| format!("{} = {}", info.name, access.get())));
+///     }
+/// }
+///
+/// # fn main() {
+/// let mut values = Values::default();
+/// Smooth::new().visit_params(&mut values);
+/// assert_eq!(values.0, ["filter.weight = 0.5"]);
+/// # }
+/// ```
 pub trait ParamVisitor {
     /// Visits one parameter. `access` is `None` if its type is not a [`ParamValue`].
     fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>);
 }
 
 /// The parameters of a compiled graph, or of one of its thread groups.
+///
+/// ```
+/// use apex_macros::graph;
+/// use apex_rt::prelude::*;
+///
+/// graph! {
+///     use apex_nodes::math::LowPass;
+///
+///     graph Smooth {
+///         in  x: f64;
+///         out y: f64;
+///
+///         node filter = LowPass(weight = 0.5);
+///         x -> filter -> y;
+///     }
+/// }
+///
+/// # fn main() {
+/// let mut smooth = Smooth::new();
+/// assert_eq!(smooth.param("filter.weight"), Ok(0.5));
+/// assert_eq!(smooth.set_param("filter.weight", 0.25), Ok(()));
+/// let error = smooth.set_param("filter.weight", 2.0).expect_err("the largest weight is 1");
+/// assert_eq!(error.to_string(), "the value of `filter.weight` is out of range: its range is 0..=1");
+/// # }
+/// ```
 pub trait Parameters {
     /// All parameters of all struct nodes of the graph, in the order of the source file.
     const PARAMS: &'static [ParamInfo] = &[];

@@ -69,6 +69,17 @@ impl std::error::Error for LoadError {}
 /// Returns all parameters of `program` as a text for [`load`]: a table per node in the order of the graph, values in SI
 /// units, units and ranges in comments. A parameter whose type is not a [`ParamValue`](super::ParamValue) is named in a
 /// comment.
+///
+/// ```
+/// use apex_rt::{params::save, prelude::*};
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// # fn main() {
+/// let mut smooth = Smooth::new();
+/// assert_eq!(save(&mut smooth), "[filter]\nweight = 0.5 # 0..=1\n");
+/// # }
+/// ```
 pub fn save<P: Parameters>(program: &mut P) -> String {
     let mut saved = Save::default();
     program.visit_params(&mut saved);
@@ -77,6 +88,17 @@ pub fn save<P: Parameters>(program: &mut P) -> String {
 
 /// Returns the names of the parameters that [`save`] leaves out because their type is not a
 /// [`ParamValue`](super::ParamValue).
+///
+/// ```
+/// use apex_rt::{params::not_saved, prelude::*};
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// # fn main() {
+/// let mut smooth = Smooth::new();
+/// assert!(not_saved(&mut smooth).is_empty());
+/// # }
+/// ```
 pub fn not_saved<P: Parameters>(program: &mut P) -> Vec<&'static str> {
     let mut saved = Save::default();
     program.visit_params(&mut saved);
@@ -84,6 +106,20 @@ pub fn not_saved<P: Parameters>(program: &mut P) -> Vec<&'static str> {
 }
 
 /// Sets the parameters in `text`, which has the form that [`save`] writes. All others keep their values.
+///
+/// ```
+/// use apex_rt::{params::load, prelude::*};
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// # fn main() {
+/// let mut smooth = Smooth::new();
+/// assert_eq!(load(&mut smooth, "[filter]\nweight = 0.25\n"), Ok(()));
+/// assert_eq!(smooth.param("filter.weight"), Ok(0.25));
+/// let error = load(&mut smooth, "[filter]\nweight = 3\n").expect_err("the largest weight is 1");
+/// assert_eq!(error.to_string(), "line 2, column 10: `filter.weight` cannot be 3: its range is 0..=1");
+/// # }
+/// ```
 ///
 /// # Errors
 /// All errors in the text; then no parameter is changed.
@@ -107,6 +143,18 @@ pub fn load<P: Parameters>(program: &mut P, text: &str) -> Result<(), LoadError>
 }
 
 /// Sets the parameter `name` to a value in TOML: `1.5`, `true`, `"text"`, `[1, 2]`.
+///
+/// ```
+/// use apex_rt::{params::set_text, prelude::*};
+///
+/// apex_macros::graph!("examples/smooth.afg");
+///
+/// # fn main() {
+/// let mut smooth = Smooth::new();
+/// assert_eq!(set_text(&mut smooth, "filter.weight", "0.25"), Ok(()));
+/// assert_eq!(smooth.param("filter.weight"), Ok(0.25));
+/// # }
+/// ```
 ///
 /// # Errors
 /// The errors of [`Parameters::set_param`]. A `value` that is not valid TOML is refused as one of the wrong kind.

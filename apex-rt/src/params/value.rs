@@ -4,6 +4,14 @@ use super::Rejection;
 use core::{fmt, time::Duration};
 
 /// A value of a parameter, in SI units. `Display` writes it in TOML.
+///
+/// ```
+/// use apex_rt::params::{IntoParam, ParamRef};
+///
+/// let name = "laser".give();
+/// assert!(matches!(name, ParamRef::Text("laser")));
+/// assert_eq!((name.what(), name.to_string()), ("a string", "\"laser\"".to_owned()));
+/// ```
 #[derive(Clone, Copy)]
 pub enum ParamRef<'a> {
     /// A truth value.
@@ -23,6 +31,14 @@ pub enum ParamRef<'a> {
 }
 
 /// The elements of a list.
+///
+/// ```
+/// use apex_rt::params::{GivenList, IntoParam, ParamRef};
+///
+/// let weights = vec![0.5, 1.5];
+/// let ParamRef::List(list) = weights.give() else { panic!("it is a list") };
+/// assert_eq!((list.count(), list.element(1).to_string().as_str()), (2, "1.5"));
+/// ```
 pub trait GivenList {
     /// Number of elements.
     fn count(&self) -> usize;
@@ -31,6 +47,15 @@ pub trait GivenList {
 }
 
 /// A value that can be assigned to a parameter.
+///
+/// ```
+/// use apex_rt::params::IntoParam;
+/// use std::time::Duration;
+///
+/// // In TOML, and in SI units.
+/// assert_eq!([1u8, 2].give().to_string(), "[1, 2]");
+/// assert_eq!(Duration::from_millis(20).give().to_string(), "0.02");
+/// ```
 pub trait IntoParam {
     /// Returns the value, independent of its type.
     fn give(&self) -> ParamRef<'_>;
@@ -38,6 +63,29 @@ pub trait IntoParam {
 
 /// A type of parameters that can be read, set, saved and loaded. Implement it for your own types by those of their
 /// contents.
+///
+/// ```
+/// use apex_rt::params::{IntoParam, ParamRef, ParamValue, Rejection};
+///
+/// /// Number of a gear.
+/// #[derive(Debug, PartialEq)]
+/// struct Gear(u8);
+///
+/// impl IntoParam for Gear {
+///     fn give(&self) -> ParamRef<'_> {
+///         self.0.give()
+///     }
+/// }
+///
+/// impl ParamValue for Gear {
+///     fn take(given: ParamRef<'_>) -> Result<Self, Rejection> {
+///         u8::take(given).map(Self)
+///     }
+/// }
+///
+/// assert_eq!(Gear::take(3i64.give()), Ok(Gear(3)));
+/// assert_eq!(Gear::take(300i64.give()), Err(Rejection::Fit("u8")));
+/// ```
 pub trait ParamValue: IntoParam + Sized {
     /// Converts a given value to this type.
     ///

@@ -32,7 +32,7 @@ pub struct Schema {
 
 impl Schema {
     /// Returns the definition of the message with that of its header, as other programs need it.
-    pub fn complete_definition(&self) -> String {
+    pub(crate) fn complete_definition(&self) -> String {
         let lacks_header =
             self.definition.starts_with("std_msgs/Header ") && !self.definition.contains("MSG: std_msgs/Header");
         if !lacks_header {

@@ -92,6 +92,7 @@ pub struct Format {
 }
 
 /// The table of all channels of a program. The crate of generated code may not name the standard library.
+#[doc(hidden)]
 pub type Channels = std::vec::Vec<Channel>;
 
 /// Asks a type of tokens for its `codec`, or whether it `is_recordable`, for generated code.

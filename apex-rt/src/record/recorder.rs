@@ -30,6 +30,27 @@ pub enum WhenFull {
 const PAUSE: Duration = Duration::from_micros(100);
 
 /// Recorder of a run, or of one thread group in a run.
+///
+/// ```
+/// use apex_rt::{
+///     drive_with,
+///     prelude::*,
+///     record::{Recorder, Tap, WhenFull},
+/// };
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let file = std::env::temp_dir().join(format!("apex-recorder-{}.mcap", std::process::id()));
+/// let mut tap = Tap::Record(Recorder::to_file::<Blink>(&file, WhenFull::Wait)?);
+/// drive_with(Blink::new(), SimClock::until(Time::from_secs(1)), &mut tap);
+/// let Tap::Record(recorder) = tap else { unreachable!("it was made so") };
+/// let finished = recorder.finish()?;
+/// assert_eq!((finished.path, finished.dropped), (file.clone(), vec![]));
+/// # std::fs::remove_file(file)?;
+/// # Ok(())
+/// # }
+/// ```
 pub struct Recorder {
     channels: Vec<Channel>,
     /// The file, in the recorder that ends it: one of all recorders of a run.
@@ -93,6 +114,23 @@ impl Recorder {
     /// Starts a recording with limits of its size and age, or one that is compressed. With limits it consists of
     /// several files, whose names have numbers before their ending (`run.0001.mcap`); the oldest ones are removed.
     ///
+    /// ```
+    /// use apex_rt::record::{RecordOptions, Recorder, WhenFull};
+    ///
+    /// apex_macros::graph!("examples/blink.afg");
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # let file = std::env::temp_dir().join(format!("apex-limits-{}.mcap", std::process::id()));
+    /// let options = RecordOptions { compress: true, ..RecordOptions::default() };
+    /// let recorder = Recorder::to_file_with::<Blink>(&file, WhenFull::Drop, options)?;
+    /// assert_eq!(recorder.path(), file);
+    /// let files = recorder.finish()?.files;
+    /// assert_eq!(files, [file.clone()]);
+    /// # std::fs::remove_file(file)?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// # Errors
     /// The errors of [`to_file`](Self::to_file), and limits that are too small.
     pub fn to_file_with<P: Program>(path: &Path, when_full: WhenFull, options: RecordOptions) -> io::Result<Self> {
@@ -101,6 +139,22 @@ impl Recorder {
 
     /// Starts a recording without the channels that are `left_out`, for example those of large images. A replay calls
     /// the sources of these channels, which therefore have to send the same tokens again.
+    ///
+    /// ```
+    /// use apex_rt::record::{Channel, Recorder, WhenFull};
+    ///
+    /// apex_macros::graph!("examples/blink.afg");
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # let file = std::env::temp_dir().join(format!("apex-without-{}.mcap", std::process::id()));
+    /// let is_image = |channel: &Channel| channel.name.ends_with(".image");
+    /// let recorder = Recorder::to_file_without::<Blink>(&file, WhenFull::Wait, is_image)?;
+    /// assert_eq!(recorder.path(), file);
+    /// recorder.finish()?;
+    /// # std::fs::remove_file(file)?;
+    /// # Ok(())
+    /// # }
+    /// ```
     ///
     /// # Errors
     /// The errors of [`to_file`](Self::to_file), except that tokens which are left out may be of any type.

@@ -4,6 +4,14 @@ use core::fmt::{self, Display, Formatter};
 use std::collections::BTreeMap;
 
 /// Report on a replay.
+///
+/// ```
+/// use apex_rt::record::Report;
+///
+/// let report = Report { dropped: vec![("camera.image".to_owned(), 2)], ..Report::default() };
+/// // Nothing differs, but two images could not be repeated.
+/// assert!(report.is_same() && !report.is_whole());
+/// ```
 #[derive(Debug, Default)]
 pub struct Report {
     /// Number of repeated reactions.

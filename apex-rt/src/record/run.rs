@@ -139,6 +139,31 @@ fn record_in_turn<P: Program, C: Clock>(
 /// Repeats the run that was recorded in `path`, and reports the differences. If its thread groups ran in parallel, they
 /// do so again, each with a clone of `observer`.
 ///
+/// ```
+/// use apex_rt::{
+///     drive_with,
+///     prelude::*,
+///     record::{Recorder, Tap, WhenFull, replay},
+/// };
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let file = std::env::temp_dir().join(format!("apex-replay-{}.mcap", std::process::id()));
+/// # let mut tap = Tap::Record(Recorder::to_file::<Blink>(&file, WhenFull::Wait)?);
+/// # drive_with(Blink::new(), SimClock::until(Time::from_secs(1)), &mut tap);
+/// # if let Tap::Record(recorder) = tap {
+/// #     recorder.finish()?;
+/// # }
+/// // A second that was recorded before, as the example of `Recorder` does.
+/// let report = replay(Blink::new(), &file, ())?;
+/// assert!(report.is_same() && report.is_whole());
+/// assert_eq!((report.reactions, report.last), (50, Some(Time::from_millis(980))));
+/// # std::fs::remove_file(file)?;
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 /// The file is not a recording of such a program, or cannot be read.
 pub fn replay<P: Program>(

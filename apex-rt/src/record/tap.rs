@@ -6,6 +6,30 @@ use core::time::Duration;
 /// observer.
 ///
 /// Ports are given by their index in [`Program::channels`](crate::Program::channels).
+///
+/// ```
+/// use apex_rt::{
+///     prelude::*,
+///     record::{Recorder, Tap, WhenFull},
+/// };
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let file = std::env::temp_dir().join(format!("apex-tap-{}.mcap", std::process::id()));
+/// let mut tap = Tap::Record(Recorder::to_file::<Blink>(&file, WhenFull::Wait)?);
+/// // A loop of your own.
+/// let mut blink = Blink::new();
+/// for tick in 0..10 {
+///     blink.react_with(Time::from_millis(20 * tick), &mut tap);
+/// }
+/// if let Tap::Record(recorder) = tap {
+///     assert!(recorder.finish()?.dropped.is_empty());
+/// }
+/// # std::fs::remove_file(file)?;
+/// # Ok(())
+/// # }
+/// ```
 #[allow(clippy::large_enum_variant, reason = "a program has one")]
 pub enum Tap {
     /// Records a run.

@@ -23,6 +23,32 @@ use std::{
 /// Drives a program as [`drive_on_threads`](crate::threads::drive_on_threads) does, and records the run in the file
 /// `path`. If that exists, a number is added to its name. Also returns the exit code.
 ///
+/// ```
+/// use apex_macros::graph;
+/// use apex_rt::{prelude::*, record::record_on_threads};
+///
+/// graph! {
+///     use apex_nodes::flow::{Relay, tick};
+///
+///     robot Short {
+///         node clock = tick() every 1ms on sensors;
+///         node relay = Relay();
+///         node done  = tick() after 20ms;
+///         clock -> relay.put;
+///         done  -> exit;
+///     }
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let file = std::env::temp_dir().join(format!("apex-threads-{}.mcap", std::process::id()));
+/// let pace = WallClock::new().pace().expect("it is the machine's clock");
+/// let (code, finished) = record_on_threads(&mut Short::new(), pace, &file, |_group| ())?;
+/// assert_eq!((code, finished.path), (0, file.clone()));
+/// # std::fs::remove_file(file)?;
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 /// The file cannot be written, or a source sends tokens that cannot be recorded.
 pub fn record_on_threads<P: Program, O: Observer + Send>(

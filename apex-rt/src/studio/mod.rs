@@ -17,6 +17,7 @@ mod asking;
 mod checkpoint;
 #[cfg(feature = "studio")]
 mod fork;
+#[doc(hidden)]
 pub mod message;
 #[cfg(feature = "studio")]
 mod run;
@@ -34,6 +35,7 @@ mod viewer;
 
 #[cfg(feature = "studio")]
 pub use run::{StreamedTime, Studio};
+#[doc(hidden)]
 pub use socket::{connect, connect_until};
 #[cfg(feature = "studio")]
 pub use stream::Stream;

@@ -30,6 +30,24 @@ const WAIT: &str = "APEX_STUDIO_WAIT";
 const ROOM: usize = 1 << 20;
 
 /// A streamed run. When it is dropped, the viewers get the last messages.
+///
+/// ```
+/// use apex_rt::{
+///     drive_with,
+///     prelude::*,
+///     studio::{StreamedTime, Studio},
+/// };
+///
+/// apex_macros::graph!("examples/blink.afg");
+///
+/// # fn main() -> std::io::Result<()> {
+/// let studio = Studio::open::<Blink>("127.0.0.1:0", StreamedTime::Simulated)?;
+/// assert!(studio.address().starts_with("127.0.0.1:"));
+/// // `apex studio --connect` shows it meanwhile.
+/// drive_with(Blink::new(), SimClock::until(Time::from_secs(1)), studio.stream(0));
+/// # Ok(())
+/// # }
+/// ```
 pub struct Studio {
     info: &'static Info,
     shared: Arc<Shared>,

@@ -24,6 +24,14 @@ use std::{
 };
 
 /// Timing of threads: the machine's clock, and a switch that ends the program.
+///
+/// ```
+/// use apex_rt::{Switch, prelude::*, threads::Pace};
+///
+/// static STOP: Switch = Switch::new();
+/// let pace = Pace { stopped: Some(&STOP), ..WallClock::new().pace().expect("it is the machine's clock") };
+/// assert!(pace.stopped.is_some_and(|stop| !stop.is_set()));
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Pace {
     /// Clock of all threads.
@@ -94,6 +102,29 @@ impl Watched for Run {
 ///
 /// The thread of a group sleeps while there is nothing to do. A panic in one group ends the other groups after their
 /// current reaction, and is then continued on this thread.
+///
+/// ```
+/// use apex_macros::graph;
+/// use apex_rt::{prelude::*, threads::drive_on_threads};
+///
+/// graph! {
+///     use apex_nodes::flow::{Relay, tick};
+///
+///     robot Short {
+///         node clock = tick() every 1ms on sensors;
+///         node relay = Relay();
+///         node done  = tick() after 20ms;
+///         clock -> relay.put;
+///         done  -> exit;
+///     }
+/// }
+///
+/// # fn main() {
+/// let pace = WallClock::new().pace().expect("it is the machine's clock");
+/// // An observer for each of the two groups.
+/// assert_eq!(drive_on_threads(&mut Short::new(), pace, |_group| ()), 0);
+/// # }
+/// ```
 pub fn drive_on_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     pace: Pace,
@@ -115,6 +146,29 @@ pub(crate) fn drive_from_threads<P: Program, O: Observer + Send>(
 /// Executes one reaction of all thread groups of `program` at `now`, each on a thread of its own, until nothing is
 /// ready in any of them. Returns the exit code. [`react_with`](Program::react_with) does the same with one group after
 /// the other.
+///
+/// ```
+/// use apex_macros::graph;
+/// use apex_rt::{prelude::*, threads::react_on_threads};
+///
+/// graph! {
+///     use apex_nodes::flow::{Relay, tick};
+///
+///     robot Short {
+///         node clock = tick() every 1ms on sensors;
+///         node relay = Relay();
+///         node done  = tick() after 20ms;
+///         clock -> relay.put;
+///         done  -> exit;
+///     }
+/// }
+///
+/// # fn main() {
+/// let mut short = Short::new();
+/// assert_eq!(react_on_threads(&mut short, Time::ZERO, |_group| ()), 0);
+/// assert_eq!(react_on_threads(&mut short, Time::from_millis(20), |_group| ()), 0);
+/// # }
+/// ```
 pub fn react_on_threads<P: Program, O: Observer + Send>(
     program: &mut P,
     now: Time,

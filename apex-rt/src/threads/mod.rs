@@ -16,6 +16,7 @@ use crate::{
 use core::cell::Cell;
 
 #[cfg(feature = "std")]
+#[doc(hidden)]
 pub use watch::WatchdogObserver;
 
 #[cfg(feature = "std")]
@@ -25,6 +26,7 @@ pub use drive::{Pace, drive_on_threads, react_on_threads};
 
 /// A token between two thread groups, with its stamp and activity.
 #[derive(Debug)]
+#[doc(hidden)]
 pub struct CellMessage<T> {
     /// The token; `None` is ⊥.
     pub token: Option<T>,
@@ -48,6 +50,7 @@ impl<T> Default for CellMessage<T> {
 }
 
 /// Wakes thread groups, by number, when a token has come for them or has been taken from them.
+#[doc(hidden)]
 pub trait Wake {
     /// Wakes group `group`, because there is something to react to.
     fn wake(&self, group: usize);
@@ -60,10 +63,12 @@ impl<W: Wake> Wake for &W {
 }
 
 /// Maximum number of thread groups in a program: each has a bit of [`ReadySet`].
+#[doc(hidden)]
 pub const MAX_GROUPS: usize = u64::BITS as usize;
 
 /// Set of the groups that were woken, for groups that run in turn on one thread.
 #[derive(Debug, Default)]
+#[doc(hidden)]
 pub struct ReadySet(Cell<u64>);
 
 impl ReadySet {
@@ -96,6 +101,7 @@ impl Wake for ReadySet {
 }
 
 /// A part of a program that runs on one thread.
+#[doc(hidden)]
 pub trait Group: Program {
     /// Reacts at `now`. Sources without a period fire only if `begins` is `true`: the reaction then begins, instead of
     /// continuing because of actions of other groups.
@@ -103,6 +109,7 @@ pub trait Group: Program {
 }
 
 /// Runner of the thread groups of a program with the mailboxes `I` and `E`. Each group is passed to it.
+#[doc(hidden)]
 pub trait Spawn<'a, I, E> {
     /// Runs a group on any thread.
     fn spawn<G: Group + Send + 'a>(&mut self, group: usize, part: G);
@@ -116,6 +123,7 @@ pub trait Spawn<'a, I, E> {
 
 /// A program with a single group.
 #[derive(Debug)]
+#[doc(hidden)]
 pub struct SingleGroup<'a, P>(pub &'a mut P);
 
 impl<P: Program> Parameters for SingleGroup<'_, P> {
@@ -151,6 +159,7 @@ impl<P: Program> Group for SingleGroup<'_, P> {
 }
 
 /// Maximum number of rounds of all groups in one reaction.
+#[doc(hidden)]
 pub const MAX_ROUNDS: u32 = 1_000_000;
 
 #[cfg(test)]
