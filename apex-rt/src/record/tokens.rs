@@ -28,6 +28,8 @@ pub struct Tokens<T> {
     /// Channel, and behind a colon the part of its messages.
     wanted: String,
     codec: Option<Codec<T>>,
+    /// Frame of the port, in which the messages of other programs have to be.
+    frame: Option<&'static str>,
     /// Tokens that were read last.
     known: Rc<RefCell<Known<T>>>,
 }
@@ -42,10 +44,16 @@ impl<T> Clone for Tokens<T> {
 /// file `text`. Behind a colon, `channel` may name one of several tokens in the messages of another program:
 /// `/tf: odom -> base_link`.
 pub fn tokens<T>(text: &str, file: &str, channel: &str, codec: Option<Codec<T>>) -> Tokens<T> {
-    Tokens { path: find(text, file), wanted: channel.to_owned(), codec, known: Rc::default() }
+    Tokens { path: find(text, file), wanted: channel.to_owned(), codec, frame: None, known: Rc::default() }
 }
 
 impl<T> Tokens<T> {
+    /// Refuses messages of other programs in another frame than that of the port. Those of Apex do not have their own.
+    #[must_use]
+    pub fn in_frame(self, frame: &'static str) -> Self {
+        Self { frame: Some(frame), ..self }
+    }
+
     /// Returns the tokens with their times, counted from the start of the recording. The stamps of their headers are
     /// moved as well: they are times of a program in which the recording starts at `begun`.
     ///
@@ -55,19 +63,15 @@ impl<T> Tokens<T> {
         if let Some((_, tokens)) = self.known.borrow().as_ref().filter(|(known, _)| *known == begun) {
             return tokens.clone();
         }
-        let read = read_tokens(&self.path, &self.wanted, self.codec, begun);
+        let read = read_tokens(self, begun);
         let tokens: Timed<T> = read.unwrap_or_else(|message| panic!("{message}")).into();
         *self.known.borrow_mut() = Some((begun, tokens.clone()));
         tokens
     }
 }
 
-fn read_tokens<T>(
-    path: &Path,
-    wanted: &str,
-    codec: Option<Codec<T>>,
-    begun: Time,
-) -> Result<Vec<(Duration, T)>, String> {
+fn read_tokens<T>(of: &Tokens<T>, begun: Time) -> Result<Vec<(Duration, T)>, String> {
+    let Tokens { path, wanted, codec, frame, .. } = of;
     let codec =
         codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
     let (topic, part) = wanted.split_once(':').map_or((wanted, ""), |(topic, part)| (topic.trim(), part.trim()));
@@ -91,7 +95,8 @@ fn read_tokens<T>(
     let mut tokens = vec![];
     for Message { channel, time, data, .. } in messages {
         let read = &readers[&channel];
-        let token = apex_bag::message(&data).map_err(Into::into).and_then(|bytes| read.read(&bytes, since, part));
+        let token =
+            apex_bag::message(&data).map_err(Into::into).and_then(|bytes| read.read(&bytes, since, (part, *frame)));
         let token = token.map_err(|reason| {
             let (ty, file) = (codec.schema.name, path.display());
             format!("a token of `{wanted}` in `{file}` is not one of `{ty}`: {reason}")
@@ -151,13 +156,17 @@ impl<T> Read<T> {
         }
     }
 
-    /// Reads the token in the bytes of a message, or the part of this name. Stamps count from `zero`, in ns.
-    fn read(&self, bytes: &[u8], zero: i64, part: &str) -> Result<Option<T>, Reason> {
-        match self {
-            Self::Own(read) => read(bytes, zero).map(Some),
-            Self::Foreign { read, is_ros1: true } => read(&mut Reader::ros1(bytes).since(zero), part),
-            Self::Foreign { read, is_ros1: false } => read(&mut Reader::new(bytes)?.since(zero), part),
-        }
+    /// Reads the token in the bytes of a message, or the part of this name, which has to be in this frame. Stamps count
+    /// from `zero`, in ns.
+    fn read(&self, bytes: &[u8], zero: i64, (part, frame): (&str, Option<&str>)) -> Result<Option<T>, Reason> {
+        let (read, is_ros1) = match self {
+            Self::Own(read) => return read(bytes, zero).map(Some),
+            Self::Foreign { read, is_ros1 } => (read, *is_ros1),
+        };
+        let message = if is_ros1 { Reader::ros1(bytes) } else { Reader::new(bytes)? }.since(zero);
+        let mut message = frame.map_or(message.clone(), |frame| message.in_frame(frame));
+        let token = read(&mut message, part)?;
+        token.map(|token| message.check_frame().map(|()| token)).transpose()
     }
 }
 
