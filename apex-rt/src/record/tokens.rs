@@ -63,7 +63,7 @@ impl<T> Tokens<T> {
         if let Some((_, tokens)) = self.known.borrow().as_ref().filter(|(known, _)| *known == begun) {
             return tokens.clone();
         }
-        let read = read_tokens(self, begun);
+        let read = read_tokens(&self, begun);
         let tokens: Timed<T> = read.unwrap_or_else(|message| panic!("{message}")).into();
         *self.known.borrow_mut() = Some((begun, tokens.clone()));
         tokens
@@ -72,6 +72,7 @@ impl<T> Tokens<T> {
 
 fn read_tokens<T>(of: &Tokens<T>, begun: Time) -> Result<Vec<(Duration, T)>, String> {
     let Tokens { path, wanted, codec, frame, .. } = of;
+    let wanted = wanted.as_str();
     let codec =
         codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
     let (topic, part) = wanted.split_once(':').map_or((wanted, ""), |(topic, part)| (topic.trim(), part.trim()));
