@@ -134,7 +134,7 @@ impl<T: Message> Player<T> {
 
     /// Reads the next token, with its time.
     fn read(&mut self) -> Result<Option<(Time, T)>, Mistake> {
-        let (topic, part) = self.wanted;
+        let (topic, _) = self.wanted;
         loop {
             let next = self.recording.next_message().map_err(|error| Mistake::File(error.to_string()))?;
             let Some(found) = next else { return Ok(None) };
