@@ -282,6 +282,11 @@ fn each_message_with_what_is_not_a_rotation_is_named() {
     assert_eq!((poses, ended), (vec![Ok(0.0), Ok(0.0), Err(unset()), Ok(0.0)], true));
 }
 
+/// A result, or the message of its panic.
+fn message_of<T>(result: std::thread::Result<T>) -> Result<T, String> {
+    result.map_err(|error| error.downcast::<String>().map_or_else(|_| "?".to_owned(), |it| *it))
+}
+
 #[test]
 fn frames_of_messages_are_compared() {
     let folder = Folder::new();
@@ -296,15 +301,14 @@ fn frames_of_messages_are_compared() {
     assert_eq!(first("odom", "/odom"), Ok(0.0));
     assert_eq!(first("/odom", "/odom"), Ok(0.0));
     assert_eq!(first("map", "/odom"), wrong("odom", "map"));
-    // The twist of odometry is in the frame of the robot, which this one does not name.
+    // The twist of odometry is in the frame of the robot.
     let twist = play_in::<Twist>("odom", file, "/odom").0.swap_remove(0).map(|twist| twist.x);
-    assert_eq!(twist, wrong("", "odom"));
+    assert_eq!(twist, wrong("base_link", "odom"));
 
     let fed = |frame: &'static str| {
         let codec = apex_rt::__codec!(Scan);
         let read = || apex_rt::record::tokens("", file, "/scan", codec).in_frame(frame).begun_at(Time::ZERO).len();
-        std::panic::catch_unwind(read)
-            .map_err(|error| error.downcast::<String>().map_or_else(|_| "?".to_owned(), |it| *it))
+        message_of(std::panic::catch_unwind(read))
     };
     assert_eq!(fed("laser"), Ok(1));
     let why = fed("base").expect_err("another frame");
@@ -319,6 +323,10 @@ fn a_transform_that_is_not_there_is_missed() {
     let file = path.to_str().expect("a readable path");
     let (poses, ended) = play::<Pose2>(file, "/tf: map -> base");
     assert_eq!((poses, ended), (vec![Err(format!("{file}: no message of `/tf` has `map -> base`"))], true));
+    let codec = apex_rt::__codec!(Pose2);
+    let read = || apex_rt::record::tokens("", file, "/tf: map -> base", codec).begun_at(Time::ZERO).len();
+    let why = message_of(std::panic::catch_unwind(read));
+    assert_eq!(why, Err(format!("no message of `/tf` in `{file}` has `map -> base`")));
     // Each transform is in the frame of its own header.
     assert!(play_in::<Pose2>("odom", file, "/tf: odom -> base").0[0].is_ok());
     assert!(play_in::<Pose2>("map", file, "/tf: odom -> base").0[0].is_err());

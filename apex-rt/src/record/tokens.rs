@@ -104,6 +104,9 @@ fn read_tokens<T>(of: &Tokens<T>, begun: Time) -> Result<Vec<(Duration, T)>, Str
         })?;
         tokens.extend(token.map(|token| (Duration::from_nanos(time - zero), token)));
     }
+    if tokens.is_empty() && !readers.is_empty() && !part.is_empty() {
+        return Err(format!("no message of `{topic}` in `{}` has `{part}`", path.display()));
+    }
     if tokens.is_empty() {
         let names: Vec<String> = recording.channels().values().map(|c| format!("`{}`", c.name)).collect();
         return Err(format!("`{}` has no tokens of `{wanted}`; it has {}", path.display(), names.join(", ")));
