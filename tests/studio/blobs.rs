@@ -6,6 +6,7 @@ use crate::{
     socket,
 };
 use ::blobs::{Prototype, film};
+use apex_rt::prelude::*;
 use std::{fs, path::PathBuf};
 
 fn belt() -> PathBuf {
