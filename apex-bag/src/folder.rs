@@ -95,7 +95,7 @@ impl Folder {
             // In the last file, this is the end of the bag; in another one, messages after it are missing.
             self.cut = self.file.cut().map(str::to_owned);
             let Some(next) = self.next.pop_front().filter(|_| self.cut.is_none()) else { return Ok(None) };
-            self.file = Box::new(open_file(&next)?);
+            *self.file = open_file(&next)?;
             self.numbers.clear();
         }
     }

@@ -126,12 +126,15 @@ fn is_whole(path: &Path, recording: &Recording) -> Result<(), String> {
     }
 }
 
+/// Function that reads a token in a message, or the part of this name.
+type OfMessage<T> = fn(&mut Reader<'_>, &str) -> Result<Option<T>, Reason>;
+
 /// Function that reads the tokens of a channel.
 enum Read<T> {
-    /// Tokens of the type of the port.
-    Own(fn(&[u8], i64) -> Result<T, Reason>),
+    /// Tokens of the type of the port. Those in the message of another program are also read as such, for its frame.
+    Own(fn(&[u8], i64) -> Result<T, Reason>, Option<OfMessage<T>>),
     /// Messages that hold such tokens, in CDR or in the form of ROS 1.
-    Foreign { read: fn(&mut Reader<'_>, &str) -> Result<Option<T>, Reason>, is_ros1: bool },
+    Foreign { read: OfMessage<T>, is_ros1: bool },
 }
 
 impl<T> Read<T> {
@@ -141,7 +144,8 @@ impl<T> Read<T> {
         let is_own_type = channel.schema == codec.schema.name && !is_ros1;
         if is_own || is_own_type || messages.is_empty() || !["cdr", ROS1].contains(&&*channel.encoding) {
             check(path, channel, codec)?;
-            return Ok(Self::Own(codec.read_since));
+            let message = messages.into_iter().next().filter(|_| !is_own);
+            return Ok(Self::Own(codec.read_since, message.map(|message| message.read)));
         }
         let (file, topic, ty) = (path.display(), &channel.topic, &channel.schema);
         let Some(message) = messages.iter().find(|message| message.name == ty) else {
@@ -164,14 +168,28 @@ impl<T> Read<T> {
     /// from `zero`, in ns.
     fn read(&self, bytes: &[u8], zero: i64, (part, frame): (&str, Option<&str>)) -> Result<Option<T>, Reason> {
         let (read, is_ros1) = match self {
-            Self::Own(read) => return read(bytes, zero).map(Some),
+            Self::Own(read, message) => {
+                if let Some((read, frame)) = message.zip(frame) {
+                    in_frame(Reader::new(bytes)?, read, (part, Some(frame)))?;
+                }
+                return read(bytes, zero).map(Some);
+            }
             Self::Foreign { read, is_ros1 } => (read, *is_ros1),
         };
-        let message = if is_ros1 { Reader::ros1(bytes) } else { Reader::new(bytes)? }.since(zero);
-        let mut message = frame.map_or(message.clone(), |frame| message.in_frame(frame));
-        let token = read(&mut message, part)?;
-        token.map(|token| message.check_frame().map(|()| token)).transpose()
+        let message = if is_ros1 { Reader::ros1(bytes) } else { Reader::new(bytes)? };
+        in_frame(message.since(zero), *read, (part, frame))
     }
+}
+
+/// Reads the token in a message, or the part of this name, which has to be in this frame.
+fn in_frame<T>(
+    message: Reader<'_>,
+    read: OfMessage<T>,
+    (part, frame): (&str, Option<&str>),
+) -> Result<Option<T>, Reason> {
+    let mut message = frame.map_or(message.clone(), |frame| message.in_frame(frame));
+    let token = read(&mut message, part)?;
+    token.map(|token| message.check_frame().map(|()| token)).transpose()
 }
 
 /// Checks that the recorded tokens are of the type of the port.
