@@ -125,7 +125,7 @@ struct Program(DomainParticipant);
 
 impl Program {
     fn open(domain: u16) -> Self {
-        let builder = DomainParticipantBuilder::new(domain).with_only_networks([Ipv4Addr::LOCALHOST.into()]);
+        let builder = DomainParticipantBuilder::new(domain).with_only_networks([Ipv4Addr::LOCALHOST]);
         Self(builder.build().expect("a participant"))
     }
 
