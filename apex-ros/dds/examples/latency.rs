@@ -173,7 +173,9 @@ struct Tester {
 impl Tester {
     fn open(program: &Program, ping: &str, pong: &str) -> Self {
         let (sender, pongs) = mpsc::channel();
-        listen(program.reader(pong), move |_| drop(sender.send(Instant::now())));
+        listen(program.reader(pong), move |_| {
+            let _ = sender.send(Instant::now());
+        });
         Self { pings: program.writer(ping), pongs }
     }
 
