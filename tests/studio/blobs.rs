@@ -36,7 +36,10 @@ fn sliders_change_the_blobs_in_the_image_beside_them() {
     // Pixels in the colour of marks.
     let marked = format!(
         "((image) => {{
-            const {{ data }} = image.getContext('2d').getImageData(0, 0, image.width, image.height);
+            const {{ width, height }} = image;
+            const copy = new OffscreenCanvas(width, height).getContext('2d', {{ willReadFrequently: true }});
+            copy.drawImage(image, 0, 0);
+            const {{ data }} = copy.getImageData(0, 0, width, height);
             return data.filter((_, i) => i % 4 === 0 && data[i] === 255 && data[i + 1] === 64 && data[i + 2] === 0).length;
         }})({image})"
     );
