@@ -7,6 +7,7 @@
 //! elsewhere.
 
 mod contents;
+mod folder;
 pub mod format;
 mod mcap;
 mod packed;
@@ -16,6 +17,7 @@ mod ros1;
 mod sqlite;
 
 pub use contents::{Contents, Topic};
+pub use folder::Folder;
 pub use mcap::{CUT, Mcap};
 pub use packed::message;
 pub use ros1::{ENCODING as ROS1, Ros1};
@@ -67,18 +69,21 @@ pub enum Recording {
     /// Database of rosbag2.
     #[cfg(feature = "sqlite")]
     Sqlite(Sqlite),
+    /// Bag of rosbag2 that consists of several files.
+    Folder(Folder),
 }
 
 impl Recording {
-    /// Opens a recording of any kind.
+    /// Opens a recording of any kind: a file, or the folder of a bag of rosbag2.
     ///
     /// # Errors
     /// The file cannot be read, or is not a recording.
     pub fn open(path: &Path) -> io::Result<Self> {
-        let mut magic = vec![];
-        if !path.is_dir() {
-            File::open(path)?.take(16).read_to_end(&mut magic)?;
+        if path.is_dir() {
+            return folder::open(path);
         }
+        let mut magic = vec![];
+        File::open(path)?.take(16).read_to_end(&mut magic)?;
         let refuse = |why: &str| Err(io::Error::new(io::ErrorKind::InvalidData, why));
         match magic.as_slice() {
             #[cfg(feature = "sqlite")]
@@ -104,6 +109,7 @@ impl Recording {
             Self::Ros1(bag) => &bag.channels,
             #[cfg(feature = "sqlite")]
             Self::Sqlite(database) => &database.channels,
+            Self::Folder(folder) => &folder.channels,
         }
     }
 
@@ -117,6 +123,7 @@ impl Recording {
             Self::Ros1(bag) => bag.next_message(),
             #[cfg(feature = "sqlite")]
             Self::Sqlite(database) => Ok(database.next_message()),
+            Self::Folder(folder) => folder.next_message(),
         }
     }
 
@@ -127,6 +134,7 @@ impl Recording {
             Self::Ros1(bag) => bag.cut.as_deref(),
             #[cfg(feature = "sqlite")]
             Self::Sqlite(database) => database.cut.as_deref(),
+            Self::Folder(folder) => folder.cut.as_deref(),
         }
     }
 

@@ -146,7 +146,61 @@ fn what_is_not_a_recording_is_named() {
         let error = Recording::open(&file.0).map(|_| ()).expect_err(why);
         assert!(error.to_string().contains(why), "{error}");
     }
-    assert!(Recording::open(&std::env::temp_dir()).is_err_and(|error| error.to_string() == "it is a folder"));
+}
+
+/// Bag of rosbag2 with these files.
+fn bag(name: &str, files: &[(&str, &[u8])]) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("apex-bag-{}-{name}", std::process::id()));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("room");
+    let mut metadata = "rosbag2_bagfile_information:\n  relative_file_paths:\n".to_owned();
+    for (name, bytes) in files {
+        fs::write(folder.join(name), bytes).expect("room");
+        metadata.push_str(&format!("    - {name}\n"));
+    }
+    fs::write(folder.join("metadata.yaml"), metadata).expect("room");
+    folder
+}
+
+#[test]
+fn a_folder_is_read_file_by_file() {
+    let whole = file(10, WriteOptions::new());
+    let none = BTreeMap::new();
+    // The other file numbers its channels in another order, and has one more.
+    let mut writer = WriteOptions::new().compression(None).create(io::Cursor::new(vec![])).expect("a file");
+    let schema = writer.add_schema("std_msgs/msg/Float64", "ros2msg", b"float64 data").expect("room");
+    for (i, topic) in (0..).zip(["/new", "/other", "/scan"]) {
+        let channel_id = writer.add_channel(schema, topic, "cdr", &none).expect("room");
+        let time = BEGIN + 10_000_000_000 + i;
+        let header = MessageHeader { channel_id, sequence: 0, log_time: time, publish_time: time };
+        writer.write_to_known_channel(&header, &[7; 12]).expect("room");
+    }
+    writer.finish().expect("room");
+    let later = writer.into_inner().into_inner();
+
+    let folder = bag("split", &[("b.mcap", &whole), ("a.mcap", &later)]);
+    let contents = Contents::read(&folder).expect("a bag");
+    let counts: Vec<_> = contents.topics.iter().map(|topic| (&*topic.channel.topic, topic.count)).collect();
+    assert_eq!((counts, contents.cut), (vec![("/new", 1), ("/other", 2), ("/scan", 11)], None));
+    assert_eq!(contents.times, Some((BEGIN, BEGIN + 10_000_000_002)));
+
+    // A file that is cut off ends the bag.
+    let folder = bag("cut", &[("b.mcap", &whole[..whole.len() / 2]), ("a.mcap", &later)]);
+    let contents = Contents::read(&folder).expect("a bag");
+    assert_eq!(contents.cut.as_deref(), Some(CUT));
+    // One file is that file.
+    let folder = bag("one", &[("b.mcap", &whole)]);
+    assert!(matches!(Recording::open(&folder), Ok(Recording::Mcap(_))));
+
+    let why = |folder: &PathBuf| Recording::open(folder).map(|_| ()).map_err(|error| error.to_string());
+    fs::remove_file(folder.join("b.mcap")).expect("it is there");
+    assert!(why(&folder).is_err_and(|why| why.starts_with("its file `b.mcap`: ")));
+    assert!(why(&bag("none", &[])).is_err_and(|why| why == "its `metadata.yaml` names no file"));
+    fs::remove_file(folder.join("metadata.yaml")).expect("it is there");
+    assert!(why(&folder).is_err_and(|why| why.starts_with("it is a folder without `metadata.yaml`: name one")));
+    for name in ["split", "cut", "one", "none"] {
+        drop(fs::remove_dir_all(bag(name, &[])));
+    }
 }
 
 #[test]

@@ -125,6 +125,10 @@ pub struct Reader<'a> {
     order: Order,
     is_ros1: bool,
     zero: i64,
+    /// Frame in which the value has to be.
+    frame: Option<&'a str>,
+    /// Frame in which it is, if that matters.
+    found: Option<String>,
 }
 
 /// Reason for a message that ends too early.
@@ -142,7 +146,7 @@ impl<'a> Reader<'a> {
             [0, order @ 0..=1, _, options] => {
                 let length = rest.len().checked_sub(usize::from(options & 3)).ok_or(MISSING)?;
                 let order = if *order == 1 { Order::Little } else { Order::Big };
-                Ok(Self { bytes: &rest[..length], at: 0, order, is_ros1: false, zero: 0 })
+                Ok(Self { bytes: &rest[..length], at: 0, order, is_ros1: false, zero: 0, frame: None, found: None })
             }
             [0, 2..=11, ..] => Err("it is encoded in a version of CDR that is not supported".into()),
             _ => Err("it does not begin as CDR".into()),
@@ -151,18 +155,48 @@ impl<'a> Reader<'a> {
 
     /// Reads the message `bytes` of ROS 1.
     pub const fn ros1(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, order: Order::Little, is_ros1: true, zero: 0 }
+        Self { bytes, at: 0, order: Order::Little, is_ros1: true, zero: 0, frame: None, found: None }
     }
 
     /// Counts the stamps of headers from `zero`, in ns since 1970, as those of a program do. A stamp of zero, which
     /// means that the time is not known, stays.
     #[must_use]
-    pub const fn since(self, zero: i64) -> Self {
+    pub fn since(self, zero: i64) -> Self {
         Self { zero, ..self }
     }
 
+    /// Demands that the value is in this frame, which [`Self::check_frame`] compares when it was read.
+    #[must_use]
+    pub fn in_frame(self, frame: &'a str) -> Self {
+        Self { frame: Some(frame), ..self }
+    }
+
+    /// Sets the frame in which the value is. Otherwise it is that of the first header.
+    pub fn set_frame(&mut self, frame: &str) {
+        if self.frame.is_some() {
+            self.found = Some(frame.to_owned());
+        }
+    }
+
+    /// Returns an error if the value is in another frame than the demanded one. The first `/` of a name, which ROS 1
+    /// may have, does not count.
+    pub fn check_frame(&self) -> Result<(), Reason> {
+        let Some(wanted) = self.frame else { return Ok(()) };
+        let Some(found) = &self.found else {
+            return Err(format!("it does not say its frame, which has to be `{wanted}`").into());
+        };
+        let name = |frame: &str| frame.trim_start_matches('/').to_owned();
+        match name(found) == name(wanted) {
+            true => Ok(()),
+            false => Err(format!("it is in the frame `{found}`, and not in `{wanted}`").into()),
+        }
+    }
+
     /// Returns a header that was read as the program needs it.
-    pub fn incoming(&self, header: Header) -> Header {
+    pub fn incoming(&mut self, header: Header) -> Header {
+        if self.found.is_none() {
+            self.set_frame(&header.frame_id);
+        }
         match header.stamp.as_nanos() {
             // Numbers stay as they are, even if the nanoseconds are more than a second.
             _ if self.zero == 0 => header,

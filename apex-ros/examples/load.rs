@@ -1,5 +1,6 @@
 //! Images of 1 MB at 30 Hz and scans at 40 Hz from one node through a router into a program: how many are lost, how
-//! late they are, and how often an image is copied. `cargo run --release --example load -- 600` does so for 10 minutes.
+//! late they are, and how often an image is copied. `cargo run --release --example load -- 600` does so for 10 minutes,
+//! `-- 600 all` with a publisher that waits instead of dropping messages.
 
 use apex_macros::graph;
 use apex_messages::{
@@ -11,6 +12,7 @@ use apex_rt::{PortReceiver, Ports, Switch, UntilStopped, drive_from, prelude::*}
 use std::{
     alloc::{GlobalAlloc, Layout, System},
     cell::Cell,
+    collections::BTreeSet,
     env,
     net::TcpListener,
     sync::{
@@ -100,10 +102,16 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
+/// A publisher that waits, and subscriptions that keep as much: those by default drop messages on a machine that has
+/// too much to do.
+const ALL: Qos = Qos { depth: None, ..Qos::DEFAULT };
+
 /// Fate of the messages of a topic.
 #[derive(Debug)]
 struct Outcome {
     sent: u32,
+    /// Number of messages that the subscription dropped, because the program was busy.
+    dropped: u64,
     /// Numbers of those that did not arrive.
     lost: Vec<u32>,
     /// `true` if none came twice or before an earlier one.
@@ -143,7 +151,9 @@ fn follow(numbers: &PortReceiver<f64>, sent: &Sent) -> Outcome {
     }
     let sent = sent.lock().expect("no panic").len() as u32;
     let is_in_order = arrived.windows(2).all(|pair| pair[0] < pair[1]);
-    Outcome { sent, lost: (0..sent).filter(|number| !arrived.contains(number)).collect(), is_in_order, latest }
+    let came: BTreeSet<u32> = arrived.into_iter().collect();
+    let lost = (0..sent).filter(|number| !came.contains(number)).collect();
+    Outcome { sent, dropped: 0, lost, is_in_order, latest }
 }
 
 fn router(address: &str) -> Session {
@@ -194,8 +204,10 @@ fn run(lasts: Duration, qos: Qos) -> Result<([Outcome; 2], [f64; 2]), Error> {
     let open = |name| Ros::node(name).args([""; 0]).router(&address).open();
     let (camera, robot) = (open("camera")?, open("robot")?);
     let mut ports = Ports::<Numbers>::new();
-    robot.subscribe("image").feed(ports.input(|inputs| &mut inputs.image))?;
-    robot.subscribe("scan").feed(ports.input(|inputs| &mut inputs.scan))?;
+    let subscriptions = [
+        robot.subscribe("image").qos(qos).feed(ports.input(|inputs| &mut inputs.image))?,
+        robot.subscribe("scan").qos(qos).feed(ports.input(|inputs| &mut inputs.scan))?,
+    ];
     let seen = [ports.event(|events| &mut events.seen_image), ports.event(|events| &mut events.seen_scan)];
     let sent = [Sent::default(), Sent::default()];
     let mut sent_of = sent.clone().into_iter();
@@ -210,7 +222,10 @@ fn run(lasts: Duration, qos: Qos) -> Result<([Outcome; 2], [f64; 2]), Error> {
     publish(&camera, lasts, qos, &sent)?;
     stop.set();
     drop(driver.join());
-    let outcomes = followers.map(|follower| follower.join().expect("no panic"));
+    let mut outcomes = followers.map(|follower| follower.join().expect("no panic"));
+    for (outcome, subscription) in outcomes.iter_mut().zip(&subscriptions) {
+        outcome.dropped = subscription.dropped();
+    }
     let pieces = |i: usize| (PIECES[i].load(Ordering::Relaxed) - before[i]) as f64;
     let copies = [0, 1].map(|i| pieces(i) / f64::from(outcomes[0].sent));
     Ok((outcomes, copies))
@@ -218,10 +233,14 @@ fn run(lasts: Duration, qos: Qos) -> Result<([Outcome; 2], [f64; 2]), Error> {
 
 fn main() -> Result<(), Error> {
     let seconds = env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(10);
-    let (outcomes, [there, here]) = run(Duration::from_secs(seconds), Qos::DEFAULT)?;
-    for (name, Outcome { sent, lost, is_in_order, latest }) in ["images", "scans"].into_iter().zip(outcomes) {
+    let qos = if env::args().any(|argument| argument == "all") { ALL } else { Qos::DEFAULT };
+    let (outcomes, [there, here]) = run(Duration::from_secs(seconds), qos)?;
+    for (name, Outcome { sent, dropped, lost, is_in_order, latest }) in ["images", "scans"].into_iter().zip(outcomes) {
         let (order, latest) = (if is_in_order { "in order" } else { "NOT in order" }, latest.as_secs_f64() * 1e3);
-        println!("{name}: {sent} sent, {} lost {lost:?}, {order}; the latest after {latest:.1} ms", lost.len());
+        let lost = lost.len();
+        println!(
+            "{name}: {sent} sent, {lost} lost ({dropped} by the subscription), {order}; the latest after {latest:.1} ms"
+        );
     }
     println!("copies of an image: {there:.2} by the publisher, {here:.2} on the way and by the program");
     Ok(())
@@ -230,9 +249,6 @@ fn main() -> Result<(), Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// A publisher that waits: on a machine that has too much to do, the one by default would drop messages.
-    const ALL: Qos = Qos { depth: None, ..Qos::DEFAULT };
 
     #[test]
     fn nothing_is_lost_and_copies_are_few() {

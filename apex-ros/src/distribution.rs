@@ -22,9 +22,13 @@ pub enum Distribution {
 pub const NO_HASH: &str = "TypeHashNotSupported";
 
 impl Distribution {
-    /// Returns the distribution in the environment variable `ROS_DISTRO`; Jazzy if there is none, or an unknown one.
-    pub fn of_environment() -> Self {
-        env::var("ROS_DISTRO").ok().and_then(|name| name.parse().ok()).unwrap_or_default()
+    /// Returns the distribution in the environment variable `ROS_DISTRO`; Jazzy if there is none.
+    ///
+    /// # Errors
+    /// The distribution is not known.
+    pub fn of_environment() -> Result<Self, crate::Error> {
+        let wrong = |error| crate::Error::new(format!("`ROS_DISTRO`: {error}"));
+        env::var("ROS_DISTRO").map_or(Ok(Self::default()), |name| name.parse().map_err(wrong))
     }
 
     /// Returns what this distribution writes for a type with this hash.
@@ -42,14 +46,15 @@ impl FromStr for Distribution {
     fn from_str(name: &str) -> Result<Self, Self::Err> {
         Ok(match name {
             "humble" => Self::Humble,
-            "jazzy" => Self::Jazzy,
+            // Its types have the hashes of Jazzy.
+            "iron" | "jazzy" => Self::Jazzy,
             "kilted" => Self::Kilted,
             "lyrical" => Self::Lyrical,
             "rolling" => Self::Rolling,
             _ => {
                 return Err(crate::Error::new(format!(
-                    "`{name}` is not a distribution of ROS 2 that is known: `humble`, `jazzy`, `kilted`, `lyrical`, \
-                     `rolling`"
+                    "`{name}` is not a distribution of ROS 2 that is known: `humble`, `iron`, `jazzy`, `kilted`, \
+                     `lyrical`, `rolling`"
                 )));
             }
         })
@@ -63,7 +68,7 @@ mod tests {
     #[test]
     fn humble_has_no_hashes() {
         assert_eq!("humble".parse::<Distribution>().map(|humble| humble.hash("RIHS01_ab")), Ok(NO_HASH));
-        for name in ["jazzy", "kilted", "lyrical", "rolling"] {
+        for name in ["iron", "jazzy", "kilted", "lyrical", "rolling"] {
             assert_eq!(name.parse::<Distribution>().map(|it| it.hash("RIHS01_ab")), Ok("RIHS01_ab"));
         }
         assert!("noetic".parse::<Distribution>().is_err());

@@ -92,7 +92,7 @@ impl Opening {
         let args = Args::read(arguments, &self.node)?;
         let scope = Scope::new(args.namespace.as_deref().unwrap_or(""), args.node.as_deref().unwrap_or(&self.node))?;
         let domain = self.domain.map_or_else(domain, Ok)?;
-        let distribution = self.distribution.unwrap_or_else(Distribution::of_environment);
+        let distribution = self.distribution.map_or_else(Distribution::of_environment, Ok)?;
         let carrier = self.carrier.unwrap_or_else(|| over_zenoh(self.router))(domain, distribution)?;
         let (log, said) = (Log::default(), self.tell);
         let tell: Tell = {
@@ -149,6 +149,18 @@ fn domain() -> Result<u32, Error> {
         Some(text) => {
             u32::from_str(&text).map_err(|_| Error::new(format!("`ROS_DOMAIN_ID` is `{text}`, which is not a number")))
         }
+    }
+}
+
+/// Text of an error, with all names if no parameter of the program has a similar one.
+fn listed<P: Program>(error: ParamError) -> String {
+    let names: Vec<String> = P::PARAMS.iter().map(|param| format!("`{}`", param.name)).collect();
+    match error {
+        ParamError::Unknown { nearest: None } if names.is_empty() => "the program has no parameters".to_owned(),
+        ParamError::Unknown { nearest: None } => {
+            format!("there is no parameter of this name; those of the program are {}", names.join(", "))
+        }
+        error => error.to_string(),
     }
 }
 
@@ -222,7 +234,7 @@ impl Ros {
             match set_text(program, name, value) {
                 Err(ParamError::Unknown { .. }) if !is_named || name == SIM_TIME => {}
                 Err(error @ ParamError::Unknown { .. }) => {
-                    return Err(Error::new(format!("{place}: `{name}`: {error}")));
+                    return Err(Error::new(format!("{place}: `{name}`: {}", listed::<P>(error))));
                 }
                 Err(error) => return Err(Error::new(format!("{place}: {error}"))),
                 Ok(()) => {}
@@ -231,7 +243,7 @@ impl Ros {
         for (name, value) in self.args().params.iter().filter(|(name, _)| name != SIM_TIME) {
             let wrong = |error: &dyn std::fmt::Display| Error::new(format!("`-p {name}:={value}`: {error}"));
             let value = crate::args::toml(value).map_err(|error| wrong(&error))?;
-            set_text(program, name, &value).map_err(|error| wrong(&error))?;
+            set_text(program, name, &value).map_err(|error| wrong(&listed::<P>(error)))?;
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use crate::{
 };
 use std::{
     sync::{
-        Arc, Condvar, Mutex, PoisonError,
+        Arc, Condvar, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicBool, AtomicU64, Ordering},
     },
     time::{Duration, Instant},
@@ -28,12 +28,19 @@ pub struct Ours {
     pub dropped: AtomicU64,
     /// `true` if nothing is to be said about it, as no node has to listen.
     pub is_quiet: bool,
+    /// Part that is wanted and that no message has had so far.
+    missing: Mutex<Option<String>>,
 }
 
 impl Ours {
     /// Returns an endpoint that has heard nothing yet.
     pub fn new(endpoint: Endpoint, is_quiet: bool) -> Self {
-        Self { endpoint, heard: AtomicU64::new(0), dropped: AtomicU64::new(0), is_quiet }
+        Self { endpoint, heard: AtomicU64::new(0), dropped: AtomicU64::new(0), is_quiet, missing: Mutex::default() }
+    }
+
+    /// Part that is wanted and that no message has had so far.
+    pub fn missing(&self) -> MutexGuard<'_, Option<String>> {
+        self.missing.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -250,15 +257,15 @@ fn look(ours: &Ours, known: &mut Known, at: &Situation, is_connected: bool, now:
     let heard = ours.heard.load(Ordering::Relaxed);
     let is_silent = known.silence(heard, now);
     let others = at.graph.others(kind, &at.session);
-    let reason = reason(at.domain, at.rules, endpoint, &others).or_else(|| {
-        let name = shown(&endpoint.name);
-        is_silent.then(|| {
-            format!("no message of `{name}` has come for {} s, and its publisher is there", SILENT.as_secs_f32())
-        })
-    });
+    let name = shown(&endpoint.name);
+    let silent =
+        || format!("no message of `{name}` has come for {} s, and its publisher is there", SILENT.as_secs_f32());
+    let reason = reason(at.domain, at.rules, endpoint, &others).or_else(|| is_silent.then(silent));
+    let missing = ours.missing().clone().filter(|_| heard > 0);
+    let reason = reason.or_else(|| missing.map(|part| format!("no message of `{name}` has `{part}` so far")));
     // Behind an obstacle nothing is known about the others, and that has been said.
     let reason = reason.filter(|_| is_connected || !others.is_empty());
-    known.note(reason, || format!("a node {does} `{}` now", shown(&endpoint.name)), now)
+    known.note(reason, || format!("a node {does} `{name}` now"), now)
 }
 
 #[cfg(test)]

@@ -24,6 +24,7 @@ pub struct Subscribing<'a> {
     /// Name of the message, if it is not that of the token's type.
     message: Option<&'static str>,
     part: String,
+    frame: Option<String>,
     is_quiet: bool,
 }
 
@@ -47,7 +48,8 @@ const PADDING: usize = 3;
 
 impl<'a> Subscribing<'a> {
     pub(crate) fn new(ros: &'a Ros, topic: &str) -> Self {
-        Self { ros, topic: topic.to_owned(), qos: Qos::DEFAULT, message: None, part: String::new(), is_quiet: false }
+        let (topic, qos, part) = (topic.to_owned(), Qos::DEFAULT, String::new());
+        Self { ros, topic, qos, message: None, part, frame: None, is_quiet: false }
     }
 
     /// Asks for this quality of service.
@@ -85,6 +87,11 @@ impl<'a> Subscribing<'a> {
         Self { part: part.to_owned(), ..self }
     }
 
+    /// Takes messages in this frame only, by their header. Another one is told, and its message is left out.
+    pub fn in_frame(self, frame: &str) -> Self {
+        Self { frame: Some(frame.to_owned()), ..self }
+    }
+
     /// Puts the messages into a port of the program, as its tokens. The stamps of their headers become times of the
     /// program.
     ///
@@ -116,15 +123,23 @@ impl<'a> Subscribing<'a> {
         at_once: Option<impl Fn(T) -> bool + Send + Sync + 'static>,
     ) -> Result<Subscription, Error> {
         let form: Foreign<T> = self.form()?;
-        let Self { ros, topic, qos, part, is_quiet, .. } = self;
+        let Self { ros, topic, qos, part, frame, is_quiet, .. } = self;
         let endpoints = &ros.endpoints;
         let declared = endpoints.add(Kind::Subscription, &topic, (form.name, form.hash), qos, is_quiet)?;
+        *declared.ours.missing() = (!part.is_empty()).then(|| part.clone());
         let (ring, entrance) = Ring::new(qos.kept());
         // The time of the simulation does not wait for itself.
         let is_clock = form.name == "rosgraph_msgs/msg/Clock";
         let complaints = Complaints::new(&declared, Arc::clone(&endpoints.tell));
-        let reading =
-            Reading { form, part, time: endpoints.time.clone(), is_clock, complaints: Mutex::new(complaints) };
+        let reading = Reading {
+            form,
+            part,
+            frame,
+            ours: Arc::clone(&declared.ours),
+            time: endpoints.time.clone(),
+            is_clock,
+            complaints: Mutex::new(complaints),
+        };
         let reading = Arc::new(reading);
         let here = Arc::clone(&reading);
         // Two publishers may come at once, on two threads.
@@ -173,6 +188,8 @@ const SMALL: usize = 64 * 1024;
 struct Reading<T> {
     form: Foreign<T>,
     part: String,
+    frame: Option<String>,
+    ours: Arc<Ours>,
     time: RosTime,
     /// `true` for `/clock`.
     is_clock: bool,
@@ -189,20 +206,27 @@ impl<T> Reading<T> {
     /// `None` if the node ends.
     fn read(&self, payload: &Payload) -> Option<Option<T>> {
         let zero = if self.is_clock { 0 } else { self.time.zero()? };
-        let token = read(&self.form, payload, zero, &self.part).unwrap_or_else(|reason| {
+        let token = self.token(payload, zero).unwrap_or_else(|reason| {
             self.complaints.lock().unwrap_or_else(PoisonError::into_inner).add(&reason);
             None
         });
         Some(token)
     }
-}
 
-/// Reads a token; `None` if the message does not have the part.
-fn read<T>(form: &Foreign<T>, payload: &Payload, zero: i64, part: &str) -> Result<Option<T>, Reason> {
-    let bytes = payload.bytes();
-    let mut reader = Reader::new(&bytes)?.since(zero);
-    let token = (form.read)(&mut reader, part)?;
-    if token.is_some() && reader.left() > PADDING { Err("bytes are left over".into()) } else { Ok(token) }
+    /// Reads a token; `None` if the message does not have the part.
+    fn token(&self, payload: &Payload, zero: i64) -> Result<Option<T>, Reason> {
+        let bytes = payload.bytes();
+        let mut reader = Reader::new(&bytes)?.since(zero);
+        if let Some(frame) = &self.frame {
+            reader = reader.in_frame(frame);
+        }
+        let Some(token) = (self.form.read)(&mut reader, &self.part)? else { return Ok(None) };
+        if !self.part.is_empty() {
+            *self.ours.missing() = None;
+        }
+        reader.check_frame()?;
+        if reader.left() > PADDING { Err("bytes are left over".into()) } else { Ok(Some(token)) }
+    }
 }
 
 /// Lets the messages of a topic into a ring, but for those that `first` takes.

@@ -217,6 +217,13 @@ fn a_file_has_parameters_by_the_names_of_nodes() {
     std::fs::write(path, "/robot1/second:\n  ros__parameters:\n    drive.factr: 1\n").expect("a file");
     let error = set(&[]).expect_err("no such parameter").to_string();
     assert!(error.starts_with(&format!("{path}:3:5: `drive.factr`: ")) && error.contains("drive.factor"), "{error}");
+    std::fs::write(path, "").expect("a file");
+    let error = set(&["-p", "speed:=1"]).expect_err("no such parameter").to_string();
+    assert!(
+        error.starts_with("`-p speed:=1`: there is no parameter of this name; those of the program are `"),
+        "{error}"
+    );
+    assert!(error.contains("`drive.factor`"), "{error}");
 }
 
 /// Messages that find the program waiting go straight to it, others wait for it: their order stays.

@@ -89,6 +89,64 @@ fn a_publisher_that_falls_silent_is_noticed() {
 }
 
 #[test]
+fn a_transform_that_never_comes_is_missed() {
+    use apex_messages::{geometry_msgs::TransformStamped, std_msgs::Header, tf2_msgs::TFMessage};
+    use apex_nodes::scan::Pose2;
+    let router = Router::start();
+    let (sender, _) = node(&router, "wheels");
+    let (ros, told) = node(&router, "rover");
+    let subscription = ros.subscribe("/tf").of::<TFMessage>().part("map -> odom").each(|_: Pose2| {}).expect("a topic");
+    let publisher = sender.publish("/tf").open::<TFMessage>().expect("a topic");
+    let transform = |parent: &str, child: &str| TransformStamped {
+        header: Header { frame_id: parent.to_owned(), ..Header::default() },
+        child_frame_id: child.to_owned(),
+        ..TransformStamped::default()
+    };
+    let mut sent = TFMessage { transforms: vec![transform("odom", "base_link")] };
+    within(15.0, "transforms", || {
+        publisher.send(&sent).expect("it is there");
+        thread::sleep(Duration::from_millis(20));
+        subscription.heard() > 0
+    });
+    let has = |text: &str| told.all().iter().any(|told| told == text);
+    within(SOON + 1.0, "the transform is missed", || {
+        drop(publisher.send(&sent));
+        has("no message of `/tf` has `map -> odom` so far")
+    });
+    sent.transforms.push(transform("map", "odom"));
+    within(15.0, "the transform has come", || {
+        drop(publisher.send(&sent));
+        has("a node publishes `/tf` now")
+    });
+}
+
+#[test]
+fn messages_in_another_frame_are_told() {
+    use apex_messages::std_msgs::Header;
+    let router = Router::start();
+    let (sender, _) = node(&router, "lidar");
+    let (ros, told) = node(&router, "rover");
+    let frames = Collected::new();
+    let add = frames.collector();
+    ros.subscribe("scan").in_frame("laser").each(move |scan: LaserScan| add(scan.header.frame_id)).expect("a topic");
+    let publisher = sender.publish("scan").open::<LaserScan>().expect("a topic");
+    let scan = |frame: &str| LaserScan { header: Header::new(apex_rt::Time::ZERO, frame), ..LaserScan::default() };
+    within(15.0, "a scan of another scanner", || {
+        publisher.send(&scan("rear")).expect("it is there");
+        thread::sleep(Duration::from_millis(20));
+        told.all().iter().any(|text| {
+            text == "`/scan`: a message cannot be read: it is in the frame `rear`, and not in `laser` (1 of them so far)"
+        })
+    });
+    within(15.0, "a scan in the frame", || {
+        publisher.send(&scan("/laser")).expect("it is there");
+        thread::sleep(Duration::from_millis(20));
+        !frames.all().is_empty()
+    });
+    assert!(frames.all().iter().all(|frame| frame == "/laser"), "{:?}", frames.all());
+}
+
+#[test]
 fn messages_that_cannot_be_read_are_told() {
     use apex_messages::{geometry_msgs::Pose, nav_msgs::OccupancyGrid};
     use apex_nodes::map::{Grid, Occupancy};

@@ -2,6 +2,7 @@
 
 use crate::{
     Clock, Mailbox, Program, RemoteParams, Time,
+    end::is_asked,
     requests::{Requests, ServedRequests},
     run::Outside,
     switch::{Bell, Listens},
@@ -373,6 +374,6 @@ impl<P: Program> Outside<P> for Ways<P::Inputs, P::Events> {
     }
 
     fn wait<C: Clock>(&mut self, clock: &mut C, until: Option<Time>) -> bool {
-        clock.wait(until, &|| self.rings() || self.requests.are_new())
+        clock.wait(until, &|| self.rings() || self.requests.are_new() || is_asked())
     }
 }

@@ -306,9 +306,12 @@ element("speed").addEventListener("change", () => {
   ask({ run: { speed: chosen === "" ? null : Number(chosen) } });
 });
 
-/** Shows one of the panels. @param {string} name */
+/** Shows one of the panels, and pinned values below the parameters, which they depend on. @param {string} name */
 export function show(name) {
   panel(name);
+  const [pinned, isBeside] = [element("values").parentElement, name === "params" && values.pinned.size > 0];
+  pinned.classList.toggle("beside", isBeside);
+  if (isBeside) pinned.hidden = false;
   if (name === "text") text.show();
 }
 for (const tab of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-tab]"))) {

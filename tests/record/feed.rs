@@ -22,4 +22,15 @@ graph! {
         never mean > 0;
         wait 1s;
     }
+
+    graph Belt {
+        in  value: f64 in belt;
+        out same: f64;
+        value -> same;
+    }
+
+    test a_recorded_run_of_apex_has_no_frames: Belt {
+        feed value = recording("small.mcap", "a.out");
+        expect same within 0s;
+    }
 }

@@ -178,7 +178,12 @@ fn a_variant_of_a_robot_drives_on_a_recording() {
 
 /// Answers of the first firings of a player, until it has sent nothing three times.
 fn play<T: Message>(file: &str, topic: &'static str) -> (Vec<Result<T, String>>, bool) {
-    let mut node = BagTopic::<T>::construct((file.to_owned(), topic, false));
+    play_in("", file, topic)
+}
+
+/// Answers of a player that demands a frame.
+fn play_in<T: Message>(frame: &'static str, file: &str, topic: &'static str) -> (Vec<Result<T, String>>, bool) {
+    let mut node = BagTopic::<T>::construct((file.to_owned(), topic, false, frame));
     let (mut sent, mut silent, mut ended) = (vec![], 0, None);
     let mut now = Time::ZERO;
     while silent < 3 {
@@ -275,4 +280,54 @@ fn each_message_with_what_is_not_a_rotation_is_named() {
     let (poses, ended) = play::<Pose3>(file, "/tf: map -> odom");
     let poses: Vec<_> = poses.into_iter().map(|it| it.map(|pose| pose.x)).collect();
     assert_eq!((poses, ended), (vec![Ok(0.0), Ok(0.0), Err(unset()), Ok(0.0)], true));
+}
+
+/// A result, or the message of its panic.
+fn message_of<T>(result: std::thread::Result<T>) -> Result<T, String> {
+    result.map_err(|error| error.downcast::<String>().map_or_else(|_| "?".to_owned(), |it| *it))
+}
+
+#[test]
+fn frames_of_messages_are_compared() {
+    let folder = Folder::new();
+    let path = folder.file("drive.mcap");
+    write(&path, 0);
+    let file = path.to_str().expect("a readable path");
+    let first = |frame, topic| play_in::<Pose2>(frame, file, topic).0.swap_remove(0).map(|pose| pose.x);
+    let wrong = |found: &str, wanted: &str| {
+        let why = format!("it is in the frame `{found}`, and not in `{wanted}`");
+        Err(format!("{file}: `/odom`: a message cannot be read: {why}"))
+    };
+    assert_eq!(first("odom", "/odom"), Ok(0.0));
+    assert_eq!(first("/odom", "/odom"), Ok(0.0));
+    assert_eq!(first("map", "/odom"), wrong("odom", "map"));
+    // The twist of odometry is in the frame of the robot.
+    let twist = play_in::<Twist>("odom", file, "/odom").0.swap_remove(0).map(|twist| twist.x);
+    assert_eq!(twist, wrong("base_link", "odom"));
+
+    let fed = |frame: &'static str| {
+        let codec = apex_rt::__codec!(Scan);
+        let read = || apex_rt::record::tokens("", file, "/scan", codec).in_frame(frame).begun_at(Time::ZERO).len();
+        message_of(std::panic::catch_unwind(read))
+    };
+    assert_eq!(fed("laser"), Ok(1));
+    let why = fed("base").expect_err("another frame");
+    assert!(why.ends_with("it is in the frame `laser`, and not in `base`"), "{why}");
+}
+
+#[test]
+fn a_transform_that_is_not_there_is_missed() {
+    let folder = Folder::new();
+    let path = folder.file("tf.mcap");
+    write_transforms(&path, &[vec![transform("map", "odom", 1.0), transform("odom", "base", 1.0)]]);
+    let file = path.to_str().expect("a readable path");
+    let (poses, ended) = play::<Pose2>(file, "/tf: map -> base");
+    assert_eq!((poses, ended), (vec![Err(format!("{file}: no message of `/tf` has `map -> base`"))], true));
+    let codec = apex_rt::__codec!(Pose2);
+    let read = || apex_rt::record::tokens("", file, "/tf: map -> base", codec).begun_at(Time::ZERO).len();
+    let why = message_of(std::panic::catch_unwind(read));
+    assert_eq!(why, Err(format!("no message of `/tf` in `{file}` has `map -> base`")));
+    // Each transform is in the frame of its own header.
+    assert!(play_in::<Pose2>("odom", file, "/tf: odom -> base").0[0].is_ok());
+    assert!(play_in::<Pose2>("map", file, "/tf: odom -> base").0[0].is_err());
 }

@@ -1,6 +1,7 @@
 //! Running programs as viewers and as pages of the studio see them.
 
 mod activity;
+mod blobs;
 mod browser;
 mod bytes;
 mod checkpoints;

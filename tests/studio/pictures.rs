@@ -161,31 +161,6 @@ fn pictures() {
     fs::remove_dir_all(folder).expect("it is still there");
 }
 
-/// Figure 9.1 of the dissertation: sliders for the parameters, and the image with the blobs.
-#[test]
-#[ignore = "draws docs/images/studio_blobs.png: cargo test -p apex-tests --test studio -- --ignored blobs"]
-fn picture_of_blobs() {
-    let folder = socket("blobs");
-    fs::create_dir_all(&folder).expect("a new folder");
-    let text = root().join("robots/blobs/blobs.afg");
-    let text = text.to_str().expect("UTF-8");
-    let film = Command::new(apex()).args(["run", text, "--", "film"]).current_dir(&folder).status();
-    assert!(film.expect("it starts").success());
-    let studio = Studio::open(Command::new(apex()), &folder, &[text]);
-    let mut page = Browser::open(&studio.address).expect("a browser");
-    page.size(1280, 760, false);
-    click(&mut page, "[data-tab=values]");
-    click(&mut page, "[data-channel=\"find.mark.marked\"] input");
-    page.wait_for("document.querySelector('[data-channel=\"find.mark.marked\"] canvas')");
-    time_is_over(&mut page, 5.0);
-    save(&mut page, "studio_blobs.png");
-    click(&mut page, "[data-tab=params]");
-    page.fill("document.getElementById('params-filter')", "find");
-    time_is_over(&mut page, 8.0);
-    save(&mut page, "studio_blobs_sliders.png");
-    fs::remove_dir_all(folder).expect("it is still there");
-}
-
 #[test]
 #[ignore = "draws docs/images/studio_competition.png: cargo test -p apex-tests --test studio -- --ignored film"]
 fn film_of_the_competition() {

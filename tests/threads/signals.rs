@@ -3,7 +3,7 @@
 
 use crate::process::{again, read_until, send};
 use apex_macros::graph;
-use apex_rt::{UntilStopped, drive, prelude::*};
+use apex_rt::{Ports, UntilStopped, drive, drive_from, prelude::*};
 use std::{io::Write as _, thread};
 
 /// Output of the other process when it hangs.
@@ -70,4 +70,51 @@ fn a_second_signal_ends_a_program_that_hangs() {
     send(&child, "INT");
     let status = child.0.wait().expect("it ends");
     assert_eq!(status.code(), Some(130));
+}
+
+/// Says that it got something.
+#[node]
+#[derive(Default)]
+pub struct Hears;
+
+#[node]
+impl Hears {
+    #[slot]
+    fn put(&mut self, _number: &f64) {
+        say(HEARD);
+    }
+}
+
+/// Output of the other process when it begins to wait, and when it has ended.
+const HEARD: &str = "it waits";
+const ENDED: &str = "it has ended";
+
+graph! {
+    use crate::signals::Hears;
+
+    graph Waiting {
+        slot number: f64;
+        node hears = Hears();
+        number -> hears.put;
+    }
+}
+
+#[test]
+#[ignore = "it waits: `a_signal_ends_a_program_that_waits_for_input` runs it as a process"]
+fn waits() {
+    let mut ports = Ports::<Waiting>::new();
+    let sender = ports.input(|inputs| &mut inputs.number);
+    assert!(sender.send(1.0).is_ok());
+    drive_from(Waiting::new(), WallClock::new(), ports);
+    say(ENDED);
+    drop(sender);
+}
+
+#[test]
+fn a_signal_ends_a_program_that_waits_for_input() {
+    let (mut child, mut lines) = again("signals::waits", &[]);
+    read_until(&mut lines, |line| line.ends_with(HEARD));
+    send(&child, "INT");
+    read_until(&mut lines, |line| line.ends_with(ENDED));
+    assert!(child.0.wait().expect("it ends").success());
 }

@@ -155,6 +155,8 @@ fn mistakes_in_definitions_are_said_with_their_place() {
     }
     let output = import(&[&folder.0], &[]);
     assert_eq!((output.status.code(), stderr(&output).contains("there is no `.msg`")), (Some(2), true));
+    let said = stderr(&import(&[&folder.0.join("nowhere")], &[]));
+    assert!(said.contains("nowhere`: No such file or directory"), "{said}");
 }
 
 /// Writes the definitions of all messages of a distribution, and prints their hashes.

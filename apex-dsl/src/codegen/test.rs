@@ -225,7 +225,9 @@ impl Generator<'_> {
         let (name, token) = (ident(&graph.nodes[port].name), self.token_type(graph, PortId { node: port, port: 0 }));
         let text = self.sources.get(graph.span.file).path.display().to_string();
         let ports = self.ports_of(graph, port);
-        let read = |file: TokenStream| quote!(::apex_rt::record::tokens::<#token>(#text, #file, #channel, ::apex_rt::__codec!(#token)));
+        let frame = graph.nodes[port].ports[0].frame.as_ref().map(|frame| &frame.text);
+        let in_frame = frame.map(|frame| quote!(.in_frame(#frame)));
+        let read = |file: TokenStream| quote!(::apex_rt::record::tokens::<#token>(#text, #file, #channel, ::apex_rt::__codec!(#token)) #in_frame);
         let tokens = match repeats {
             true => {
                 let read = read(quote!(file));

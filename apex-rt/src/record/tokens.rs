@@ -28,6 +28,8 @@ pub struct Tokens<T> {
     /// Channel, and behind a colon the part of its messages.
     wanted: String,
     codec: Option<Codec<T>>,
+    /// Frame of the port, in which the messages of other programs have to be.
+    frame: Option<&'static str>,
     /// Tokens that were read last.
     known: Rc<RefCell<Known<T>>>,
 }
@@ -42,10 +44,16 @@ impl<T> Clone for Tokens<T> {
 /// file `text`. Behind a colon, `channel` may name one of several tokens in the messages of another program:
 /// `/tf: odom -> base_link`.
 pub fn tokens<T>(text: &str, file: &str, channel: &str, codec: Option<Codec<T>>) -> Tokens<T> {
-    Tokens { path: find(text, file), wanted: channel.to_owned(), codec, known: Rc::default() }
+    Tokens { path: find(text, file), wanted: channel.to_owned(), codec, frame: None, known: Rc::default() }
 }
 
 impl<T> Tokens<T> {
+    /// Refuses messages of other programs in another frame than that of the port. Those of Apex do not have their own.
+    #[must_use]
+    pub fn in_frame(self, frame: &'static str) -> Self {
+        Self { frame: Some(frame), ..self }
+    }
+
     /// Returns the tokens with their times, counted from the start of the recording. The stamps of their headers are
     /// moved as well: they are times of a program in which the recording starts at `begun`.
     ///
@@ -55,19 +63,16 @@ impl<T> Tokens<T> {
         if let Some((_, tokens)) = self.known.borrow().as_ref().filter(|(known, _)| *known == begun) {
             return tokens.clone();
         }
-        let read = read_tokens(&self.path, &self.wanted, self.codec, begun);
+        let read = read_tokens(&self, begun);
         let tokens: Timed<T> = read.unwrap_or_else(|message| panic!("{message}")).into();
         *self.known.borrow_mut() = Some((begun, tokens.clone()));
         tokens
     }
 }
 
-fn read_tokens<T>(
-    path: &Path,
-    wanted: &str,
-    codec: Option<Codec<T>>,
-    begun: Time,
-) -> Result<Vec<(Duration, T)>, String> {
+fn read_tokens<T>(of: &Tokens<T>, begun: Time) -> Result<Vec<(Duration, T)>, String> {
+    let Tokens { path, wanted, codec, frame, .. } = of;
+    let wanted = wanted.as_str();
     let codec =
         codec.ok_or("the tokens of the port cannot be read from a recording: their type is not known to serde")?;
     let (topic, part) = wanted.split_once(':').map_or((wanted, ""), |(topic, part)| (topic.trim(), part.trim()));
@@ -91,12 +96,16 @@ fn read_tokens<T>(
     let mut tokens = vec![];
     for Message { channel, time, data, .. } in messages {
         let read = &readers[&channel];
-        let token = apex_bag::message(&data).map_err(Into::into).and_then(|bytes| read.read(&bytes, since, part));
+        let token =
+            apex_bag::message(&data).map_err(Into::into).and_then(|bytes| read.read(&bytes, since, (part, *frame)));
         let token = token.map_err(|reason| {
             let (ty, file) = (codec.schema.name, path.display());
             format!("a token of `{wanted}` in `{file}` is not one of `{ty}`: {reason}")
         })?;
         tokens.extend(token.map(|token| (Duration::from_nanos(time - zero), token)));
+    }
+    if tokens.is_empty() && !readers.is_empty() && !part.is_empty() {
+        return Err(format!("no message of `{topic}` in `{}` has `{part}`", path.display()));
     }
     if tokens.is_empty() {
         let names: Vec<String> = recording.channels().values().map(|c| format!("`{}`", c.name)).collect();
@@ -117,12 +126,15 @@ fn is_whole(path: &Path, recording: &Recording) -> Result<(), String> {
     }
 }
 
+/// Function that reads a token in a message, or the part of this name.
+type OfMessage<T> = fn(&mut Reader<'_>, &str) -> Result<Option<T>, Reason>;
+
 /// Function that reads the tokens of a channel.
 enum Read<T> {
-    /// Tokens of the type of the port.
-    Own(fn(&[u8], i64) -> Result<T, Reason>),
+    /// Tokens of the type of the port. Those in the message of another program are also read as such, for its frame.
+    Own(fn(&[u8], i64) -> Result<T, Reason>, Option<OfMessage<T>>),
     /// Messages that hold such tokens, in CDR or in the form of ROS 1.
-    Foreign { read: fn(&mut Reader<'_>, &str) -> Result<Option<T>, Reason>, is_ros1: bool },
+    Foreign { read: OfMessage<T>, is_ros1: bool },
 }
 
 impl<T> Read<T> {
@@ -132,7 +144,8 @@ impl<T> Read<T> {
         let is_own_type = channel.schema == codec.schema.name && !is_ros1;
         if is_own || is_own_type || messages.is_empty() || !["cdr", ROS1].contains(&&*channel.encoding) {
             check(path, channel, codec)?;
-            return Ok(Self::Own(codec.read_since));
+            let message = messages.into_iter().next().filter(|_| !is_own);
+            return Ok(Self::Own(codec.read_since, message.map(|message| message.read)));
         }
         let (file, topic, ty) = (path.display(), &channel.topic, &channel.schema);
         let Some(message) = messages.iter().find(|message| message.name == ty) else {
@@ -151,14 +164,32 @@ impl<T> Read<T> {
         }
     }
 
-    /// Reads the token in the bytes of a message, or the part of this name. Stamps count from `zero`, in ns.
-    fn read(&self, bytes: &[u8], zero: i64, part: &str) -> Result<Option<T>, Reason> {
-        match self {
-            Self::Own(read) => read(bytes, zero).map(Some),
-            Self::Foreign { read, is_ros1: true } => read(&mut Reader::ros1(bytes).since(zero), part),
-            Self::Foreign { read, is_ros1: false } => read(&mut Reader::new(bytes)?.since(zero), part),
-        }
+    /// Reads the token in the bytes of a message, or the part of this name, which has to be in this frame. Stamps count
+    /// from `zero`, in ns.
+    fn read(&self, bytes: &[u8], zero: i64, (part, frame): (&str, Option<&str>)) -> Result<Option<T>, Reason> {
+        let (read, is_ros1) = match self {
+            Self::Own(read, message) => {
+                if let Some((read, frame)) = message.zip(frame) {
+                    in_frame(Reader::new(bytes)?, read, (part, Some(frame)))?;
+                }
+                return read(bytes, zero).map(Some);
+            }
+            Self::Foreign { read, is_ros1 } => (read, *is_ros1),
+        };
+        let message = if is_ros1 { Reader::ros1(bytes) } else { Reader::new(bytes)? };
+        in_frame(message.since(zero), *read, (part, frame))
     }
+}
+
+/// Reads the token in a message, or the part of this name, which has to be in this frame.
+fn in_frame<T>(
+    message: Reader<'_>,
+    read: OfMessage<T>,
+    (part, frame): (&str, Option<&str>),
+) -> Result<Option<T>, Reason> {
+    let mut message = frame.map_or(message.clone(), |frame| message.in_frame(frame));
+    let token = read(&mut message, part)?;
+    token.map(|token| message.check_frame().map(|()| token)).transpose()
 }
 
 /// Checks that the recorded tokens are of the type of the port.

@@ -8,7 +8,7 @@ pub const HELP: &str = "Random inputs for everything that reads files: no panic,
 Usage: cargo run --release -- [OPTIONS]
 
   --seconds N    how long, shared by the targets (60)
-  --target NAME  only this one: texts, catalog, recordings, g2o, csv, scans, models, params
+  --target NAME  only this one, of those in README.md
   --seed N       where random numbers begin (1)
   --from N       the first input (0)
   --count N      so many inputs and no more

@@ -4,6 +4,7 @@
 //! detected, too. An input depends only on the seed, the target and its number.
 
 mod args;
+mod bags;
 mod catalog;
 mod mutate;
 mod readers;
@@ -30,7 +31,7 @@ pub const TARGETS: [(&str, Make); 14] = [
     ("g2o", readers::g2o),
     ("csv", readers::csv),
     ("scans", readers::scans),
-    ("bags", readers::bags),
+    ("bags", bags::bags),
     ("clouds", readers::clouds),
     ("maps", readers::maps),
     ("plans", readers::plans),

@@ -4,9 +4,7 @@ use crate::{
     mutate::{Dice, bytes, words},
     worker::Target,
 };
-use apex_bag::Recording;
 use apex_macros::graph;
-use apex_messages::{Message as _, cdr};
 use apex_nodes::{
     cloud::PointCloud,
     io::{CsvReader, LogGeometry, PlanOptions, ScanLogReader, read_cloud, read_map, read_plan},
@@ -63,13 +61,14 @@ impl Target for Reader {
 }
 
 /// A file with this content, for readers that need one.
-fn file(ending: &str, input: &[u8]) -> PathBuf {
+pub fn file(ending: &str, input: &[u8]) -> PathBuf {
     let file = env::temp_dir().join(format!("apex-fuzz-{}.{ending}", process::id()));
     fs::write(&file, input).expect("room for the file");
     file
 }
 
-fn reader(texts: Vec<Vec<u8>>, words: &'static [&'static str], read: fn(&[u8])) -> Box<dyn Target> {
+/// A target that gives texts, mutated, to `read`.
+pub fn reader(texts: Vec<Vec<u8>>, words: &'static [&'static str], read: fn(&[u8])) -> Box<dyn Target> {
     Box::new(Reader { texts, words, read })
 }
 
@@ -172,30 +171,6 @@ pub fn scans() -> Box<dyn Target> {
             }
             let _ = fs::remove_file(file);
         }
-    })
-}
-
-/// The target with recordings of ROS 1.
-pub fn bags() -> Box<dyn Target> {
-    let sized = |bytes: &[u8]| [&(bytes.len() as u32).to_le_bytes(), bytes].concat();
-    let record = |fields: &[&[u8]], data: &[u8]| {
-        let header: Vec<u8> = fields.iter().flat_map(|field| sized(field)).collect();
-        [sized(&header), sized(data)].concat()
-    };
-    let connection = record(&[b"op=\x07", b"conn=\0\0\0\0", b"topic=/scan"], &sized(b"type=sensor_msgs/LaserScan"));
-    let scan = [&[0; 12][..], &sized(b"laser"), &[0; 28], &2_u32.to_le_bytes(), &[0; 12]].concat();
-    let message = record(&[b"op=\x02", b"conn=\0\0\0\0", b"time=\x01\0\0\0\0\0\0\0"], &scan);
-    let chunk = record(&[b"op=\x05", b"compression=none", b"size=\x9e\0\0\0"], &[connection, message].concat());
-    let bag = [b"#ROSBAG V2.0\n", &record(&[b"op=\x03", b"index_pos=\0\0\0\0\0\0\0\0"], b"  ")[..], &chunk].concat();
-    reader(vec![bag], &["lz4", "bz2", "none"], |input| {
-        let file = file("bag", input);
-        if let Ok(mut bag) = Recording::open(&file) {
-            while let Ok(Some(message)) = bag.next_message() {
-                let _ = Scan::read(&mut cdr::Reader::ros1(&message.data));
-                let _ = Scan::from_bytes(&message.data);
-            }
-        }
-        let _ = fs::remove_file(file);
     })
 }
 

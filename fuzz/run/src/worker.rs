@@ -91,7 +91,8 @@ pub fn run(name: &str, args: &Args) -> ExitCode {
     let _ = fs::remove_file(progress(name));
     let seconds = start.elapsed().as_secs_f64();
     let count = number - args.from;
-    println!("{name}: {count} inputs in {seconds:.1} s ({:.0} per second), {failed} failed", count as f64 / seconds);
+    let (rate, most) = (count as f64 / seconds, most_memory() >> 20);
+    println!("{name}: {count} inputs in {seconds:.1} s ({rate:.0} per second), {failed} failed; at most {most} MiB");
     if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
@@ -139,4 +140,12 @@ fn memory() -> u64 {
     let text = fs::read_to_string("/proc/self/statm").unwrap_or_default();
     let pages: Option<u64> = text.split_whitespace().nth(1).and_then(|pages| pages.parse().ok());
     pages.unwrap_or(0) * 4096
+}
+
+/// Most memory that the process has had, in bytes, or 0 if the system does not provide it.
+fn most_memory() -> u64 {
+    let text = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kibibytes: Option<u64> = line.and_then(|line| line.split_whitespace().next()).and_then(|n| n.parse().ok());
+    kibibytes.unwrap_or(0) * 1024
 }

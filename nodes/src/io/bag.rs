@@ -1,5 +1,5 @@
 use apex_bag::{CUT, Channel, ROS1, Recording, message};
-use apex_messages::{Foreign, Message, cdr::Reader};
+use apex_messages::{Foreign, Message, Reason, cdr::Reader};
 use apex_rt::{Ctx, Event, Time, node};
 use core::fmt;
 use std::{path::Path, vec::Vec};
@@ -26,7 +26,8 @@ impl std::error::Error for BagError {}
 /// After the last token it triggers `done` and sends ⊥, or with `repeat` begins again, at the time of that firing.
 ///
 /// Give it a short period: `every 1ms`. A firing sends one token at most, so that none is lost. `topic` may name one of
-/// several tokens in a message: `/tf: odom -> base_link`. The file is read while it is played.
+/// several tokens in a message: `/tf: odom -> base_link`. The file is read while it is played. With `frame`, each token
+/// has to be in this frame, by the header of its message.
 ///
 /// Fails if the file cannot be read, has no such topic or another type, and at a message that cannot be read, which is
 /// left out. A file that was cut off ends there.
@@ -41,6 +42,9 @@ pub struct BagTopic<T> {
     /// Plays the topic again and again.
     #[param(default = false)]
     repeat: bool,
+    /// Frame of the tokens; any if it is empty.
+    #[param(default = "")]
+    frame: &'static str,
     state: State<T>,
 }
 
@@ -59,6 +63,8 @@ struct Player<T> {
     recording: Recording,
     /// Topic, and part of its messages.
     wanted: (&'static str, &'static str),
+    /// Frame of the tokens; any if it is empty.
+    frame: &'static str,
     forms: Vec<Foreign<T>>,
     /// Time at which it began.
     begun: Time,
@@ -66,8 +72,9 @@ struct Player<T> {
     start: Option<u64>,
     /// Token that comes next, with its time.
     next: Option<(Time, T)>,
-    /// `true` if the topic has a message.
+    /// `true` if the topic has a message, and if a message has the part.
     has_topic: bool,
+    has_part: bool,
 }
 
 #[node]
@@ -81,7 +88,7 @@ impl<T: Message> BagTopic<T> {
         if let State::Closed = self.state {
             // Not opened again in each firing, if it cannot be.
             self.state = State::Ended;
-            self.state = State::Playing(Box::new(Player::open(&self.file, self.topic, now)?));
+            self.state = State::Playing(Box::new(Player::open(&self.file, (self.topic, self.frame), now)?));
         }
         let State::Playing(player) = &mut self.state else { return Ok(None) };
         if player.next.is_none() {
@@ -104,6 +111,9 @@ impl<T: Message> BagTopic<T> {
     }
 }
 
+/// Function that reads a token in a message.
+type Read<T> = fn(&mut Reader<'_>, &str) -> Result<Option<T>, Reason>;
+
 /// Something that cannot be read.
 enum Mistake {
     /// A message; the next one may be right.
@@ -113,18 +123,18 @@ enum Mistake {
 }
 
 impl<T: Message> Player<T> {
-    fn open(file: &str, topic: &'static str, begun: Time) -> Result<Self, String> {
+    fn open(file: &str, (topic, frame): (&'static str, &'static str), begun: Time) -> Result<Self, String> {
         let recording = Recording::open(Path::new(file)).map_err(|error| error.to_string())?;
         let (topic, part) = topic.split_once(':').unwrap_or((topic, ""));
         let mut forms: Vec<Foreign<T>> = T::others();
         forms.insert(0, Foreign::itself());
         let wanted = (topic.trim(), part.trim());
-        Ok(Self { recording, wanted, forms, begun, start: None, next: None, has_topic: false })
+        Ok(Self { recording, wanted, frame, forms, begun, start: None, next: None, has_topic: false, has_part: false })
     }
 
     /// Reads the next token, with its time.
     fn read(&mut self) -> Result<Option<(Time, T)>, Mistake> {
-        let (topic, part) = self.wanted;
+        let (topic, _) = self.wanted;
         loop {
             let next = self.recording.next_message().map_err(|error| Mistake::File(error.to_string()))?;
             let Some(found) = next else { return Ok(None) };
@@ -137,12 +147,20 @@ impl<T: Message> Player<T> {
             let reader = if channel.encoding == ROS1 { Ok(Reader::ros1(&bytes)) } else { Reader::new(&bytes) };
             let nanos = |time: u64| i64::try_from(time).unwrap_or(i64::MAX);
             let since = nanos(zero).saturating_sub(self.begun.as_nanos());
-            let token = reader.and_then(|reader| read(&mut reader.since(since), part));
+            let token = reader.and_then(|reader| self.token(reader.since(since), read));
             let token = token.map_err(|why| Mistake::Message(format!("`{topic}`: a message cannot be read: {why}")))?;
             if let Some(token) = token {
+                self.has_part = true;
                 return Ok(Some((Time::from_nanos(nanos(found.time).saturating_sub(since)), token)));
             }
         }
+    }
+
+    /// Reads a token; `None` if the message does not have the part.
+    fn token(&self, message: Reader<'_>, read: Read<T>) -> Result<Option<T>, Reason> {
+        let mut message = if self.frame.is_empty() { message } else { message.in_frame(self.frame) };
+        let token = read(&mut message, self.wanted.1)?;
+        token.map(|token| message.check_frame().map(|()| token)).transpose()
     }
 
     /// Returns how the messages of a channel are read.
@@ -162,6 +180,10 @@ impl<T: Message> Player<T> {
         if !self.has_topic {
             let names: Vec<&str> = self.recording.channels().values().map(|channel| channel.topic.as_str()).collect();
             return Err(format!("it has no topic `{}`, but `{}`", self.wanted.0, names.join("`, `")));
+        }
+        if !self.has_part {
+            let (topic, part) = self.wanted;
+            return Err(format!("no message of `{topic}` has `{part}`"));
         }
         match self.recording.cut() {
             Some(cut) if cut != CUT => Err(format!("it is damaged: {cut}")),

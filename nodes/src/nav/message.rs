@@ -102,7 +102,11 @@ converted!(
             Self::try_from(TwistWithCovarianceStamped::read(message)?.twist.twist).map(Some)
         }),
         // The twist of odometry is that of the robot, in its own frame.
-        Foreign::of::<Odometry>(|message, _| Self::try_from(Odometry::read(message)?.twist.twist).map(Some)),
+        Foreign::of::<Odometry>(|message, _| {
+            let odometry = Odometry::read(message)?;
+            message.set_frame(&odometry.child_frame_id);
+            Self::try_from(odometry.twist.twist).map(Some)
+        }),
     ]
 );
 

@@ -82,7 +82,9 @@ fn one_of<T: FromPose>(message: &mut Reader<'_>, part: &str) -> Result<Option<T>
         }
         _ => {
             let wanted = part.split("->").map(frame).collect::<Vec<_>>().join(" -> ");
-            names.iter().rposition(|name| *name == wanted).map(|at| pose(&transforms[at])).transpose()
+            let Some(at) = names.iter().rposition(|name| *name == wanted) else { return Ok(None) };
+            message.set_frame(&transforms[at].header.frame_id);
+            pose(&transforms[at]).map(Some)
         }
     }
 }

@@ -15,7 +15,7 @@ fn filmed(name: &str, length: f64) -> PathBuf {
 #[test]
 fn every_part_of_the_film_is_a_blob() {
     let path = filmed("parts", 4.0);
-    let mut bag = BagTopic::<ColorImage>::construct((path.to_str().expect("text").to_owned(), "belt.image", false));
+    let mut bag = BagTopic::<ColorImage>::construct((path.to_str().expect("text").to_owned(), "belt.image", false, ""));
     let (mut find, mut seen, mut done) = (Find::new(), 0, None);
     for millis in 0.. {
         let image = bag.process(&Ctx::new(Time::from_millis(millis)), event(&mut done)).expect("a film");
@@ -43,7 +43,7 @@ fn every_part_of_the_film_is_a_blob() {
 #[test]
 fn the_film_is_played_again_and_again() {
     let path = filmed("again", 0.5);
-    let mut bag = BagTopic::<ColorImage>::construct((path.to_str().expect("text").to_owned(), "belt.image", true));
+    let mut bag = BagTopic::<ColorImage>::construct((path.to_str().expect("text").to_owned(), "belt.image", true, ""));
     let mut sent = vec![];
     for millis in (0..1550).step_by(10) {
         let image = bag.process(&Ctx::new(Time::from_millis(millis)), event(&mut None)).expect("a film");

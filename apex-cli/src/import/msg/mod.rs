@@ -70,6 +70,7 @@ fn find(path: &Path, depth: usize, files: &mut BTreeSet<PathBuf>) -> Result<(), 
     } else if kind(path).is_some() {
         files.insert(path.to_owned());
     } else {
+        fs::metadata(path).map_err(cannot_read)?;
         return Err(format!("`{}` is not a `.msg`, `.srv` or `.action` file", path.display()));
     }
     Ok(())
