@@ -44,11 +44,15 @@ impl Clearance {
     /// Distances of PATSY. It stops before floor ahead that is not known while the camera still sees it.
     pub const PATSY: Self = Self { side: 0.09, ahead: 0.21, unknown: 0.03, near: 0.4, view_angle: 1.0 };
 
-    /// Clearance of a planner: greater by a distance in m that a follower may be beside its path. Floor that was not
-    /// seen is a hazard like others.
+    /// Clearance of a planner: greater by a distance in m that a follower may be beside its path.
     #[must_use]
     pub(super) fn widened(self, by: f32) -> Self {
-        Self { side: self.side + by, ahead: self.ahead + by, unknown: self.side + by, ..self }
+        Self { side: self.side + by, ahead: self.ahead + by, unknown: self.unknown + by, ..self }
+    }
+
+    /// Distances from hazards, and backward from floor that was not seen, in m.
+    pub(super) const fn margins(&self) -> [f32; 2] {
+        [self.side, self.unknown]
     }
 
     /// Zone about a vehicle that has to be free of hazards. The load is above small things.
@@ -72,7 +76,9 @@ impl Clearance {
         map.iter().filter(|(_, cell)| **cell != Occupancy::Free).filter_map(move |(cell, occupancy)| {
             let place = raster.centre(cell);
             let margin = match occupancy {
-                Occupancy::Occupied if (place - now[0].position()).norm_squared() <= REACH * REACH => self.side,
+                Occupancy::Occupied | Occupancy::Low if (place - now[0].position()).norm_squared() <= REACH * REACH => {
+                    self.side
+                }
                 Occupancy::Unknown if is_backward => self.unknown,
                 Occupancy::Unknown if self.is_in_view(now[0].to_inner(place)) => self.side,
                 _ => return None,
