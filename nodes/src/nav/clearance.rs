@@ -44,15 +44,11 @@ impl Clearance {
     /// Distances of PATSY. It stops before floor ahead that is not known while the camera still sees it.
     pub const PATSY: Self = Self { side: 0.09, ahead: 0.21, unknown: 0.03, near: 0.4, view_angle: 1.0 };
 
-    /// Clearance of a planner: greater by a distance in m that a follower may be beside its path.
+    /// Clearance of a planner: greater by a distance in m that a follower may be beside its path. Floor that was not
+    /// seen is a hazard like others.
     #[must_use]
     pub(super) fn widened(self, by: f32) -> Self {
-        Self { side: self.side + by, ahead: self.ahead + by, unknown: self.unknown + by, ..self }
-    }
-
-    /// Distances from hazards, and backward from floor that was not seen, in m.
-    pub(super) const fn margins(&self) -> [f32; 2] {
-        [self.side, self.unknown]
+        Self { side: self.side + by, ahead: self.ahead + by, unknown: self.side + by, ..self }
     }
 
     /// Zone about a vehicle that has to be free of hazards. The load is above small things.

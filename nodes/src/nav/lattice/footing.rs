@@ -1,7 +1,4 @@
-use super::{
-    CurveDrive, Floor, Start,
-    room::{STEP, lacking},
-};
+use super::{CurveDrive, Floor, Start, room::lacking};
 use crate::{
     map::{DistanceTransform, Grid},
     nav::{
@@ -22,8 +19,7 @@ const LEAVES: f32 = 1.5;
 #[derive(Debug, Clone)]
 pub(super) struct Footing {
     transform: DistanceTransform,
-    /// Distances to be kept from the hazards, in m.
-    cells: Grid<Option<f32>>,
+    cells: Grid<bool>,
     /// Hazards on ways forward, and backward.
     layers: [Layer; 2],
     /// Rotation and displacement from the frame of the map to that of the floor.
@@ -35,8 +31,8 @@ pub(super) struct Footing {
 /// Kind of hazards.
 #[derive(Debug, Clone, Default)]
 struct Layer {
-    /// Distances from the hazards that are not near at the start, in m, and from floor that was not seen.
-    distances: [Grid<f32>; 2],
+    /// Distances from the hazards that are not near at the start, in m.
+    distances: Grid<f32>,
     /// Those that are.
     near: Near,
 }
@@ -67,17 +63,15 @@ impl Footing {
             let zone = self.clearance.zone(vehicle.shape, is_backward);
             let hazards = self.clearance.hazards(floor.map, vehicle.shape, &axes, is_backward);
             layer.near.find(&zone, &axes, 0.0, hazards);
-            self.cells.reset_like(floor.map, None);
+            self.cells.reset_like(floor.map, false);
             let stance = zone.grown.at(&axes);
             for (place, margin) in self.clearance.hazards(floor.map, vehicle.shape, &axes, is_backward) {
                 let cell = raster.cell(place).and_then(|cell| self.cells.get_mut(cell));
                 if let Some(cell) = cell.filter(|_| stance.distance(place) >= margin) {
-                    *cell = Some(margin);
+                    *cell = true;
                 }
             }
-            for (margin, distances) in self.clearance.margins().into_iter().zip(&mut layer.distances) {
-                self.transform.run(&self.cells, |hazard| *hazard == Some(margin), distances);
-            }
+            self.transform.run(&self.cells, |is_hazard| *is_hazard, &mut layer.distances);
         }
     }
 
@@ -87,13 +81,8 @@ impl Footing {
         let Layer { distances, near } = &self.layers[usize::from(is_backward)];
         let leaves = (axes[0].position() - self.start).norm_squared() <= LEAVES * LEAVES;
         let beyond = if is_backward { 0.0 } else { f32::INFINITY };
-        let margins = self.clearance.margins();
-        let is_free = |(part, axis): (Part, &Pose2)| {
-            let mut layers = distances.iter().zip(margins);
-            // Nothing fits between the points.
-            let lacks = |distances, margin: f32| lacking(distances, &part, axis, margin, [margin.min(STEP), beyond]);
-            layers.all(|(distances, margin)| lacks(distances, margin) == 0.0)
-        };
+        let is_free =
+            |(part, axis): (Part, &Pose2)| lacking(distances, &part, axis, self.clearance.side, beyond) == 0.0;
         zone.grown.parts(&axes).all(is_free) && !(leaves && near.is_met(&zone, &axes, f32::INFINITY, GRAZE))
     }
 

@@ -10,7 +10,7 @@ use crate::{
 use libm::{fmaxf, hypotf, sincosf};
 
 /// Distance between the checked points of the outline, in m.
-pub(super) const STEP: f32 = 0.1;
+const STEP: f32 = 0.1;
 /// Distance from the start up to which a vehicle may be as near to something as it is there, in m.
 const LEAVES: f32 = 0.8;
 /// Error of the raster in what is too near on the way out of a narrow place, in m.
@@ -86,7 +86,7 @@ impl Room {
         let least = |crowded: f32| if leaves { crowded + ROUNDING } else { 0.0 };
         let mut parts = self.parts(vehicle, axes).zip(self.crowded);
         parts.all(|((distances, part, axis), crowded)| {
-            lacking(distances, &part, axis, vehicle.margin, [STEP, 0.0]) <= least(crowded)
+            lacking(distances, &part, axis, vehicle.margin, 0.0) <= least(crowded)
         })
     }
 
@@ -113,15 +113,15 @@ impl Room {
     fn crowding(&self, vehicle: &CurveDrive, axes: &Axes) -> [f32; 3] {
         let mut crowded = [0.0; 3];
         for (sum, (distances, part, axis)) in crowded.iter_mut().zip(self.parts(vehicle, axes)) {
-            *sum = lacking(distances, &part, axis, vehicle.margin, [STEP, 0.0]);
+            *sum = lacking(distances, &part, axis, vehicle.margin, 0.0);
         }
         crowded
     }
 }
 
-/// Sum of what points of the border of a part of a vehicle, at most `step` m apart, lack of a margin, in m. `beyond` is
-/// the distance of points outside of the grid.
-pub(super) fn lacking(distances: &Grid<f32>, part: &Part, axis: &Pose2, margin: f32, [step, beyond]: [f32; 2]) -> f32 {
+/// Sum of what points of the border of a part of a vehicle lack of a margin, in m. `beyond` is the distance of points
+/// outside of the grid.
+pub(super) fn lacking(distances: &Grid<f32>, part: &Part, axis: &Pose2, margin: f32, beyond: f32) -> f32 {
     let (sin, cos) = sincosf(axis.theta);
     let distance = |p: Point2| {
         let place = Point2::new(axis.x + cos * p.x - sin * p.y, axis.y + sin * p.x + cos * p.y);
@@ -132,7 +132,7 @@ pub(super) fn lacking(distances: &Grid<f32>, part: &Part, axis: &Pose2, margin: 
     if distance(Point2::new(middle, 0.0)) >= reach + margin {
         return 0.0;
     }
-    part.border(step).map(|point| fmaxf(margin - distance(point), 0.0)).sum()
+    part.border(STEP).map(|point| fmaxf(margin - distance(point), 0.0)).sum()
 }
 
 /// Cells whose middles are in a part of a vehicle.
