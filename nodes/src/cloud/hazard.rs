@@ -51,8 +51,9 @@ pub struct Area {
 /// frame, which is also that of the persons and of `trailer`, the axis of a trailer: wheel odometry is enough.
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
-/// was seen, unknown elsewhere. An obstacle whose top is up to `low` high on average is a low one. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or
-/// if the pose is not a number or more than 1000 km away.
+/// was seen, unknown elsewhere. An obstacle whose top is up to `low` high on average is a low one. `hazard` is ⊥ if the
+/// area is free. All outputs are ⊥ if the inputs differ in size, or if the pose is not a number or more than 1000 km
+/// away.
 #[node]
 #[derive(Debug, Clone)]
 pub struct HazardMap {
