@@ -93,7 +93,7 @@ fn plan(map: &Grid<Occupancy>, request: &Request) -> Result<(Grid<f32>, Path), F
     let (mut grown, mut distances, mut costs) = (map.clone(), Grid::default(), Grid::default());
     let mut transform = DistanceTransform::default();
     let (mut planner, mut path) = (Planner::default(), Path::default());
-    let is_occupied = |cell: &Occupancy| *cell == Occupancy::Occupied;
+    let is_occupied = |cell: &Occupancy| cell.is_obstacle();
     let Request { start, goal, .. } = request;
 
     let (closing, ()) = timed(|| UnknownRegions::default().close(&mut grown, LARGEST_UNKNOWN));
@@ -133,7 +133,7 @@ fn draw(map: &Grid<Occupancy>, costs: &Grid<f32>, path: &Path) -> RgbImage {
         let grey = match occupancy {
             Occupancy::Free => 255,
             Occupancy::Unknown => 205,
-            Occupancy::Occupied => 0,
+            Occupancy::Occupied | Occupancy::Low => 0,
         };
         drawn.put_pixel(cell.x as u32, row(cell.y), Rgb([grey; 3]));
     }

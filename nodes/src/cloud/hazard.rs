@@ -51,8 +51,9 @@ pub struct Area {
 /// frame, which is also that of the persons and of `trailer`, the axis of a trailer: wheel odometry is enough.
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
-/// was seen, unknown elsewhere. `hazard` is ⊥ if the area is free. All outputs are ⊥ if the inputs differ in size, or
-/// if the pose is not a number or more than 1000 km away.
+/// was seen, unknown elsewhere. An obstacle whose top is up to `low` high on average is a low one. `hazard` is ⊥ if the
+/// area is free. All outputs are ⊥ if the inputs differ in size, or if the pose is not a number or more than 1000 km
+/// away.
 #[node]
 #[derive(Debug, Clone)]
 pub struct HazardMap {
@@ -78,6 +79,9 @@ pub struct HazardMap {
     /// Maximum height of obstacles: the robot and its load pass under higher ones.
     #[param(unit = "m", default = 2.0, range = 0.0..=100.0)]
     max_height: f32,
+    /// Height up to which an obstacle is low.
+    #[param(unit = "m", default = 0.0, range = 0.0..=2.0)]
+    low: f32,
     /// Maximum distance between consecutive points with floor between them.
     #[param(unit = "m", default = 0.5, range = 0.0..=10.0)]
     max_gap: f32,
@@ -107,6 +111,8 @@ pub struct HazardMap {
     cloud: u8,
     floor: Rolling<Ground>,
     obstacles: Rolling<f32>,
+    /// Averaged heights of the tops of obstacles, in m.
+    tops: Rolling<f32>,
     /// Points of this cloud, by cell.
     sums: Vec<Sum>,
     /// Cells with a sum.
@@ -118,6 +124,8 @@ pub struct HazardMap {
 struct Sum {
     obstacles: f32,
     points: f32,
+    /// Height of the top of the obstacle, in m.
+    top: f32,
     is_near: bool,
 }
 
@@ -139,6 +147,8 @@ const SCANNED: [f32; 2] = [0.3, 0.2];
 const PERSON: f32 = 0.45;
 /// Length of the strip beyond the end of the floor in which it is missing, in m.
 const BRINK: f32 = 0.3;
+/// Greatest height of a top in the average, in m: a single wrong point does not count for long.
+const TALL: f32 = 0.2;
 /// Factor of the weight of a cloud without the obstacle, for obstacles near the robot.
 const SLOWER: f32 = 0.05;
 /// Number of rows without a measurement beyond the end of the floor from which on it is missing.
@@ -164,6 +174,7 @@ impl HazardMap {
         self.cloud = self.cloud.wrapping_add(1);
         self.floor.follow(pose.position(), self.size, self.resolution);
         self.obstacles.follow(pose.position(), self.size, self.resolution);
+        self.tops.follow(pose.position(), self.size, self.resolution);
         // Where the robot is switched on, it never saw the floor before its feet.
         let is_first = self.here.replace(pose.position()).is_none();
         let radius = if is_first { 2.0 * self.stands } else { self.stands };
@@ -288,13 +299,21 @@ impl HazardMap {
             if sum.points == 0.0 {
                 self.touched.push(index);
             }
-            sum.obstacles += if label.is_hazard() { 1.0 } else { 0.0 };
+            if label.is_hazard() {
+                sum.obstacles += 1.0;
+                sum.top = sum.top.max(if *label == Label::Overhanging { TALL } else { points.z[i].min(TALL) });
+            }
             sum.points += 1.0;
             sum.is_near |= place.norm_squared() < self.kept * self.kept;
         }
         for index in self.touched.drain(..) {
-            let Sum { obstacles, points, is_near } = core::mem::take(&mut self.sums[index]);
+            let Sum { obstacles, points, top, is_near } = core::mem::take(&mut self.sums[index]);
             let value = self.obstacles.get_mut(index);
+            if obstacles > 0.0 {
+                let share = if *value < self.threshold { 1.0 } else { self.weight };
+                let known = self.tops.get_mut(index);
+                *known += share * (top - *known);
+            }
             let change = obstacles / points - *value;
             let is_kept = is_near && *value >= self.threshold && change < 0.0;
             *value += if is_kept { SLOWER * self.weight } else { self.weight } * change;
@@ -306,11 +325,12 @@ impl HazardMap {
         if map.reset(self.floor.raster(), Occupancy::Unknown).is_err() {
             return;
         }
-        let values = self.obstacles.values().zip(self.floor.values());
-        for (cell, (probability, ground)) in map.cells_mut().iter_mut().zip(values) {
+        let values = self.obstacles.values().zip(self.tops.values()).zip(self.floor.values());
+        for (cell, ((probability, top), ground)) in map.cells_mut().iter_mut().zip(values) {
             *cell = match ground {
-                _ if probability >= self.threshold => Occupancy::Occupied,
                 Ground::Missing => Occupancy::Occupied,
+                _ if probability >= self.threshold && top < self.low => Occupancy::Low,
+                _ if probability >= self.threshold => Occupancy::Occupied,
                 Ground::Floor => Occupancy::Free,
                 Ground::Unknown | Ground::Doubtful(_) => Occupancy::Unknown,
             };
@@ -379,7 +399,7 @@ mod tests {
     use apex_rt::Construct;
 
     fn node() -> HazardMap {
-        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 0.0, 0.0, 2.0, 0.5, 0.4, 1.0, 0.4, PI, 1.0, 0.2))
+        HazardMap::construct((4.0, 0.1, 0.92, 0.6, 0.0, 0.0, 2.0, 0.0, 0.5, 0.4, 1.0, 0.4, PI, 1.0, 0.2))
     }
 
     /// Floor from 0.3 m to `until`, across 1.2 m, with an optional obstacle at this x.
@@ -400,6 +420,23 @@ mod tests {
         node.process(&points, &labels, pose, None, None, None, &mut map, &mut hazard);
         let map = map.get().expect("a map");
         (hazard.get().copied(), map.cells().iter().filter(|c| **c == Occupancy::Occupied).count())
+    }
+
+    #[test]
+    fn an_obstacle_is_low_up_to_a_height() {
+        let kind_of = |height: f32| {
+            let (mut node, mut map) = (HazardMap { low: 0.06, ..node() }, Out::new());
+            let points: Vec<[f32; 4]> = (0..100).map(|i| [1.0, 0.01 * (i % 10) as f32, height, 1.0]).collect();
+            let (points, mut labels) = columns(10, &points);
+            labels.labels.fill(Label::Obstacle);
+            for _ in 0..8 {
+                map = Out::new();
+                let (pose, mut hazard) = (Pose2::default(), Out::new());
+                node.process(&points, &labels, &pose, None, None, None, &mut map, &mut hazard);
+            }
+            *map.get().expect("a map").at(Point2::new(1.0, 0.05)).expect("inside")
+        };
+        assert_eq!([0.01, 0.05, 0.1].map(kind_of), [Occupancy::Low, Occupancy::Low, Occupancy::Occupied]);
     }
 
     #[test]

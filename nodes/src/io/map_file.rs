@@ -166,7 +166,7 @@ pub fn write_map_file(path: impl AsRef<Path>, map: &Grid<Occupancy>) -> std::io:
         bytes.extend(row.iter().map(|cell| match cell {
             Occupancy::Free => FREE,
             Occupancy::Unknown => UNKNOWN,
-            Occupancy::Occupied => OCCUPIED,
+            Occupancy::Occupied | Occupancy::Low => OCCUPIED,
         }));
     }
     let Raster { corner, resolution, .. } = raster;

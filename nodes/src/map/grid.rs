@@ -43,6 +43,16 @@ pub enum Occupancy {
     Free,
     /// An obstacle in the cell.
     Occupied,
+    /// A low obstacle in the cell, such as a cable: no robot drives over it, but its load may be above it.
+    Low,
+}
+
+impl Occupancy {
+    /// Returns `true` if an obstacle is in the cell, of any height.
+    #[must_use]
+    pub const fn is_obstacle(self) -> bool {
+        matches!(self, Self::Occupied | Self::Low)
+    }
 }
 
 /// Probabilities of an obstacle in % up to which a cell is free, and from which on it is occupied, as map servers of

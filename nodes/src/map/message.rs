@@ -22,7 +22,7 @@ impl From<&Grid<Occupancy>> for OccupancyGrid {
         let cell = |cell: &Occupancy| match cell {
             Occupancy::Unknown => UNKNOWN,
             Occupancy::Free => FREE,
-            Occupancy::Occupied => OCCUPIED,
+            Occupancy::Occupied | Occupancy::Low => OCCUPIED,
         };
         Self {
             header: Header::new(Time::ZERO, FRAME),

@@ -69,7 +69,7 @@ impl UnknownRegions {
             for side in sides.into_iter().flatten() {
                 match map.cells()[side] {
                     Occupancy::Free => rim.free += 1,
-                    Occupancy::Occupied => rim.occupied += 1,
+                    Occupancy::Occupied | Occupancy::Low => rim.occupied += 1,
                     Occupancy::Unknown if !self.visited[side] => {
                         self.visited[side] = true;
                         self.region.push(side);
@@ -138,7 +138,7 @@ impl GrowObstacles {
         goal: Option<&Pose2>,
         grown: &mut Out<Grid<Occupancy>>,
     ) {
-        self.transform.run(map, |cell| *cell == Occupancy::Occupied, &mut self.distances);
+        self.transform.run(map, |cell| cell.is_obstacle(), &mut self.distances);
         let grown = grown.get_mut();
         grown.clone_from(map);
         let nowhere = Point2::new(f32::NAN, f32::NAN);

@@ -118,7 +118,7 @@ mod tests {
         let letter = |o: &Occupancy| match o {
             Occupancy::Unknown => '?',
             Occupancy::Free => '.',
-            Occupancy::Occupied => '#',
+            Occupancy::Occupied | Occupancy::Low => '#',
         };
         map.cells().chunks(8).map(|row| row.iter().map(letter).collect()).collect()
     }

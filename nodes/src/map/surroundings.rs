@@ -48,6 +48,7 @@ pub struct MarkSurroundings {
 #[derive(Debug, Clone, Copy)]
 struct Known {
     cell: Cell,
+    kind: Occupancy,
     /// Time at which it was last seen, and distance from which it was.
     at: Time,
     distance: f32,
@@ -75,9 +76,7 @@ impl MarkSurroundings {
         let marked = marked.get_mut();
         marked.clone_from(map);
         for known in &self.known {
-            if let Some(cell) = marked.get_mut(known.cell) {
-                *cell = Occupancy::Occupied;
-            }
+            mark(marked, known.cell, known.kind);
         }
         if let Some(pose) = pose {
             self.mark_window(marked, [pose, odometry]);
@@ -87,9 +86,9 @@ impl MarkSurroundings {
     /// Marks the occupied cells of the last window, also those that are not in view.
     fn mark_window(&self, marked: &mut Grid<Occupancy>, [pose, odometry]: [&Pose2; 2]) {
         let (window, raster) = (&self.last, *marked.raster());
-        for place in occupied(window, odometry).filter(|place| place.norm() <= self.near) {
-            if let Some(cell) = raster.cell(pose.to_outer(place)).and_then(|cell| marked.get_mut(cell)) {
-                *cell = Occupancy::Occupied;
+        for (place, kind) in occupied(window, odometry).filter(|(place, _)| place.norm() <= self.near) {
+            if let Some(cell) = raster.cell(pose.to_outer(place)) {
+                mark(marked, cell, kind);
             }
         }
     }
@@ -111,9 +110,9 @@ impl MarkSurroundings {
             let is_seen = is_in_view(place) && place.norm() <= known.distance + FARTHER;
             !(is_seen && window.at(odometry.to_outer(place)) == Some(&Occupancy::Free))
         });
-        for place in occupied(window, odometry).filter(|place| is_in_view(*place)) {
+        for (place, kind) in occupied(window, odometry).filter(|(place, _)| is_in_view(*place)) {
             let Some(cell) = raster.cell(pose.to_outer(place)) else { continue };
-            let new = Known { cell, at: now, distance: place.norm() };
+            let new = Known { cell, kind, at: now, distance: place.norm() };
             match known.binary_search_by_key(&cell, |known| known.cell) {
                 Ok(place) => known[place] = new,
                 Err(place) => insert(known, place, new),
@@ -135,10 +134,17 @@ fn insert(known: &mut Vec<Known>, place: usize, new: Known) {
     }
 }
 
-/// Places of the occupied cells of a window, in the frame of the robot.
-fn occupied<'a>(window: &'a Grid<Occupancy>, odometry: &'a Pose2) -> impl Iterator<Item = Point2> + 'a {
-    let cells = window.iter().filter(|(_, cell)| **cell == Occupancy::Occupied);
-    cells.map(|(cell, _)| odometry.to_inner(window.raster().centre(cell)))
+/// Places of the occupied cells of a window, in the frame of the robot, and what is in them.
+fn occupied<'a>(window: &'a Grid<Occupancy>, odometry: &'a Pose2) -> impl Iterator<Item = (Point2, Occupancy)> + 'a {
+    let cells = window.iter().filter(|(_, kind)| kind.is_obstacle());
+    cells.map(|(cell, kind)| (odometry.to_inner(window.raster().centre(cell)), *kind))
+}
+
+/// Marks an obstacle in a cell. A low one does not replace a higher one.
+fn mark(map: &mut Grid<Occupancy>, cell: Cell, kind: Occupancy) {
+    if let Some(cell) = map.get_mut(cell).filter(|cell| **cell != Occupancy::Occupied) {
+        *cell = kind;
+    }
 }
 
 #[cfg(test)]
@@ -207,6 +213,22 @@ mod tests {
     }
 
     #[test]
+    fn what_is_low_stays_low_but_hides_nothing() {
+        let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0, 0.0, 1.5));
+        let window = window(&[(1.02, 0.22, Occupancy::Low)]);
+        let at = POSE.to_outer(Point2::new(1.02, 0.22));
+        let mut mark = |map: &Grid<Occupancy>| {
+            let (ctx, mut out) = (Ctx::new(Time::ZERO), Out::new());
+            node.process(&ctx, map, Some(&POSE), &Pose2::default(), Some(&window), &mut out);
+            out.get().and_then(|marked| marked.at(at)).copied()
+        };
+        let mut map = Grid::new(BUILDING, Occupancy::Free).expect("small");
+        assert_eq!(mark(&map), Some(Occupancy::Low));
+        *map.get_mut(BUILDING.cell(at).expect("inside")).expect("inside") = Occupancy::Occupied;
+        assert_eq!(mark(&map), Some(Occupancy::Occupied));
+    }
+
+    #[test]
     fn what_is_near_is_marked_out_of_view_too() {
         let window = window(&[(1.0, 0.2), (-1.0, 0.0), (0.1, 1.5)].map(|(x, y)| (x, y, Occupancy::Occupied)));
         let mut node = MarkSurroundings::construct((10.0, 2.0, 1.0, 1.2, 1.5));
@@ -219,8 +241,12 @@ mod tests {
     #[test]
     fn a_full_memory_keeps_what_was_seen_last() {
         let mut known = Vec::<Known>::new();
-        let known_at =
-            |i: usize| Known { cell: Cell::new(i % 97, i / 97), at: Time::from_millis(i as i64 / 100), distance: 1.0 };
+        let known_at = |i: usize| Known {
+            cell: Cell::new(i % 97, i / 97),
+            kind: Occupancy::Occupied,
+            at: Time::from_millis(i as i64 / 100),
+            distance: 1.0,
+        };
         let mut see = |i: usize| {
             let new = known_at(i);
             match known.binary_search_by_key(&new.cell, |known| known.cell) {

@@ -133,7 +133,7 @@ impl ArcPlanner {
     fn plan(&mut self, person: &Person) -> Option<(Path, bool)> {
         let (map, start) = (self.map.take()?, self.pose?);
         let mut search = core::mem::take(&mut self.search);
-        search.transform.run(&map, |cell| *cell == Occupancy::Occupied, &mut search.distances);
+        search.transform.run(&map, |cell| cell.is_obstacle(), &mut search.distances);
         self.map = Some(map);
         let (goal, reach) = self.target(&search.distances, &start, person);
         let end = (goal.x + goal.y + reach).is_finite().then(|| search.run(self, &start, goal, reach, person.id))?;

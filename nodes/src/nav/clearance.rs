@@ -72,7 +72,9 @@ impl Clearance {
         map.iter().filter(|(_, cell)| **cell != Occupancy::Free).filter_map(move |(cell, occupancy)| {
             let place = raster.centre(cell);
             let margin = match occupancy {
-                Occupancy::Occupied if (place - now[0].position()).norm_squared() <= REACH * REACH => self.side,
+                Occupancy::Occupied | Occupancy::Low if (place - now[0].position()).norm_squared() <= REACH * REACH => {
+                    self.side
+                }
                 Occupancy::Unknown if is_backward => self.unknown,
                 Occupancy::Unknown if self.is_in_view(now[0].to_inner(place)) => self.side,
                 _ => return None,

@@ -32,7 +32,7 @@ pub struct CostMap {
 #[node]
 impl CostMap {
     fn process(&mut self, map: &Grid<Occupancy>, costs: &mut Out<Grid<f32>>) {
-        self.transform.run(map, |cell| *cell == Occupancy::Occupied, &mut self.distances);
+        self.transform.run(map, |cell| cell.is_obstacle(), &mut self.distances);
         write_costs(&self.distances, self.highest, self.reach, costs.get_mut());
     }
 }

@@ -4,17 +4,10 @@ use super::{
     twist::Command,
 };
 use crate::{
-    cloud::{Hazard, HazardKind},
+    cloud::Hazard,
     map::{Grid, Occupancy},
-    scan::{Point2, Pose2},
 };
-use apex_rt::{Ctx, Out, Time, node};
-use std::collections::VecDeque;
-
-/// Maximum number of remembered hazards.
-const MOST: usize = 200;
-/// Minimum distance between remembered hazards, in m.
-const APART: f32 = 0.1;
+use apex_rt::{Ctx, Time, node};
 
 /// Stops a robot before the nearest hazard that `HazardMap` reports.
 ///
@@ -105,113 +98,10 @@ impl HazardStop {
     }
 }
 
-/// Marks the hazards that were met in a map on which a path is planned, so that the next path avoids them.
-///
-/// `hazard` is that of `HazardMap` at `pose`, which is in the frame of the map. Each is remembered for some time, and
-/// marked as occupied cells around it. Places where no floor was seen are remembered for longer, as stairs do not go
-/// away, but only if they are reported repeatedly: they may just not have been in view.
-#[node]
-#[derive(Debug, Clone)]
-pub struct MarkHazards {
-    /// Time for which an obstacle is remembered.
-    #[param(unit = "s", default = 20.0, range = 0.0..=86400.0)]
-    memory: f32,
-    /// Time for which a place without floor is remembered.
-    #[param(unit = "s", default = 600.0, range = 0.0..=86400.0)]
-    floor_memory: f32,
-    /// Radius of the area that is marked around an obstacle.
-    #[param(unit = "m", default = 0.1, range = 0.0..=10.0)]
-    radius: f32,
-    /// Radius of the area that is marked around a place without floor.
-    #[param(unit = "m", default = 0.3, range = 0.0..=10.0)]
-    floor_radius: f32,
-    /// Number of reports of the same place without floor after which it is marked.
-    #[param(default = 5, range = 1..=1000)]
-    reports: u32,
-    known: VecDeque<Known>,
-}
-
-/// Remembered hazard.
-#[derive(Debug, Clone, Copy)]
-struct Known {
-    hazard: Hazard,
-    /// Time of the last report.
-    at: Time,
-    /// Number of reports that are still missing.
-    missing: u32,
-}
-
-#[node]
-impl MarkHazards {
-    fn process(
-        &mut self,
-        ctx: &Ctx,
-        map: Option<&Grid<Occupancy>>,
-        pose: Option<&Pose2>,
-        hazard: Option<&Hazard>,
-        marked: &mut Out<Grid<Occupancy>>,
-    ) {
-        if let Some((hazard, pose)) = hazard.zip(pose.filter(|pose| pose.is_usable())) {
-            self.remember(Hazard { position: pose.to_outer(hazard.position), ..*hazard }, ctx.now());
-        }
-        let Some(map) = map else { return };
-        let memory = [self.memory, self.floor_memory];
-        self.known.retain(|known| ctx.now().since(known.at).as_secs_f32() <= of_kind(known.hazard.kind, memory));
-        let marked = marked.get_mut();
-        marked.clone_from(map);
-        for known in self.known.iter().filter(|known| known.missing == 0) {
-            let radius = of_kind(known.hazard.kind, [self.radius, self.floor_radius]);
-            occupy(marked, known.hazard.position, radius);
-        }
-    }
-
-    /// Forgets the obstacles, but not the places without floor.
-    #[slot]
-    fn forget(&mut self) {
-        self.known.retain(|known| known.hazard.kind == HazardKind::NoFloor);
-    }
-
-    fn remember(&mut self, hazard: Hazard, now: Time) {
-        let is_same = |known: &&mut Known| {
-            known.hazard.kind == hazard.kind && (known.hazard.position - hazard.position).norm() < APART
-        };
-        if let Some(known) = self.known.iter_mut().find(is_same) {
-            (known.at, known.missing) = (now, known.missing.saturating_sub(1));
-            return;
-        }
-        if self.known.len() == MOST {
-            self.known.pop_front();
-        }
-        let missing = if hazard.kind == HazardKind::Obstacle { 0 } else { self.reports.saturating_sub(1) };
-        self.known.push_back(Known { hazard, at: now, missing });
-    }
-}
-
-/// The first of two values for an obstacle, the second for a place without floor.
-const fn of_kind(kind: HazardKind, [obstacle, floor]: [f32; 2]) -> f32 {
-    match kind {
-        HazardKind::Obstacle => obstacle,
-        HazardKind::NoFloor => floor,
-    }
-}
-
-/// Marks the cells within `radius` m of a point.
-fn occupy(map: &mut Grid<Occupancy>, point: Point2, radius: f32) {
-    let raster = *map.raster();
-    let reach = libm::ceilf(radius / raster.resolution).clamp(0.0, 100.0) as i32;
-    for (dx, dy) in (-reach..=reach).flat_map(|dx| (-reach..=reach).map(move |dy| (dx, dy))) {
-        let off = Point2::new(dx as f32, dy as f32).scaled(raster.resolution);
-        let cell = raster.cell(point + off).filter(|_| off.norm() <= radius);
-        if let Some(cell) = cell.and_then(|cell| map.get_mut(cell)) {
-            *cell = Occupancy::Occupied;
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::Raster;
+    use crate::{cloud::HazardKind, map::Raster, scan::Point2};
     use apex_rt::Construct;
 
     fn at(ms: i64) -> Ctx {
@@ -242,36 +132,5 @@ mod tests {
         assert_eq!(fire(1001, &twist, Some(&map), Some(hazard(0.3, HazardKind::NoFloor))), Twist::ZERO);
         let back = Twist::new(-0.3, 0.0, 0.0);
         assert_eq!(fire(1100, &back, None, None), back);
-    }
-
-    #[test]
-    fn hazards_are_marked_for_a_while() {
-        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 40, height: 40 };
-        let map = Grid::new(raster, Occupancy::Free).expect("small");
-        let mut node = MarkHazards::construct((10.0, 100.0, 0.15, 0.2, 3));
-        let pose = Pose2::new(1.0, 2.0, 0.0);
-        let mut see = |ms: i64, x: f32, kind: HazardKind| {
-            let mut out = Out::new();
-            node.process(&at(ms), Some(&map), Some(&pose), Some(&hazard(x, kind)), &mut out);
-            out.get().expect("a map").clone()
-        };
-        let occupied = |map: &Grid<Occupancy>, x: f32| map.at(Point2::new(x, 2.0)) == Some(&Occupancy::Occupied);
-        let marked = see(0, 1.0, HazardKind::Obstacle);
-        assert!(occupied(&marked, 2.0) && occupied(&marked, 2.1) && !occupied(&marked, 2.3));
-        for (ms, is_marked) in [(1000, false), (2000, false), (3000, true)] {
-            assert_eq!(occupied(&see(ms, 0.5, HazardKind::NoFloor), 1.5), is_marked);
-        }
-        node.forget();
-        let mut see = |ms: i64, x: f32, kind: HazardKind| {
-            let mut out = Out::new();
-            node.process(&at(ms), Some(&map), Some(&pose), Some(&hazard(x, kind)), &mut out);
-            out.get().expect("a map").clone()
-        };
-        assert!(!occupied(&see(3100, 0.5, HazardKind::NoFloor), 2.0));
-        let later = see(12_000, 2.0, HazardKind::NoFloor);
-        assert!(!occupied(&later, 2.05) && occupied(&later, 1.5) && occupied(&later, 1.65));
-        let mut out = Out::new();
-        node.process(&at(13_000), None, Some(&Pose2::new(f32::NAN, 0.0, 0.0)), None, &mut out);
-        assert!(out.get().is_none());
     }
 }

@@ -39,7 +39,6 @@ mod open;
 #[cfg(feature = "std")]
 mod outline;
 #[cfg(feature = "std")]
-mod passing;
 #[cfg(feature = "std")]
 mod path;
 mod payload;
@@ -78,7 +77,7 @@ pub use curve_follow::CurveFollower;
 pub use follow::PathFollower;
 pub use guard::OdometryGuard;
 #[cfg(feature = "std")]
-pub use hazard::{HazardStop, MarkHazards};
+pub use hazard::HazardStop;
 #[cfg(feature = "std")]
 pub use lattice::{CurveDrive, CurvePlanner, CurveSearch, Floor, Goal, Ground, Section, Start, Way};
 #[cfg(feature = "std")]
@@ -86,7 +85,6 @@ pub use law::FollowingLaw;
 pub use look::LookAround;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
 #[cfg(feature = "std")]
-pub use passing::{AwaitPersons, PersonCosts};
 #[cfg(feature = "std")]
 pub use path::{Path, Projection};
 pub use payload::{Articulated, BackUp, ReactiveApproach};

@@ -21,7 +21,7 @@ impl Terrain<'_> {
         match self.map.get(cell) {
             Some(Occupancy::Free) => true,
             Some(Occupancy::Unknown) => self.unknown_is_open,
-            Some(Occupancy::Occupied) | None => false,
+            Some(Occupancy::Occupied | Occupancy::Low) | None => false,
         }
     }
 

@@ -234,7 +234,7 @@ impl SkidFollower {
             let mut ahead = 0.0;
             while ahead < reach && ahead < free {
                 let cell = map.raster().cell(self.path.ahead(projection, ahead));
-                let is_occupied = cell.and_then(|cell| map.get(cell)) == Some(&Occupancy::Occupied);
+                let is_occupied = cell.and_then(|cell| map.get(cell)).is_some_and(|cell| cell.is_obstacle());
                 if is_occupied && ahead > 0.3 {
                     free = fminf(free, ahead);
                 }

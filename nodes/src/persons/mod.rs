@@ -7,7 +7,6 @@ mod detection;
 mod hypotheses;
 mod legs;
 mod motion;
-mod passersby;
 mod place;
 mod shape;
 mod target;
@@ -19,7 +18,6 @@ pub use detection::{Detections, MAX_DETECTIONS, MAX_PERSONS, Person, Persons, Vi
 pub use hypotheses::{Hypotheses, MAX_BRANCHES, MAX_DEPTH, MAX_HYPOTHESES, Model, Sensor};
 pub use legs::{Leg, LegDetector, LegPairs, Legs};
 pub use motion::Motion;
-pub use passersby::Passersby;
 pub use place::PlaceDetections;
 pub use shape::{LEG_FEATURES, leg_features};
 pub use target::TrackTarget;

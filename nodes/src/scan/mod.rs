@@ -11,7 +11,6 @@ mod filter;
 #[cfg(feature = "record")]
 mod foreign;
 mod geometry;
-mod hide;
 mod laser;
 #[cfg(feature = "record")]
 pub(crate) mod message;
@@ -26,7 +25,6 @@ pub use confirm::ConfirmContainer;
 pub use container::{Container, ContainerSearch, best_container};
 pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};
 pub use geometry::{FarFromOrigin, Point2, Pose2};
-pub use hide::HideBox;
 pub use laser::Scan;
 pub(crate) use mount::around;
 pub use mount::{MergeScans, MountScan, OtherBeams};

@@ -1,14 +1,15 @@
 use apex_nodes::scan::Pose2;
 use apex_rt::{Event, node};
 
-/// Looks whether a vehicle is still where it has set a load down, so that it can lift it again.
+/// Looks whether a vehicle is still beneath a container: where it has set a load down, so that it can lift it again, or
+/// where it was held.
 ///
 /// `trailer` is the pose of the trailer's axis in a fixed frame such as that of odometry. At `check`, `still` comes if
 /// it is within `distance` of that at the last `mark`, and `gone` otherwise, also without these poses.
 #[node]
 #[derive(Debug, Clone)]
 pub struct Beneath {
-    /// Largest distance from the place at which the load was set down: the lift takes a load that is 12 cm away.
+    /// Largest distance from the marked place: the lift takes a load that is 12 cm away.
     #[param(unit = "m", default = 0.08, range = 0.0..=10.0)]
     distance: f32,
     trailer: Option<Pose2>,

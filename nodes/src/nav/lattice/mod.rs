@@ -598,6 +598,24 @@ mod tests {
         assert!(!way(&floor));
     }
 
+    /// A cable in a corridor that the vehicle gets past, but not its load beside it.
+    #[test]
+    fn a_load_may_be_above_what_is_low() {
+        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 100, height: 12 };
+        let way = |thing: Occupancy, start: Pose2| {
+            let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+            (0..5).for_each(|y| *map.get_mut(Cell::new(50, y)).expect("inside") = thing);
+            let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+            let vehicle = CurveDrive { load: LOAD, ..VEHICLE };
+            let (_, path, _) = search(&terrain, &vehicle, &at(start, 0.0), &[free(Pose2::new(8.0, 0.75, 0.0))])?;
+            Ok(path.points.iter().map(|point| (*point - Point2::new(5.05, 0.45)).norm()).fold(9.0, f32::min))
+        };
+        let start = Pose2::new(2.0, 0.6, 0.0);
+        assert_eq!(way(Occupancy::Occupied, start), Err(NoPath::Unreachable));
+        let nearest = way(Occupancy::Low, start).expect("a way");
+        assert!(nearest > 0.2, "the vehicle drives over it: {nearest} m");
+    }
+
     #[test]
     fn it_does_not_drive_over_a_hazard_that_is_only_on_the_floor() {
         let map = room();

@@ -23,6 +23,8 @@ pub(super) struct Room {
     open: Grid<Occupancy>,
     /// Distances from the nearest cell that is not open, in m.
     distances: Grid<f32>,
+    /// Distances of a load from the nearest cell above which it may not be, in m.
+    above: Grid<f32>,
     /// Cells where the middle of the tractor may be.
     core: Grid<Occupancy>,
     start: Point2,
@@ -47,18 +49,29 @@ impl Room {
         let is_open =
             |cell: &Occupancy| *cell == Occupancy::Free || (*cell == Occupancy::Unknown && terrain.unknown_is_open);
         self.transform.run(&self.open, |cell| !is_open(cell), &mut self.distances);
+        if self.open.cells().contains(&Occupancy::Low) {
+            let is_beneath = |cell: &Occupancy| is_open(cell) || *cell == Occupancy::Low;
+            self.transform.run(&self.open, |cell| !is_beneath(cell), &mut self.above);
+        } else {
+            self.above.clone_from(&self.distances);
+        }
         self.start = start.pose.position();
         self.crowded = self.crowding(vehicle, &axes);
-        self.draw_core(&raster, vehicle.girth() + SQUEEZED * vehicle.margin - ROUNDING);
+        self.draw_core(&raster, vehicle);
     }
 
-    /// Draws where the middle of the tractor may be, if the vehicle reaches `half` m from it to all sides.
-    fn draw_core(&mut self, raster: &Raster, half: f32) {
+    /// Draws where the middle of the tractor may be: nothing is within half of its width, nor within the girth of the
+    /// vehicle with its load, but for what the load may be above.
+    fn draw_core(&mut self, raster: &Raster, vehicle: &CurveDrive) {
+        let margin = SQUEEZED * vehicle.margin - ROUNDING;
+        let [half, girth] = [0.5 * vehicle.shape.width, vehicle.girth()].map(|reach| reach + margin);
         self.core.clone_from(&self.open);
-        for (number, (core, distance)) in self.core.cells_mut().iter_mut().zip(self.distances.cells()).enumerate() {
+        let distances = self.distances.cells().iter().zip(self.above.cells());
+        for (number, (core, (distance, above))) in self.core.cells_mut().iter_mut().zip(distances).enumerate() {
             let place = raster.centre(Cell::new(number % raster.width, number / raster.width));
             let is_left = *distance > 0.0 && (place - self.start).norm_squared() <= LEAVES * LEAVES;
-            *core = if *distance >= half || is_left { Occupancy::Free } else { Occupancy::Occupied };
+            let is_core = (*distance >= half && *above >= girth) || is_left;
+            *core = if is_core { Occupancy::Free } else { Occupancy::Occupied };
         }
     }
 
@@ -71,27 +84,36 @@ impl Room {
     pub fn fits(&self, vehicle: &CurveDrive, axes: &Axes) -> bool {
         let leaves = (axes[0].position() - self.start).norm_squared() <= LEAVES * LEAVES;
         let least = |crowded: f32| if leaves { crowded + ROUNDING } else { 0.0 };
-        let mut parts = vehicle.outline().parts(axes).zip(self.crowded);
-        parts.all(|((part, axis), crowded)| self.crowded_by(&part, axis, vehicle.margin) <= least(crowded))
+        let mut parts = self.parts(vehicle, axes).zip(self.crowded);
+        parts.all(|((distances, part, axis), crowded)| {
+            lacking(distances, &part, axis, vehicle.margin, 0.0) <= least(crowded)
+        })
     }
 
     /// Returns `true` if nothing is within the margin of the vehicle nor beneath it. On a way, what is beneath it has
     /// come past its border.
     pub fn is_free(&self, vehicle: &CurveDrive, axes: &Axes) -> bool {
-        let distance = |point: Point2| self.distances.at(point).copied().unwrap_or(0.0);
-        let is_bare =
-            |(part, axis): (Part, &Pose2)| part.points(STEP).all(|p| distance(axis.to_outer(p)) > 0.75 * STEP);
-        self.fits(vehicle, axes) && vehicle.outline().parts(axes).all(is_bare)
+        let is_bare = |(distances, part, axis): (&Grid<f32>, Part, &Pose2)| {
+            let distance = |point: Point2| distances.at(axis.to_outer(point)).copied().unwrap_or(0.0);
+            part.points(STEP).all(|point| distance(point) > 0.75 * STEP)
+        };
+        self.fits(vehicle, axes) && self.parts(vehicle, axes).all(is_bare)
     }
 
-    fn crowded_by(&self, part: &Part, axis: &Pose2, margin: f32) -> f32 {
-        lacking(&self.distances, part, axis, margin, 0.0)
+    /// Parts of the vehicle, each with the distances that count for it and with its axis.
+    fn parts<'a>(
+        &'a self,
+        vehicle: &CurveDrive,
+        axes: &'a Axes,
+    ) -> impl Iterator<Item = (&'a Grid<f32>, Part, &'a Pose2)> {
+        let layers = [&self.distances, &self.distances, &self.above];
+        layers.into_iter().zip(vehicle.outline().parts(axes)).map(|(layer, (part, axis))| (layer, part, axis))
     }
 
     fn crowding(&self, vehicle: &CurveDrive, axes: &Axes) -> [f32; 3] {
         let mut crowded = [0.0; 3];
-        for (sum, (part, axis)) in crowded.iter_mut().zip(vehicle.outline().parts(axes)) {
-            *sum = self.crowded_by(&part, axis, vehicle.margin);
+        for (sum, (distances, part, axis)) in crowded.iter_mut().zip(self.parts(vehicle, axes)) {
+            *sum = lacking(distances, &part, axis, vehicle.margin, 0.0);
         }
         crowded
     }

@@ -10,20 +10,30 @@ use crate::{
 };
 use apex_rt::{Ctx, Event, node};
 use heapless::Deque;
+use libm::fabsf;
 
-/// Distance between the angles that are remembered, in m, and their number.
+/// Distance between the places that are remembered, in m, and their number.
 const STEP: f32 = 0.05;
 const REMEMBERED: usize = 64;
+/// Distance from the way, in m, and angle to it, in rad, up to which the vehicle is on it.
+const BESIDE: f32 = 0.15;
+const ASKEW: f32 = 0.3;
+/// Angle between tractor and trailer with which the trailer steers back to its way, per angle to the way and per offset
+/// from it, in rad/m, and the largest one, in rad.
+const STEERING: f32 = 1.8;
+const CONVERGENCE: f32 = 2.2;
+const MOST: f32 = 0.25;
 
 /// Backs a tractor with a passively steered trailer up by a distance, for example away from an obstacle, on the way on
 /// which it came: over floor that it has driven on.
 ///
-/// The node remembers the angle between tractor and trailer on the last 3.2 m of a way forward, also while it is not
-/// active. A trailer that is pushed turns away to the side, so the tractor steers against it: the angle approaches the
-/// remembered one at the rate `gain` (Lamiraux et al. 1998), and 0 where nothing is remembered, as after a way backward
-/// that another node drove. `base` and `trailer` are the poses of the two axes in one fixed frame such as that of
-/// odometry. Drives while it is active; `done` comes with a twist of zero. Without both poses, or with poses older than
-/// `max_age`, the vehicle stands still. Nothing behind the vehicle is looked at.
+/// The node remembers the places of the trailer, and its angle to the tractor, on the last 3.2 m of a way forward, also
+/// while it is not active. A trailer that is pushed turns away to the side, so the tractor steers against it: the angle
+/// approaches the remembered one at the rate `gain` (Lamiraux et al. 1998), and leads back to the way if the trailer is
+/// beside it. The way is forgotten when the trailer is more than 15 cm or 17° off, as after a curve backward that
+/// another node drove; then the trailer is brought into line. `base` and `trailer` are the poses of the two axes in one
+/// fixed frame such as that of odometry. Drives while it is active; `done` comes with a twist of zero. Without both
+/// poses, or with poses older than `max_age`, the vehicle stands still. Nothing behind the vehicle is looked at.
 #[node]
 #[derive(Debug, Clone)]
 pub struct BackUp {
@@ -45,11 +55,17 @@ pub struct BackUp {
     last: Option<Pose2>,
     /// Distance driven backward since the activation, in m.
     driven: f32,
-    /// Angles on the way on which the vehicle came, the last one at its end.
-    way: Deque<f32, REMEMBERED>,
-    /// Distance driven since that place, in m: negative backward.
-    beyond: f32,
+    /// Places on the way on which the vehicle came, the last one at its end.
+    way: Deque<Place, REMEMBERED>,
     halt: Halt,
+}
+
+/// Place of a trailer on a way.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    axle: Pose2,
+    /// Angle between tractor and trailer, in rad.
+    bend: f32,
 }
 
 #[node]
@@ -70,21 +86,24 @@ impl BackUp {
     fn step(&mut self, ctx: &Ctx, base: Option<&Pose2>, trailer: Option<&Pose2>, done: Event<()>) -> Option<Twist> {
         let axes = both_fresh(ctx, [base, trailer], self.max_age);
         let bend = axes.map(|(base, trailer)| normalize_angle(&(base.theta - trailer.theta)));
-        if let Some(((base, _), bend)) = axes.zip(bend) {
-            let last = self.last.replace(*base).unwrap_or(*base);
-            self.remember(base.relative_to(&last).x, bend, ctx.active());
+        if let Some(((base, axle), bend)) = axes.zip(bend) {
+            let moved = base.relative_to(&self.last.replace(*base).unwrap_or(*base)).x;
+            self.remember(Place { axle: *axle, bend }, moved > 0.0);
+            if ctx.active() {
+                self.driven -= moved;
+            }
         }
         if !ctx.active() {
             return self.halt.rest();
         }
-        let Some(bend) = bend else { return self.halt.drive(Twist::ZERO) };
+        let Some(((_, axle), bend)) = axes.zip(bend) else { return self.halt.drive(Twist::ZERO) };
         let left = self.distance - self.driven;
         if left <= 0.0 {
             self.begin();
             done.emit(());
             return self.halt.drive(Twist::ZERO);
         }
-        let (wanted, slope) = self.wanted();
+        let (wanted, slope) = self.wanted(axle);
         let rate = |speed| speed * slope - self.gain * (bend - wanted);
         self.halt.drive(backing_twist(left, self.speed, bend, rate, &self.vehicle))
     }
@@ -95,35 +114,37 @@ impl BackUp {
         self.driven = 0.0;
     }
 
-    /// Angle of the way here, in rad, and its change backward, in rad/m.
-    fn wanted(&self) -> (f32, f32) {
-        let mut ends = self.way.iter().rev().copied();
-        let last = ends.next().unwrap_or(0.0);
-        let slope = (ends.next().unwrap_or(last) - last) / STEP;
-        (last + slope * (-self.beyond).max(0.0), slope)
+    /// Angle between tractor and trailer that keeps the trailer on the way, in rad, and its change backward, in rad/m.
+    fn wanted(&self, axle: &Pose2) -> (f32, f32) {
+        let mut ends = self.way.iter().rev();
+        let Some(last) = ends.next() else { return (0.0, 0.0) };
+        let slope = ends.next().map_or(0.0, |before| before.bend - last.bend) / STEP;
+        let off = axle.relative_to(&last.axle);
+        let turn = off.theta - off.x * self.vehicle.trailer_rotation(1.0, 0.0, last.bend);
+        let back = (STEERING * normalize_angle(&turn) - CONVERGENCE * off.y).clamp(-MOST, MOST);
+        (last.bend - slope * off.x + back, slope)
     }
 
-    /// Adds a motion forward to the way, or leaves the places that the vehicle has backed up over.
-    fn remember(&mut self, moved: f32, bend: f32, is_own: bool) {
-        if is_own {
-            self.driven -= moved;
+    /// Adds a place to the way if the vehicle drives forward, and leaves those that it has backed up over.
+    fn remember(&mut self, here: Place, is_forward: bool) {
+        let mut ahead = f32::INFINITY;
+        while let Some(last) = self.way.back() {
+            let off = here.axle.relative_to(&last.axle);
+            if fabsf(off.y) > BESIDE || fabsf(normalize_angle(&off.theta)) > ASKEW {
+                self.way.clear();
+            } else if off.x < 0.0 {
+                self.way.pop_back();
+            } else {
+                ahead = off.x;
+                break;
+            }
         }
-        self.beyond += moved;
-        while self.beyond >= STEP {
-            self.beyond -= STEP;
+        if is_forward && ahead >= STEP {
             if self.way.is_full() {
                 self.way.pop_front();
             }
             // Cannot fail: there is room.
-            let _ = self.way.push_back(bend);
-        }
-        while self.beyond <= -STEP {
-            self.beyond += STEP;
-            if is_own {
-                self.way.pop_back();
-            } else {
-                self.way.clear();
-            }
+            let _ = self.way.push_back(here);
         }
     }
 }
@@ -179,7 +200,42 @@ mod tests {
             forward.iter().map(|on| (on.position() - axis.position()).norm()).fold(f32::INFINITY, f32::min)
         };
         let farthest = back.iter().map(off).fold(0.0, f32::max);
-        assert!(back.len() > 300 && farthest < 0.03, "{} steps, {farthest} m beside the way", back.len());
+        assert!(back.len() > 300 && farthest < 0.015, "{} steps, {farthest} m beside the way", back.len());
+    }
+
+    /// Before, the vehicle left its own way, on floor that it had not seen, and `SweepStop` held it.
+    #[test]
+    fn it_comes_back_to_its_way_after_another_node_has_backed_up() {
+        let vehicle = Articulated::PATSY;
+        let mut node = BackUp::construct((1.5, 0.2, 0.6, vehicle, 0.5));
+        let (mut base, mut heading) = (Pose2::default(), 0.0);
+        let (mut way, mut beside) = (std::vec::Vec::<Pose2>::new(), std::vec::Vec::new());
+        for step in 0..1200 {
+            // A curve to the left, and a quarter of a metre back, on which the trailer comes into line.
+            let (is_back, is_own) = (step >= 400, step >= 463);
+            let (ctx, axis) = (Ctx::new(Time::from_millis(20 * step)).of_node(is_own), vehicle.trailer(&base, heading));
+            let mut done = None;
+            let sent = node.step(&ctx, Some(&base), Some(&axis), apex_rt::event(&mut done));
+            if done.is_some() {
+                break;
+            }
+            let nearest = way.iter().map(|on| (on.position() - axis.position()).norm()).fold(f32::INFINITY, f32::min);
+            if is_back {
+                beside.push(nearest);
+            } else {
+                way.push(axis);
+            }
+            let bend = base.theta - heading;
+            let other = match is_back {
+                true => backing_twist(1.0, 0.2, bend, |_| -0.6 * bend, &vehicle),
+                false => Twist::new(0.25, 0.0, 0.2),
+            };
+            let twist = sent.filter(|_| is_own).unwrap_or(other);
+            heading += vehicle.trailer_rotation(twist.x, twist.omega, base.theta - heading) * 0.02;
+            base = base.compose(&Pose2::new(0.02 * twist.x, 0.0, 0.02 * twist.omega));
+        }
+        let (farthest, end) = (beside.iter().copied().fold(0.0, f32::max), beside[beside.len() - 1]);
+        assert!((0.02..0.1).contains(&farthest) && end < 0.03, "{farthest} m beside the way, {end} m at the end");
     }
 
     #[test]

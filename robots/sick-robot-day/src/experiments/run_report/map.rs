@@ -55,7 +55,7 @@ impl RunReport {
         canvas.paint(|spot| match map.at(self.start.to_inner(place(spot))) {
             None | Some(Occupancy::Unknown) => UNKNOWN,
             Some(Occupancy::Free) => WHITE,
-            Some(Occupancy::Occupied) => BLACK,
+            Some(Occupancy::Occupied | Occupancy::Low) => BLACK,
         });
     }
 
