@@ -13,7 +13,7 @@ use std::{fs, io::Write as _};
 /// The target with recordings of other programs.
 pub fn bags() -> Box<dyn Target> {
     let mut recordings = vec![ros1()];
-    recordings.extend([("", plain as fn(&[u8]) -> Vec<u8>), ("lz4", lz4), ("zstd", zstd)].map(mcap));
+    recordings.extend([mcap("", plain), mcap("lz4", lz4), mcap("zstd", zstd)]);
     reader(recordings, &[], |input| {
         let file = file("bag", input);
         if let Ok(mut bag) = Recording::open(&file) {
@@ -46,8 +46,8 @@ fn ros1() -> Vec<u8> {
     [b"#ROSBAG V2.0\n", &record(&[b"op=\x03", b"index_pos=\0\0\0\0\0\0\0\0"], b"  ")[..], &chunk].concat()
 }
 
-/// An MCAP file with three scans in a chunk, which is compressed.
-fn mcap((name, pack): (&str, fn(&[u8]) -> Vec<u8>)) -> Vec<u8> {
+/// An MCAP file with three scans in a chunk, which is packed in the format `name`.
+fn mcap(name: &str, pack: fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
     let record = |kind: u8, body: &[u8]| [&[kind][..], &(body.len() as u64).to_le_bytes(), body].concat();
     let text = |text: &str| sized(text.as_bytes());
     let id = 1_u16.to_le_bytes();
