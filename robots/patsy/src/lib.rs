@@ -17,7 +17,8 @@ mod order;
 mod placed;
 pub mod world;
 
-/// File with the plan of the building, below the folder in which the program runs: the simulated clinic writes it there.
+/// File with the plan of the building, below the folder in which the program runs: the simulated clinic writes it
+/// there.
 pub const PLAN: &str = "out/patsy/building.csv";
 
 /// A container two metres ahead, for tests.

@@ -1,7 +1,7 @@
 //! A small simulator for robots made with Apex: worlds, robot bases with wheel odometry, laser scanners, cameras
 //! (feature `camera`), time-of-flight cameras (feature `tof`), buildings from plans (feature `building`), people
-//! (feature `people`), and open country (feature `outdoor`). Programs that run robots in such worlds and measure them use
-//! `experiment` (feature `experiment`).
+//! (feature `people`), and open country (feature `outdoor`). Programs that run robots in such worlds and measure them
+//! use `experiment` (feature `experiment`).
 //!
 //! Available as nodes: a [`DifferentialBase`], a [`TractorBase`] with trailer and lift, a [`Battery`], and a
 //! [`LaserScanner`] in a world drawn with characters ([`FloorPlan`]), and a [`LiveView`] of it. `apex new` creates a
