@@ -137,6 +137,6 @@ fn bags_of_python_are_read() {
         let which = read(&file, "/tf", apex_rt::__codec!(Pose2)).expect_err("two transforms");
         assert!(which.ends_with("name one behind the topic, as `: map -> odom`"), "{which}");
         let other = read(&file, "/tf: map -> base", apex_rt::__codec!(Pose2)).expect_err("none");
-        assert!(other.contains("has no tokens of `/tf: map -> base`"), "{other}");
+        assert!(other.starts_with("no message of `/tf` in") && other.ends_with("has `map -> base`"), "{other}");
     }
 }

@@ -72,7 +72,7 @@ fn what_is_no_recording_is_said_so() {
     assert!(message("empty").contains("it is empty"), "{}", message("empty"));
     assert!(message("missing").starts_with("cannot read `"), "{}", message("missing"));
     let error = replay(Small::new(), &folder.0, ()).expect_err("a folder").to_string();
-    assert!(error.ends_with("it is a folder"), "{error}");
+    assert!(error.contains("it is a folder without `metadata.yaml`: name one of its files"), "{error}");
 }
 
 #[test]
