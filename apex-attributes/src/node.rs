@@ -284,14 +284,12 @@ fn params(decls: &[&ParamDecl], names: &[Ident], generics: &Generics, node: &Tok
 
 /// The range of a parameter, as far as it is written in plain numbers.
 fn range(decl: &ParamDecl) -> TokenStream {
-    let limits = decl.limits();
-    let bound = |of: Option<f64>| option(of.and_then(float));
-    let (min, max) = (bound(limits.and_then(|range| range.min)), bound(limits.and_then(|range| range.max)));
-    let inclusive = limits.is_some_and(|range| range.inclusive);
+    let (min, max, inclusive) = decl.limits().unwrap_or_default();
+    let [min, max] = [min, max].map(|bound| option(bound.and_then(float)));
     quote!(::apex_rt::params::ParamRange::new(#min, #max, #inclusive))
 }
 
-/// A number as an expression; `None` if there is no literal for it.
+/// Number as an expression, if a literal can hold it.
 fn float(value: f64) -> Option<TokenStream> {
     let literal = value.is_finite().then(|| Literal::f64_unsuffixed(value.abs()))?;
     Some(if value < 0.0 { quote!(-#literal) } else { quote!(#literal) })

@@ -269,9 +269,10 @@ impl ParamVisitor for Server<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::{IntoParam as _, ParamRef, Rejection};
+    use crate::params::{Declared, IntoParam as _, ParamRange, ParamRef, Rejection};
 
-    const PARAMS: [ParamInfo; 2] = [ParamInfo::new("a.x", "f64"), ParamInfo::new("b.x", "f64")];
+    const DECLARED: Declared = Declared::new(None, ParamRange::new(None, None, false));
+    const PARAMS: [ParamInfo; 2] = [DECLARED.of("a.x", "f64"), DECLARED.of("b.x", "f64")];
 
     /// A group with one of the two parameters.
     struct Part(&'static ParamInfo, f64);

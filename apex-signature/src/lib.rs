@@ -2,8 +2,12 @@
 //! signature has the same meaning for both.
 
 pub mod fraction;
+mod param;
 pub mod units;
 
+pub use param::ParamDecl;
+
+use param::param;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{
@@ -74,65 +78,6 @@ pub struct Returns {
     pub fallible: bool,
     /// Unit of the tokens: `#[unit("m")]` before the function.
     pub unit: Option<String>,
-}
-
-/// `#[param(…)]` with the type of its argument or field.
-pub struct ParamDecl {
-    /// The type of the value.
-    pub ty: Type,
-    /// Unit of plain numbers, for example `m/s`.
-    pub unit: Option<String>,
-    /// Value without an argument in the source file.
-    pub default: Option<Expr>,
-    /// Legal values.
-    pub range: Option<syn::ExprRange>,
-    /// `true` for `silence`: without tokens for this time the node is called with ⊥.
-    pub is_silence: bool,
-}
-
-/// Range of a parameter, as far as it is written in plain numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// The smallest value.
-    pub min: Option<f64>,
-    /// The largest value.
-    pub max: Option<f64>,
-    /// `true` if the largest value is part of the range.
-    pub inclusive: bool,
-}
-
-impl ParamDecl {
-    /// Its range.
-    pub fn limits(&self) -> Option<Limits> {
-        let range = self.range.as_ref()?;
-        let number = |bound: &Option<Box<Expr>>| bound.as_deref().and_then(number);
-        let inclusive = matches!(range.limits, syn::RangeLimits::Closed(_));
-        Some(Limits { min: number(&range.start), max: number(&range.end), inclusive })
-    }
-
-    /// The SI unit of its values, whatever the unit of the declaration is; none for plain numbers.
-    pub fn si_unit(&self) -> Option<String> {
-        let dimension = match self.is_duration() {
-            true => units::Dimension::TIME,
-            false => units::parse(self.unit.as_deref()?).ok()?.dimension,
-        };
-        (!dimension.is_none()).then(|| dimension.to_string())
-    }
-
-    /// Returns `true` if its type is called `Duration`.
-    pub fn is_duration(&self) -> bool {
-        matches!(&self.ty, Type::Path(path) if path.path.segments.last().is_some_and(|s| s.ident == "Duration"))
-    }
-}
-
-/// A number that is written out.
-fn number(expr: &Expr) -> Option<f64> {
-    match expr {
-        Expr::Lit(ExprLit { lit: syn::Lit::Int(digits), .. }) => digits.base10_parse().ok(),
-        Expr::Lit(ExprLit { lit: syn::Lit::Float(digits), .. }) => digits.base10_parse().ok(),
-        Expr::Unary(syn::ExprUnary { op: syn::UnOp::Neg(_), expr, .. }) => number(expr).map(|value| -value),
-        _ => None,
-    }
 }
 
 /// The methods of an `#[node] impl` that matter to graphs.
@@ -575,34 +520,6 @@ fn is_named(ty: &Type, name: &str) -> bool {
 pub fn unit(attrs: &[Attribute]) -> syn::Result<Option<String>> {
     let unit = attrs.iter().find(|a| a.path().is_ident(UNIT));
     unit.map(|attr| attr.parse_args::<syn::LitStr>().map(|unit| unit.value())).transpose()
-}
-
-fn param(attrs: &[Attribute], ty: &Type) -> syn::Result<Option<ParamDecl>> {
-    let Some(attr) = attrs.iter().find(|a| a.path().is_ident("param")) else { return Ok(None) };
-    let mut decl = ParamDecl { ty: ty.clone(), unit: None, default: None, range: None, is_silence: false };
-    if matches!(attr.meta, syn::Meta::Path(_)) {
-        return Ok(Some(decl));
-    }
-    attr.parse_nested_meta(|meta| {
-        if meta.path.is_ident("unit") {
-            let unit = meta.value()?.parse::<syn::LitStr>()?;
-            decl.unit = Some(unit.value());
-        } else if meta.path.is_ident("default") {
-            decl.default = Some(meta.value()?.parse()?);
-        } else if meta.path.is_ident("range") {
-            let expr: Expr = meta.value()?.parse()?;
-            let Expr::Range(range) = expr else {
-                return Err(syn::Error::new(expr.span(), "a range is written `0.0..=2.0`"));
-            };
-            decl.range = Some(range);
-        } else if meta.path.is_ident("silence") {
-            decl.is_silence = true;
-        } else {
-            return Err(meta.error("a parameter has `unit`, `default`, `range` and `silence`"));
-        }
-        Ok(())
-    })?;
-    Ok(Some(decl))
 }
 
 /// `T` of `Option<T>`.

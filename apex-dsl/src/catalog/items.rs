@@ -551,7 +551,7 @@ fn param(name: String, docs: String, decl: &signature::ParamDecl) -> ParamItem {
         ty: Ty::from_syn(&decl.ty),
         unit: decl.unit.clone(),
         default: decl.default.as_ref().map(|expr| literal(expr).map_or(Default::Rust, Default::Literal)),
-        range: decl.limits().map(|range| (range.min, range.max, range.inclusive)),
+        range: decl.limits(),
         is_silence: decl.is_silence,
     }
 }

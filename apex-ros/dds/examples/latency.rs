@@ -1,15 +1,15 @@
 //! Time from a message to the message that a program sends for it over DDS, beside a plain program of RustDDS that
 //! decodes and encodes the same messages: `cargo run --release -p apex-ros-dds --example latency`.
 
-use apex_macros::graph;
-use apex_messages::{
-    Message as _,
-    cdr::{Outside, Reader, Writer},
-};
+#[path = "../../examples/latency/echo.rs"]
+mod echo;
+
+use apex_messages::Message as _;
 use apex_nodes::scan::Scan;
 use apex_ros::{Error, Ros, wire_type};
 use apex_ros_dds::Dds;
-use apex_rt::{Ports, Switch, UntilStopped, drive_from, prelude::*};
+use apex_rt::{Ports, Switch, UntilStopped, drive_from};
+use echo::{Echo, ROUNDS};
 use rustdds::{
     DomainParticipant, DomainParticipantBuilder, QosPolicies, QosPolicyBuilder, RepresentationIdentifier, TopicKind,
     bytes::Bytes,
@@ -27,29 +27,6 @@ use std::{
     thread::{self, Thread},
     time::{Duration, Instant},
 };
-
-/// Sends back a scan.
-#[node]
-#[derive(Default)]
-#[allow(non_camel_case_types, reason = "as a function")]
-pub struct back;
-
-#[node]
-impl back {
-    /// Sends a scan back.
-    #[slot]
-    fn put(&mut self, scan: &Scan, sent: Event<Scan>) {
-        sent.emit(scan.clone());
-    }
-}
-
-graph!("../../examples/latency.afg");
-
-/// Measured messages of each round, and rounds of each program.
-const MESSAGES: usize = 2000;
-const ROUNDS: usize = 5;
-/// Beams of a scan.
-const BEAMS: usize = 720;
 
 /// Adapter for messages as bytes, without their head.
 struct Plain;
@@ -156,10 +133,7 @@ impl Program {
     fn echo(&self, ping: &str, pong: &str) {
         let writer = self.writer(pong);
         listen(self.reader(ping), move |bytes| {
-            let scan = Scan::read(&mut Reader::new(&bytes).expect("CDR").since(5)).expect("a scan");
-            let mut bytes = vec![];
-            scan.write(&mut Writer::new(&mut bytes).for_others(Outside { zero: 5, now: 5, frame: None }));
-            writer.write(Bytes::from(bytes).slice(4..), None).expect("it is there");
+            writer.write(Bytes::from(echo::answer(&bytes)).slice(4..), None).expect("it is there");
         });
     }
 }
@@ -181,18 +155,8 @@ impl Tester {
 
     /// Times of round trips, in µs.
     fn measure(&self) -> Vec<f64> {
-        let scan = Scan { ranges: (0..BEAMS).map(|i| i as f32).collect(), ..Scan::default() };
-        let payload = Bytes::from(scan.to_bytes()).slice(4..);
-        let mut times = vec![];
-        while times.len() < MESSAGES {
-            let start = Instant::now();
-            self.pings.write(payload.clone(), None).expect("it is there");
-            if let Ok(end) = self.pongs.recv_timeout(Duration::from_secs(1)) {
-                times.push((end - start).as_secs_f64() * 1e6);
-            }
-            thread::sleep(Duration::from_micros(500));
-        }
-        times
+        let payload = Bytes::from(echo::ping()).slice(4..);
+        echo::measure(|| self.pings.write(payload.clone(), None).expect("it is there"), &self.pongs)
     }
 }
 
@@ -218,11 +182,9 @@ fn main() -> Result<(), Error> {
             times.extend(tester.measure());
         }
     }
-    for (name, times) in ["plain RustDDS", "Apex"].into_iter().zip(&mut times) {
-        times.sort_by(f64::total_cmp);
-        let at = |part: f64| times[(part * times.len() as f64) as usize];
-        println!("{name:13} p50 {:6.0} µs   p99 {:6.0} µs   ({} round trips)", at(0.5), at(0.99), times.len());
-    }
+    let [plain, apex] = times;
+    echo::print("plain RustDDS", plain);
+    echo::print("Apex", apex);
     STOP.set();
     drop(driver.join());
     Ok(())

@@ -103,14 +103,6 @@ impl Declared {
     }
 }
 
-#[doc(hidden)]
-impl ParamInfo {
-    /// Returns the row of a parameter without unit and range.
-    pub const fn new(name: &'static str, ty: &'static str) -> Self {
-        Self { name, ty, unit: None, range: ParamRange::new(None, None, false) }
-    }
-}
-
 impl ParamRange {
     /// Returns the range with these bounds.
     pub const fn new(min: Option<f64>, max: Option<f64>, inclusive: bool) -> Self {

@@ -53,7 +53,7 @@ impl Options {
     /// Value of the option that was read last, as text.
     ///
     /// # Errors
-    /// If there is no value.
+    /// If the value is missing.
     pub fn text(&mut self) -> Result<String, String> {
         self.0.value().map(|value| value.to_string_lossy().into_owned()).map_err(|e| e.to_string())
     }
@@ -61,7 +61,7 @@ impl Options {
     /// Value of the option that was read last, as a path.
     ///
     /// # Errors
-    /// If there is no value.
+    /// If the value is missing.
     pub fn path(&mut self) -> Result<PathBuf, String> {
         self.0.value().map(PathBuf::from).map_err(|e| e.to_string())
     }
@@ -69,7 +69,7 @@ impl Options {
     /// All values of the option that was read last, as paths.
     ///
     /// # Errors
-    /// If there is no value.
+    /// If the value is missing.
     pub fn paths(&mut self) -> Result<Vec<PathBuf>, String> {
         self.0.values().map(|values| values.map(PathBuf::from).collect()).map_err(|e| e.to_string())
     }
@@ -77,7 +77,7 @@ impl Options {
     /// Value of the option `name`, which was read last, as a whole number from the start of a range on.
     ///
     /// # Errors
-    /// If there is no value, or one that is not in the range.
+    /// If the value is missing, or not in the range.
     pub fn number(&mut self, name: &str, range: impl RangeBounds<u64>) -> Result<u64, String> {
         let value = self.text()?;
         let number = u64::from_str(&value).ok().filter(|number| range.contains(number));
@@ -89,7 +89,7 @@ impl Options {
     /// Value of the option `name`, which was read last, as a time in minutes.
     ///
     /// # Errors
-    /// If there is no value, or one that is not such a time.
+    /// If the value is missing, or not such a time.
     pub fn minutes(&mut self, name: &str) -> Result<Duration, String> {
         let value = self.text()?;
         let minutes = f64::from_str(&value).ok().filter(|minutes| *minutes > 0.0 && *minutes <= MOST_MINUTES);

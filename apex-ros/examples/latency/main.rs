@@ -1,14 +1,13 @@
 //! Time from a message to the message that a program sends for it, beside a plain program of Zenoh that decodes and
 //! encodes the same messages: `cargo run --release --example latency`.
 
-use apex_macros::graph;
-use apex_messages::{
-    Message as _,
-    cdr::{Outside, Reader, Writer},
-};
+mod echo;
+
+use apex_messages::Message as _;
 use apex_nodes::scan::Scan;
 use apex_ros::{Attachment, Error, Ros, key, wire_type};
-use apex_rt::{Ports, Switch, UntilStopped, drive_from, prelude::*};
+use apex_rt::{Ports, Switch, UntilStopped, drive_from};
+use echo::{Echo, ROUNDS};
 use std::{
     net::TcpListener,
     sync::mpsc,
@@ -16,29 +15,6 @@ use std::{
     time::{Duration, Instant},
 };
 use zenoh::{Config, Session, Wait as _, bytes::ZBytes, sample::Sample};
-
-/// Sends back a scan.
-#[node]
-#[derive(Default)]
-#[allow(non_camel_case_types, reason = "as a function")]
-pub struct back;
-
-#[node]
-impl back {
-    /// Sends a scan back.
-    #[slot]
-    fn put(&mut self, scan: &Scan, sent: Event<Scan>) {
-        sent.emit(scan.clone());
-    }
-}
-
-graph!("latency.afg");
-
-/// Measured messages of each round, and rounds of each program.
-const MESSAGES: usize = 2000;
-const ROUNDS: usize = 5;
-/// Beams of a scan.
-const BEAMS: usize = 720;
 
 fn session(mode: &str, listen: &str, connect: &str) -> Session {
     let mut config = Config::default();
@@ -62,10 +38,7 @@ fn scans(topic: &str) -> String {
 fn plain(session: &Session) -> impl Sized + use<> {
     let publisher = session.declare_publisher(scans("/pong_plain")).wait().expect("a publisher");
     let answer = move |sample: Sample| {
-        let bytes = sample.payload().to_bytes();
-        let scan = Scan::read(&mut Reader::new(&bytes).expect("CDR").since(5)).expect("a scan");
-        let mut bytes = vec![];
-        scan.write(&mut Writer::new(&mut bytes).for_others(Outside { zero: 5, now: 5, frame: None }));
+        let bytes = echo::answer(&sample.payload().to_bytes());
         let attachment = Attachment { number: 1, time: 1, sender: [1; 16] }.to_bytes();
         publisher.put(bytes).attachment(attachment.to_vec()).wait().expect("it is there");
     };
@@ -81,17 +54,9 @@ fn measure(session: &Session, ping: &str, pong: &str) -> Vec<f64> {
     let subscriber = session.declare_subscriber(scans(pong)).callback(hear).wait().expect("a subscriber");
     let publisher = session.declare_publisher(scans(ping)).wait().expect("a publisher");
     thread::sleep(Duration::from_millis(300));
-    let scan = Scan { ranges: (0..BEAMS).map(|i| i as f32).collect(), ..Scan::default() };
-    let payload = ZBytes::from(scan.to_bytes());
-    let mut times = vec![];
-    while times.len() < MESSAGES {
-        let start = Instant::now();
-        publisher.put(payload.clone()).wait().expect("it is there");
-        if let Ok(end) = receiver.recv_timeout(Duration::from_secs(1)) {
-            times.push((end - start).as_secs_f64() * 1e6);
-        }
-        thread::sleep(Duration::from_micros(500));
-    }
+    let payload = ZBytes::from(echo::ping());
+    let send = || publisher.put(payload.clone()).wait().expect("it is there");
+    let times = echo::measure(send, &receiver);
     drop(subscriber);
     times
 }
@@ -116,11 +81,8 @@ fn main() -> Result<(), Error> {
         bare.extend(measure(&tester, "/ping_plain", "/pong_plain"));
         apex.extend(measure(&tester, "/ping", "/pong"));
     }
-    for (name, times) in [("plain Zenoh", &mut bare), ("Apex", &mut apex)] {
-        times.sort_by(f64::total_cmp);
-        let at = |part: f64| times[(part * times.len() as f64) as usize];
-        println!("{name:12} p50 {:6.0} µs   p99 {:6.0} µs   ({} round trips)", at(0.5), at(0.99), times.len());
-    }
+    echo::print("plain Zenoh", bare);
+    echo::print("Apex", apex);
     STOP.set();
     drop(driver.join());
     Ok(())
