@@ -239,8 +239,6 @@ fn messages_come_in_their_order_however_fast() {
             thread::sleep(Duration::from_millis(20));
             !speeds.all().is_empty()
         });
-        thread::sleep(Duration::from_millis(300));
-        speeds.clear();
         for number in 1..=3000_u32 {
             command.send(&number.into()).expect("it is there");
             // Bursts, and pauses in which the program waits.
@@ -249,7 +247,7 @@ fn messages_come_in_their_order_however_fast() {
             }
         }
         within(15.0, "the last one", || speeds.all().last() == Some(&3000.0));
-        let all = speeds.all();
+        let all: Vec<_> = speeds.all().into_iter().filter(|speed| *speed > 0.0).collect();
         assert!(all.len() > 500 && all.is_sorted_by(|a, b| a < b), "{} of 3000", all.len());
     });
 }

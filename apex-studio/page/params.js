@@ -67,6 +67,8 @@ export class Params {
     text.addEventListener("change", () => set(text.value));
     undo.addEventListener("click", () => set(initial));
     /** @type {HTMLInputElement | null} */ let slider = null;
+    // Where the slider is, until it is sent: meanwhile the robot may tell where it was.
+    /** @type {string | null} */ let chosen = null;
     const whole = !/f32|f64/.test(info.ty);
     if (info.min !== null && info.max !== null) {
       slider = /** @type {HTMLInputElement} */ (make("input", ""));
@@ -74,15 +76,13 @@ export class Params {
       slider.min = "0";
       slider.max = whole && info.max - info.min < 1000 ? String(info.max - info.min) : "1000";
       slider.setAttribute("aria-label", info.name);
-      let waits = false;
       slider.addEventListener("input", () => {
         const share = Number(/** @type {HTMLInputElement} */ (slider).value) / Number(slider?.max);
         const exact = fromShare(share, info);
         const value = whole ? Math.round(exact) : exact;
-        text.value = whole ? String(value) : floating(value);
-        if (waits) return;
-        waits = true;
-        setTimeout(() => { waits = false; set(text.value); }, 50);
+        if (chosen === null) setTimeout(() => { set(chosen ?? ""); chosen = null; }, 50);
+        chosen = whole ? String(value) : floating(value);
+        text.value = chosen;
       });
       line.append(slider);
     }
@@ -98,7 +98,7 @@ export class Params {
       write.hidden = undo.hidden || robot.readonly;
       undo.title = `back to ${param.initial}`;
       error.textContent = param.error ?? "";
-      if (document.activeElement !== text || param.error === null) text.value = param.value;
+      if (chosen === null && (document.activeElement !== text || param.error === null)) text.value = param.value;
       if (slider && document.activeElement !== slider) slider.value = String(toShare(Number(param.value), info) * Number(slider.max));
     };
     return { row, show };

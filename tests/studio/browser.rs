@@ -1,5 +1,6 @@
 //! A real browser, over the DevTools protocol.
 
+use crate::steady::Steady;
 use base64::{Engine as _, prelude::BASE64_STANDARD};
 use serde_json::{Value, json};
 use std::{
@@ -30,7 +31,7 @@ struct Program {
 /// A browser with one page, which shares nothing with those of other tests.
 pub struct Browser {
     _program: Arc<Program>,
-    socket: WebSocket<TcpStream>,
+    socket: WebSocket<Steady>,
     session: String,
     count: u64,
     /// Errors and messages of the page.
@@ -64,10 +65,10 @@ impl Program {
     }
 
     /// A new connection to it.
-    fn connect(&self) -> WebSocket<TcpStream> {
+    fn connect(&self) -> WebSocket<Steady> {
         let host = self.address.strip_prefix("ws://").and_then(|rest| rest.split('/').next()).expect("an address");
         let stream = TcpStream::connect(host).expect("the browser listens");
-        client(&self.address, stream).expect("the browser answers").0
+        client(&self.address, Steady(stream)).expect("the browser answers").0
     }
 }
 
@@ -279,6 +280,18 @@ impl Browser {
             self.mouse("mouseMoved", (between(from.0, to.0), between(from.1, to.1)), 1, modifiers);
         }
         self.mouse("mouseReleased", to, 1, modifiers);
+    }
+
+    /// Presses the mouse at the first point, moves it over all others, and releases it at the last one. The robot has
+    /// time to answer each move.
+    pub fn drag_over(&mut self, points: &[(f64, f64)], pause: Duration) {
+        let [first, .., last] = points else { return };
+        self.mouse("mousePressed", *first, 1, 0);
+        for point in points {
+            self.mouse("mouseMoved", *point, 1, 0);
+            thread::sleep(pause);
+        }
+        self.mouse("mouseReleased", *last, 1, 0);
     }
 }
 

@@ -5,6 +5,7 @@ use crate::{
     page::{RUNNING, opened, wiring},
     several::NoText,
     socket,
+    steady::Steady,
 };
 use apex_rt::studio::message::{About, AboutChannel, AboutConnection, AboutNode, PortRole, Report, VERSION, write};
 use apex_studio::{Remote, Seat};
@@ -176,7 +177,7 @@ fn play_an_hour(listener: &UnixListener) {
 }
 
 /// A page without a browser.
-struct Socket(WebSocket<TcpStream>);
+struct Socket(WebSocket<Steady>);
 
 impl Socket {
     fn open(url: &str) -> Self {
@@ -185,7 +186,7 @@ impl Socket {
         let mut request = format!("ws://{host}/live").into_client_request().expect("an address");
         request.headers_mut().insert("Origin", format!("http://{host}").parse().expect("a header"));
         let (mut socket, _) =
-            client(request, TcpStream::connect(host).expect("the studio listens")).expect("it answers");
+            client(request, Steady(TcpStream::connect(host).expect("the studio listens"))).expect("it answers");
         socket.send(Message::Text(token.to_owned().into())).expect("it reads");
         Self(socket)
     }

@@ -4,6 +4,7 @@ use crate::{
     page::{Restarted, opened, start, studio, studio_of},
     several::NoText,
     socket,
+    steady::Steady,
 };
 use apex_studio::{Remote, Seat};
 use apex_tests::python;
@@ -19,7 +20,7 @@ use tungstenite::{Error, Message, WebSocket, client, client::IntoClientRequest a
 
 /// An app of Foxglove.
 struct App {
-    socket: WebSocket<TcpStream>,
+    socket: WebSocket<Steady>,
 }
 
 /// Address of a robot for apps, from that of the page.
@@ -29,7 +30,7 @@ fn address(page: &str, end: &str) -> String {
 }
 
 /// Connects, as an app does that runs in a browser.
-fn connect(address: &str, host: Option<&str>, protocols: Option<&str>) -> Result<WebSocket<TcpStream>, StatusCode> {
+fn connect(address: &str, host: Option<&str>, protocols: Option<&str>) -> Result<WebSocket<Steady>, StatusCode> {
     let own = address.trim_start_matches("ws://").split('/').next().expect("a host");
     let mut request = address.into_client_request().expect("an address");
     let headers = request.headers_mut();
@@ -38,7 +39,7 @@ fn connect(address: &str, host: Option<&str>, protocols: Option<&str>) -> Result
     protocols
         .into_iter()
         .for_each(|names| drop(headers.insert("Sec-WebSocket-Protocol", names.parse().expect("a header"))));
-    match client(request, TcpStream::connect(own).expect("the studio listens")) {
+    match client(request, Steady(TcpStream::connect(own).expect("the studio listens"))) {
         Ok((socket, _)) => Ok(socket),
         Err(tungstenite::HandshakeError::Failure(Error::Http(response))) => Err(response.status()),
         Err(error) => panic!("{error}"),

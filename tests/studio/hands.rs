@@ -7,7 +7,7 @@ use crate::{
 };
 use apex_studio::{Robot, Seat};
 use serde_json::json;
-use std::sync::Arc;
+use std::{sync::Arc, thread, time::Duration};
 
 const HALTED: &str = "document.getElementById('run').textContent === 'halted'";
 
@@ -96,6 +96,16 @@ fn space_halts_wherever_one_was_before_and_sliders_stay_under_the_mouse() {
     page.wait_for(&format!("{row}.classList.contains('is-changed')"));
     page.wait_for(&format!("{row}.querySelector('input[type=text]').value === '8'"));
     assert_eq!((place(&mut page), page.value(&format!("{slider}.value"))), (before, json!("8")));
+    // Wherever it was in between and the robot has told, the last place counts.
+    let shown = format!("{row}.querySelector('input[type=text]').value");
+    for (number, pause) in [20, 35, 45, 55, 70, 90].into_iter().enumerate() {
+        let last = if number % 2 == 0 { 0.3 } else { 0.8 };
+        let at = |share: f64| (x + width * share, y + 8.0);
+        page.drag_over(&[1.1 - last, 0.5, 0.2, 0.7, 0.1, 0.6, last].map(at), Duration::from_millis(pause));
+        let there = page.value(&format!("{slider}.value"));
+        thread::sleep(Duration::from_millis(300));
+        assert_eq!([page.value(&shown), page.value(&format!("{slider}.value"))], [there.clone(), there]);
+    }
     space(&mut page);
     page.fill(&format!("{row}.querySelector('input[type=text]')"), "5");
     space(&mut page);

@@ -2,6 +2,7 @@
 
 use crate::{
     page::{opened_at, studio_of},
+    steady::Steady,
     stream::Robot,
 };
 use apex_rt::studio::message::{self, About, AboutNode, AboutParam, Report};
@@ -20,7 +21,7 @@ use tungstenite::{Message, WebSocket, client, client::IntoClientRequest as _};
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A page without a browser.
-struct Page(WebSocket<TcpStream>);
+struct Page(WebSocket<Steady>);
 
 impl Page {
     /// Opens a page, as a browser does that has been given another address for it.
@@ -31,7 +32,7 @@ impl Page {
         request.headers_mut().insert("Host", host.parse().expect("a header"));
         let stream = TcpStream::connect(own).map_err(|error| error.to_string())?;
         stream.set_read_timeout(Some(PATIENCE)).expect("a socket");
-        let (socket, _) = client(request, stream).map_err(|error| error.to_string())?;
+        let (socket, _) = client(request, Steady(stream)).map_err(|error| error.to_string())?;
         let mut page = Self(socket);
         page.0.send(Message::Text(token.to_owned().into())).expect("it listens");
         Ok(page)

@@ -1,7 +1,10 @@
 //! The end of a process: each cause, in real processes. This test starts itself again for that.
 #![cfg(unix)]
 
-use crate::process::{Killed, again, read_until, send};
+use crate::{
+    process::{Killed, again, read_until, send},
+    steady::steadily,
+};
 use apex_macros::graph;
 use apex_rt::prelude::*;
 use std::{io::Write as _, thread, time::Duration};
@@ -235,7 +238,7 @@ fn told(program: &str, interrupted: bool) -> Vec<String> {
     let (child, _lines) =
         again("ends::other_process", &[(PROGRAM, program), ("NOTIFY_SOCKET", name), ("WATCHDOG_USEC", "200000")]);
     let (mut told, mut buffer) = (vec![], [0; 64]);
-    while let Ok(length) = socket.recv(&mut buffer) {
+    while let Ok(length) = steadily(|| socket.recv(&mut buffer)) {
         let text = String::from_utf8_lossy(&buffer[..length]).into_owned();
         if told.len() == 3 {
             socket.set_read_timeout(Some(Duration::from_secs(1))).expect("a time");

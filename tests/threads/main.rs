@@ -6,5 +6,7 @@ mod process;
 mod real;
 mod remote;
 mod signals;
+#[path = "../studio/steady.rs"]
+mod steady;
 mod untaken;
 mod waits;

@@ -7,6 +7,9 @@ use std::{
     time::{Duration, Instant},
 };
 
+/// For what has to happen, also on a busy machine.
+const LONG: Duration = Duration::from_secs(15);
+
 /// Waits until `is_so` returns `true`, at most for some seconds. Returns how long it took.
 pub fn within(seconds: f32, what: &str, mut is_so: impl FnMut() -> bool) -> Duration {
     let start = Instant::now();
@@ -45,12 +48,26 @@ impl<T: Clone + Send + 'static> Collected<T> {
     where
         T: PartialEq<U> + Debug,
     {
-        let all = || self.all();
+        self.wait(LONG, |all| all == expected);
+        assert_eq!(self.all(), expected);
+    }
+
+    /// Waits until the last ones are these, whatever came before.
+    pub fn expect_at_end<U: Debug>(&self, expected: &[U])
+    where
+        T: PartialEq<U> + Debug,
+    {
+        let at_end = |all: &[T]| all.len() >= expected.len() && all[all.len() - expected.len()..] == *expected;
+        self.wait(LONG, at_end);
+        assert!(at_end(&self.all()), "{:?} does not end with {expected:?}", self.all());
+    }
+
+    /// Waits until this is so of all that were collected, at most for some time.
+    pub fn wait(&self, longest: Duration, is_so: impl Fn(&[T]) -> bool) {
         let start = Instant::now();
-        while all() != expected && start.elapsed() < Duration::from_secs(5) {
+        while !is_so(&self.0.lock().expect("no panic")) && start.elapsed() < longest {
             thread::sleep(Duration::from_millis(2));
         }
-        assert_eq!(all(), expected);
     }
 
     pub fn clear(&self) {
