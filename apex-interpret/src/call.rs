@@ -57,7 +57,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 self.state.trigger(event);
             }
             let result = self.called(node, call.failing, |boxed| boxed.process(&mut args));
-            self.triggered(node, args);
+            self.all_triggered(node, args);
             self.nothing(call, local);
             for (port, token) in result.into_iter().flatten() {
                 local.write(self.state, PortId { node, port }, token);
@@ -107,20 +107,26 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         let to = self.code.graph().connections[self.code.program.wiring.slots[slot].connection].to;
         let uses_token = call.args.iter().any(|arg| matches!(arg, Arg::OfSlot));
         if token.is_some() || !uses_token {
-            let mut args = self.args(to.node, &call.args, token, ctx, None);
-            self.called(to.node, call.failing, |boxed| boxed.slot(to.port, &mut args));
-            self.triggered(to.node, args);
+            if self.state.machines.contains_key(&to.node) {
+                self.call_machine(to.node, |machine| machine.slot(to.port, token.as_ref()));
+            } else {
+                let mut args = self.args(to.node, &call.args, token, ctx, None);
+                self.called(to.node, call.failing, |boxed| boxed.slot(to.port, &mut args));
+                self.all_triggered(to.node, args);
+            }
         }
         self.late(to.node, call.deadline, ctx);
     }
 
     /// The events that a call has triggered.
-    fn triggered(&mut self, node: NodeId, args: Args) {
-        for (port, token) in args.events {
-            let event = PortId { node, port };
-            if self.code.program.lower.is_sent_event(event) {
-                self.state.tokens.insert(event, token);
-            }
+    fn all_triggered(&mut self, node: NodeId, args: Args) {
+        args.events.into_iter().for_each(|(port, token)| self.triggered(PortId { node, port }, token));
+    }
+
+    /// An event that is triggered.
+    pub fn triggered(&mut self, event: PortId, token: Value) {
+        if self.code.program.lower.is_sent_event(event) {
+            self.state.tokens.insert(event, token);
         }
     }
 
@@ -191,7 +197,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     }
 
     /// Reports a node that has finished later than its `deadline` allows.
-    fn late(&mut self, node: NodeId, deadline: Option<Deadline>, ctx: &Ctx) {
+    pub fn late(&mut self, node: NodeId, deadline: Option<Deadline>, ctx: &Ctx) {
         let Some(Deadline { time, event }) = deadline else { return };
         if ctx.is_late(self.number(node), time, self.observer)
             && let Some(event) = event
@@ -203,10 +209,10 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     /// Duration of a silence: the shortest of its nodes.
     pub fn silence(&self, silence: usize) -> Duration {
         let lower = self.code.program.lower;
-        let nodes = self.code.program.wiring.silences[silence].nodes.iter();
-        let times = nodes.filter_map(|node| {
-            let param = silence_parameter(lower.graph, lower.catalog, *node)?;
-            Some(self.state.nodes.get(node)?.silence(param))
+        let wiring = &self.code.program.wiring;
+        let times = wiring.missed_by(&wiring.silences[silence]).filter_map(|node| {
+            let param = silence_parameter(lower.graph, lower.catalog, node)?;
+            Some(self.state.nodes.get(&node)?.silence(param))
         });
         times.min().unwrap_or(Duration::MAX)
     }

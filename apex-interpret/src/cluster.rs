@@ -31,7 +31,7 @@ impl<'a> Local<'a> {
     }
 
     /// The token at an output; in an iteration, the first that this firing sends.
-    pub fn read(&self, state: &State, port: PortId) -> Option<Value> {
+    pub fn read(&self, state: &State<'_>, port: PortId) -> Option<Value> {
         match self.plan.storage(port) {
             Storage::Buffer | Storage::Outside => state.tokens.get(&port).cloned(),
             Storage::Array => {
@@ -43,7 +43,7 @@ impl<'a> Local<'a> {
     }
 
     /// The token that arrives at an input.
-    pub fn arriving(&self, state: &State, to: PortId) -> Option<Value> {
+    pub fn arriving(&self, state: &State<'_>, to: PortId) -> Option<Value> {
         let from = self.lower.incoming(to)?;
         if self.plan.storage(from) != Storage::Array {
             return self.read(state, from);
@@ -59,7 +59,7 @@ impl<'a> Local<'a> {
     }
 
     /// Puts a token at an output.
-    pub fn write(&mut self, state: &mut State, port: PortId, token: Option<Value>) {
+    pub fn write(&mut self, state: &mut State<'_>, port: PortId, token: Option<Value>) {
         match self.plan.storage(port) {
             Storage::Array => self.spread(port, token),
             Storage::Buffer => put(&mut state.tokens, port, token),

@@ -6,7 +6,7 @@ use apex_dsl::{
     checked::CheckedProgram,
     graph::{ConnectionId, Graph, NodeId, NodeKind},
     index::IdVec,
-    machine::machines,
+    machine::{Machines, machines},
     program::{Lower, Program},
     threads::{Origin, Part},
 };
@@ -19,6 +19,8 @@ pub struct Numbers {
     pub own: IdVec<NodeId, usize>,
     /// Number of each connection; `None` if observers do not know it.
     pub connections: IdVec<ConnectionId, Option<usize>>,
+    /// Number of the first state of each state machine: its states come behind all nodes.
+    pub states: BTreeMap<NodeId, usize>,
     /// Those in the bodies of `each`.
     inner: BTreeMap<NodeId, Numbers>,
 }
@@ -35,7 +37,18 @@ impl Numbers {
                 inner.insert(node, Self::new(&each.body, count));
             }
         }
-        Self { own, connections, inner }
+        Self { own, connections, states: BTreeMap::new(), inner }
+    }
+
+    /// The numbers in a program, and the first number beyond them.
+    fn of_program(graph: &Graph, catalog: &Catalog) -> (Self, usize) {
+        let mut count = 0;
+        let mut numbers = Self::new(graph, &mut count);
+        for (node, machine) in machines(graph, catalog) {
+            numbers.states.insert(node, count);
+            count += machine.states.len();
+        }
+        (numbers, count)
     }
 
     /// The numbers in the part of a thread group. Nodes that only pass tokens on come behind all others.
@@ -46,6 +59,7 @@ impl Numbers {
                 Origin::Node(origin) => {
                     numbers.own.push(self.own[*origin]);
                     numbers.inner.extend(self.inner.get(origin).map(|inner| (node, inner.clone())));
+                    numbers.states.extend(self.states.get(origin).map(|first| (node, *first)));
                 }
                 Origin::Token(_) => drop(numbers.own.push(beyond + node.index())),
             }
@@ -95,7 +109,7 @@ impl<'a> Code<'a> {
 /// A program with its state.
 pub struct Interpreter<'a> {
     /// The program, or its parts: the main group is the first.
-    pub(crate) parts: Vec<(Code<'a>, State)>,
+    pub(crate) parts: Vec<(Code<'a>, State<'a>)>,
     pub(crate) cells: Cells<'a>,
     pub(crate) library: &'a dyn Library,
 }
@@ -105,9 +119,13 @@ impl<'a> Interpreter<'a> {
     ///
     /// # Errors
     /// Returns what the library does not know.
-    pub fn new(program: &'a CheckedProgram, catalog: &'a Catalog, library: &'a dyn Library) -> Result<Self, String> {
-        let mut count = 0;
-        let numbers = Numbers::new(&program.graph, &mut count);
+    pub fn new(
+        program: &'a CheckedProgram,
+        machines: &'a Machines,
+        catalog: &'a Catalog,
+        library: &'a dyn Library,
+    ) -> Result<Self, String> {
+        let (numbers, count) = Numbers::of_program(&program.graph, catalog);
         let (codes, cells): (Vec<Code<'a>>, _) = match &program.split {
             None => {
                 let lower = Lower::new(&program.graph, &program.analysis, catalog, Some(&program.claims));
@@ -126,13 +144,10 @@ impl<'a> Interpreter<'a> {
         };
         let mut parts = vec![];
         for code in codes {
-            if let Some((node, _)) = machines(code.graph(), catalog).next() {
-                return Err(format!("`{}` is a state machine, which is not interpreted yet", code.graph().path(node)));
-            }
             if let Some(fault) = code.faults().into_iter().next() {
                 return Err(format!("internal error of the compiler: {fault}"));
             }
-            let state = State::new(&code, library)?;
+            let state = State::new(&code, machines, library)?;
             parts.push((code, state));
         }
         let cells = Cells::new(cells, parts.len());

@@ -11,7 +11,7 @@ use apex_rt::{Ctx, Observer, Time};
 /// Execution of a program, or of the body of an `each`.
 pub struct Run<'r, 'a, O> {
     pub code: &'r Code<'a>,
-    pub state: &'r mut State,
+    pub state: &'r mut State<'a>,
     pub cells: &'r mut Cells<'a>,
     pub library: &'r dyn Library,
     pub observer: &'r mut O,
@@ -94,11 +94,13 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 }
             }
             Op::CheckClaims => self.check_claims(),
-            // Programs with state machines are refused.
-            Op::ShowStates | Op::Move { .. } | Op::TimeStates(_) | Op::LeaveState { .. } => {}
+            Op::ShowStates => self.show_states(),
+            Op::Move { node, how } => self.call_machine(*node, |machine| machine.go(*how)),
+            Op::TimeStates(node) => self.time_states(*node, ctx),
+            Op::LeaveState { node, wait, call } => self.leave_state(*node, *wait, call, ctx),
             Op::Set(flag, value) => self.state.set(*flag, *value),
             Op::ForgetTokens => {
-                self.state.flags.retain(|flag| !matches!(flag, Flag::Gains(_) | Flag::Loses(_) | Flag::Carries(_)));
+                self.state.flags.retain(|flag| !matches!(flag, Flag::Gains(_) | Flag::Carries(_)));
             }
             Op::ForgetCancelled(node) => drop(self.state.remembered.remove(node)),
             Op::GiveBack { interrupt, node, then } => {
@@ -215,7 +217,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         turned
     }
 
-    fn start_timeout(&mut self, timeout: usize, ctx: &Ctx) {
+    pub fn start_timeout(&mut self, timeout: usize, ctx: &Ctx) {
         let after = self.code.program.wiring.timeouts[timeout].after;
         self.state.timeouts[timeout].start(ctx.now(), after);
     }

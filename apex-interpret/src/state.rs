@@ -1,9 +1,10 @@
 //! State of a program that is interpreted.
 
-use crate::{Library, Node, Value, code::Code, conditions::Conditions, delay::Delay};
+use crate::{Library, Node, Value, code::Code, conditions::Conditions, delay::Delay, machine::Running};
 use apex_dsl::{
     analyse::ClusterId,
     graph::{ConnectionId, NodeId, NodeKind, PortId},
+    machine::Machines,
     program::Flag,
 };
 use apex_rt::{ProgramTime, Time, Timeout, Timer};
@@ -14,9 +15,11 @@ use std::{
 };
 
 /// Everything that a program remembers.
-pub struct State {
+pub struct State<'a> {
     /// Nodes of the catalog.
     pub nodes: BTreeMap<NodeId, Box<dyn Node>>,
+    /// State machines.
+    pub machines: BTreeMap<NodeId, Running<'a>>,
     /// Tokens that outlive a firing.
     pub tokens: BTreeMap<PortId, Value>,
     /// Values that slots get in place of tokens.
@@ -64,7 +67,7 @@ pub struct State {
     /// Events of the program that wait to be taken.
     pub events: BTreeMap<NodeId, Value>,
     /// State of the bodies of `each`.
-    pub bodies: BTreeMap<NodeId, State>,
+    pub bodies: BTreeMap<NodeId, State<'a>>,
 }
 
 /// Timer or timeout without an end.
@@ -74,18 +77,22 @@ fn nanos(time: Option<Duration>, absent: i64) -> i64 {
     time.map_or(absent, |time| i64::try_from(time.as_nanos()).unwrap_or(NEVER))
 }
 
-impl State {
+impl<'a> State<'a> {
     /// State before the first reaction.
-    pub fn new(code: &Code<'_>, library: &dyn Library) -> Result<Self, String> {
+    pub fn new(code: &Code<'a>, machines: &'a Machines, library: &'a dyn Library) -> Result<Self, String> {
         let (graph, wiring, lower) = (code.graph(), &code.program.wiring, code.program.lower);
-        let (mut nodes, mut held, mut held_activity) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        let (mut nodes, mut running) = (BTreeMap::new(), BTreeMap::new());
+        let (mut held, mut held_activity) = (BTreeMap::new(), BTreeMap::new());
         for (node, n) in graph.nodes.iter_enumerated() {
             match &n.kind {
-                NodeKind::Library(made) => {
-                    let signature = &lower.catalog.signatures[made.signature];
-                    let boxed = library.make(signature, made);
-                    nodes.insert(node, boxed.ok_or_else(|| format!("`{}` is not known", signature.name))?);
-                }
+                NodeKind::Library(made) => match machines.get(&made.signature) {
+                    Some(machine) => drop(running.insert(node, Running::new(machine, library)?)),
+                    None => {
+                        let signature = &lower.catalog.signatures[made.signature];
+                        let boxed = library.make(signature, made);
+                        nodes.insert(node, boxed.ok_or_else(|| format!("`{}` is not known", signature.name))?);
+                    }
+                },
                 NodeKind::Delay(initial) => {
                     let ty = &graph.port(PortId { node, port: 1 }).ty;
                     let first = |value: &Option<_>| {
@@ -108,9 +115,10 @@ impl State {
             Timer::new(nanos(modifiers.after, 0), nanos(modifiers.every, NEVER))
         });
         let enabled = graph.nodes.ids().filter(|node| graph.nodes[*node].can_be_disabled()).map(Flag::Enabled);
-        let bodies = code.bodies.iter().map(|(node, body)| Ok((*node, Self::new(body, library)?)));
+        let bodies = code.bodies.iter().map(|(node, body)| Ok((*node, Self::new(body, machines, library)?)));
         Ok(Self {
             nodes,
+            machines: running,
             tokens: BTreeMap::new(),
             given: given.collect::<Result<_, String>>()?,
             held,

@@ -200,7 +200,7 @@ impl<'a> Replay<'a> {
         self.forget_optional();
         self.run(handle);
         // Nodes whose tokens carry activity no more may take them without a record.
-        if self.graph.nodes[node].interrupts().is_some() {
+        if matches!(self.graph.nodes[node].kind, NodeKind::Reset | NodeKind::Interrupt(_)) {
             self.agenda = self.net.transitions.ids().collect();
         }
         self.last = self.state.tokens_of(node);

@@ -531,10 +531,12 @@ impl<'a> State<'a> {
         let tokens = BTreeMap::from([(to.port, token)]);
         match self.graph.nodes[to.node].kind {
             NodeKind::Reset => {
-                // A reset restores the initial activity of all nodes, and nothing is remembered.
+                // Nothing is active, not even tokens, and nothing is remembered. Then it starts again.
                 self.remembered.clear();
-                for node in self.graph.nodes.ids() {
-                    self.set_active(node, self.graph.nodes[node].starts_active);
+                self.marking.iter_mut().flatten().for_each(|token| token.modifier = token.modifier.min(0));
+                self.graph.nodes.ids().for_each(|node| self.set_active(node, false));
+                for node in self.graph.nodes.ids().filter(|node| self.graph.nodes[*node].starts_active) {
+                    self.set_active(node, true);
                 }
             }
             NodeKind::Exit(_) => {}

@@ -217,26 +217,43 @@ pub(crate) fn react<P: Program, O: Observer>(
     observer: &mut O,
     elapsed: &mut dyn FnMut() -> Duration,
 ) -> (Next, bool) {
+    react_timed(program, now, observer, Stopwatch { elapsed, is_late: false, ends_early: true })
+}
+
+/// Repeats a reaction, which `ends_early` as the recorded one did.
+#[cfg(feature = "record")]
+pub(crate) fn react_again<P: Program>(program: &mut P, now: Time, observer: &mut impl Observer, ends_early: bool) {
+    let elapsed = &mut || Duration::ZERO;
+    react_timed(program, now, observer, Stopwatch { elapsed, is_late: false, ends_early });
+}
+
+fn react_timed<P: Program, O: Observer>(
+    program: &mut P,
+    now: Time,
+    observer: &mut O,
+    stopwatch: Stopwatch<'_>,
+) -> (Next, bool) {
     observer.before_reaction(now, program);
-    let mut observers = (&mut *observer, Stopwatch { elapsed, is_late: false });
+    let mut observers = (&mut *observer, stopwatch);
     let next = program.react_with(now, &mut observers);
     let (observer, Stopwatch { is_late, .. }) = observers;
     observer.after_reaction(next);
     (next, is_late)
 }
 
-/// Observer that measures the duration of a reaction, and ends a late one after each instant: tokens and requests of
-/// other threads are served before the next. Its type does not depend on the clock, and that of all runs with one type
-/// of observer is the same: the program is compiled once for them.
+/// Observer that measures the duration of a reaction, and mostly ends a late one after each instant: tokens and
+/// requests of other threads are served before the next. Its type does not depend on the clock, and that of all runs
+/// with one type of observer is the same: the program is compiled once for them.
 struct Stopwatch<'a> {
     elapsed: &'a mut dyn FnMut() -> Duration,
     /// `true` if a deadline was missed.
     is_late: bool,
+    ends_early: bool,
 }
 
 impl Observer for Stopwatch<'_> {
     fn ends_early(&mut self) -> bool {
-        true
+        self.ends_early
     }
 
     fn elapsed(&mut self) -> Duration {

@@ -13,6 +13,7 @@ mod each;
 mod events;
 mod failures;
 mod figures;
+mod foreign;
 mod forms;
 mod given;
 mod handed;

@@ -126,3 +126,28 @@ pub mod value {
         place
     }
 }
+
+/// Ports of a type of a crate that only this one depends on.
+pub mod foreign {
+    use apex_rt::prelude::*;
+    use serde_json::Value;
+
+    #[node]
+    pub fn answer() -> Value {
+        Value::Null
+    }
+
+    #[derive(Default)]
+    #[node]
+    pub struct Answers;
+
+    #[node]
+    impl Answers {
+        fn process(&mut self) {}
+
+        #[slot]
+        fn put(&mut self, value: &Value) {
+            let _ = value;
+        }
+    }
+}

@@ -2,11 +2,11 @@
 //!
 //! `APEX_INTERPRETED_GRAPHS` is the number of graphs (1,000), `APEX_ORACLE_SEED` the first seed.
 
+use crate::number;
 use apex_dsl::checked::CheckedProgram;
-use apex_tests::oracle::{Case, Checker, Record, generate, interpret, on_threads, paced, with_timeouts};
+use apex_tests::oracle::{Case, Checker, Record, generate, interpret, on_threads, paced, with_resets, with_timeouts};
 use apex_tests::{Compiler, SEED, cases, text};
 use rayon::prelude::*;
-use std::env;
 
 /// Times of reactions that are in time, in ns.
 const IN_TIME: [i64; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
@@ -14,10 +14,6 @@ const IN_TIME: [i64; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
 const SHOWN: usize = 3;
 /// Graphs that share a checker.
 const BATCH: u64 = 100;
-
-fn number(name: &str) -> Option<u64> {
-    env::var(name).ok().and_then(|text| text.parse().ok())
-}
 
 fn millis(times: &[i64]) -> Vec<i64> {
     times.iter().map(|time| time * 1_000_000).collect()
@@ -223,6 +219,12 @@ fn open_disagreements_with_the_nets() {
 #[test]
 fn interpreted_timeouts_come_as_in_their_nets() {
     try_all(2, |seed| with_timeouts(generate(seed, true)), as_net);
+}
+
+#[test]
+fn interpreted_graphs_are_reset_as_in_their_nets() {
+    try_all(4, |seed| with_resets(generate(seed, true)), as_net);
+    try_all(4, |seed| with_resets(with_timeouts(generate(seed, true))), as_net);
 }
 
 #[test]

@@ -2,8 +2,14 @@
 
 mod compile;
 mod interpreted;
+mod machines;
 mod nets;
 mod pnml;
 mod programs;
 mod verifier;
 mod words;
+
+/// Number in an environment variable, if there is one.
+fn number(name: &str) -> Option<u64> {
+    std::env::var(name).ok().and_then(|text| text.parse().ok())
+}

@@ -3,10 +3,13 @@
 //! `APEX_ORACLE_GRAPHS` is the number of graphs (40), `APEX_ORACLE_SEED` the first seed. With `APEX_ORACLE_RAW`,
 //! failing graphs are shown without reduction.
 
-use crate::compile::{How, Program, run};
+use crate::{
+    compile::{How, Program, run},
+    number,
+};
 use apex_dsl::graph::NodeId;
 use apex_tests::oracle::{
-    Case, Checked, Checker, Failure, Record, generate, interpret, on_threads, paced, read, with_timeouts,
+    Case, Checked, Checker, Failure, Record, generate, interpret, on_threads, paced, read, with_resets, with_timeouts,
 };
 use std::{collections::BTreeMap, env};
 
@@ -19,10 +22,6 @@ const BATCH: usize = 120;
 const SHOWN: usize = 3;
 /// Maximum number of reduction steps; each compiles many graphs.
 const ROUNDS: usize = 15;
-
-fn number(name: &str) -> Option<u64> {
-    env::var(name).ok().and_then(|text| text.parse().ok())
-}
 
 /// Failure of each of the legal `cases`, or `None` if it runs correctly.
 fn judge(checker: &Checker, folder: &str, ways: &[How], cases: &[&Case]) -> Vec<Option<String>> {
@@ -88,7 +87,7 @@ fn wrong_record(checker: &Checker, program: &Program, how: How, trace: &str) -> 
 }
 
 /// The first difference between a run of a compiled program and that of the interpreter.
-fn differs_interpreted(checker: &Checker, checked: &Checked, records: &[Record]) -> Option<String> {
+pub fn differs_interpreted(checker: &Checker, checked: &Checked, records: &[Record]) -> Option<String> {
     let times = records.iter().filter_map(|r| if let Record::Begin(now) = r { Some(*now as i64) } else { None });
     let times: Vec<i64> = times.collect();
     let interpreted = match interpret(&checker.catalog(), checked, &times) {
@@ -174,6 +173,14 @@ fn try_all(folder: &str, ways: &[How], share: u64, made: impl Fn(u64) -> Case) {
 #[test]
 fn compiled_programs_run_as_their_nets_may() {
     try_all("oracle", &[How::InTurn], 1, |seed| generate(seed, true));
+}
+
+#[test]
+fn programs_are_reset_as_in_their_nets() {
+    try_all("oracle-resets", &[How::InTurn], 10, |seed| match seed % 2 {
+        0 => with_resets(generate(seed, true)),
+        _ => with_resets(with_timeouts(generate(seed, true))),
+    });
 }
 
 #[test]

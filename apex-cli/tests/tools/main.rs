@@ -29,6 +29,8 @@ mod new;
 mod nodes;
 mod params;
 mod record;
+#[path = "../../../tests/studio/steady.rs"]
+mod steady;
 #[cfg(unix)]
 mod studio;
 mod supply;

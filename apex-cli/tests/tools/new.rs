@@ -2,6 +2,7 @@ use crate::{
     TARGET, builds, cargo,
     common::{Folder, apex, lock, stderr},
     moved,
+    steady::steadily,
 };
 use std::{
     fs,
@@ -166,7 +167,7 @@ fn a_mission_and_its_drivers_talk_over_udp() {
     let mut bytes = [0; 100];
     let mut last = String::new();
     while last != "twist 0 0 0" {
-        let length = listener.recv(&mut bytes).expect("a twist of zero comes before 2 s of silence");
+        let length = steadily(|| listener.recv(&mut bytes)).expect("a twist of zero comes before 2 s of silence");
         last = String::from_utf8(bytes[..length].to_vec()).unwrap();
     }
     drop(second);

@@ -3,6 +3,7 @@
 use crate::{
     TARGET, builds,
     common::{Folder, apex, package, stderr},
+    steady::Steady,
 };
 use serde_json::{Value, json};
 use std::{
@@ -116,7 +117,7 @@ impl Drop for Studio {
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A page without a browser.
-pub struct Page(WebSocket<TcpStream>);
+pub struct Page(WebSocket<Steady>);
 
 impl Page {
     pub fn open(address: &str) -> Self {
@@ -130,7 +131,7 @@ impl Page {
         request.headers_mut().insert("Origin", format!("http://{host}").parse().unwrap());
         let stream = TcpStream::connect(host).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
-        let (socket, _) = client(request, stream).unwrap();
+        let (socket, _) = client(request, Steady(stream)).unwrap();
         let mut page = Self(socket);
         page.say(token);
         page

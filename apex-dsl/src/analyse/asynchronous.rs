@@ -59,8 +59,7 @@ impl Asynchronous {
         let slots: Vec<ConnectionId> = graph.connections.ids().filter(to_slot).collect();
         let single =
             count_calls(&slots, &causes) <= MOST_UNQUEUED && is_single(graph, catalog, links, &slots, &causes, regions);
-        let mut may_block = may_block(graph, links, &slots);
-        live.iter_enumerated().filter(|(_, live)| !**live).for_each(|(c, _)| may_block[c] = false);
+        let mut may_block = may_block(graph, links, &slots, &live);
         if single {
             slots.iter().for_each(|c| may_block[*c] = false);
         }
@@ -178,26 +177,41 @@ fn sent_with_activity(graph: &Graph, node: NodeId) -> Vec<ConnectionId> {
 
 /// For each connection, `true` if it may stay occupied.
 ///
-/// A slot is served at once if all events of its node lead to slots that are served at once. The search starts at nodes
-/// without events, the ends of chains, and proceeds upstream. It never finds the nodes on a cycle of events.
-fn may_block(graph: &Graph, links: &Links, slots: &[ConnectionId]) -> IdVec<ConnectionId, bool> {
+/// A slot is served at once if all events that its call may trigger lead to slots that are served at once: those of its
+/// node, and for `reset` and `cancel` those of other nodes. The search starts at nodes without events, the ends of
+/// chains, and proceeds upstream. It never finds the nodes on a cycle of events.
+fn may_block(
+    graph: &Graph,
+    links: &Links,
+    slots: &[ConnectionId],
+    live: &IdVec<ConnectionId, bool>,
+) -> IdVec<ConnectionId, bool> {
     let consumers = graph.nodes.ids();
-    let mut waits: IdVec<NodeId, usize> = consumers.clone().map(|n| events(graph, links, n).count()).collect();
+    let mut waiting: BTreeMap<ConnectionId, Vec<NodeId>> = BTreeMap::new();
+    let mut waits: IdVec<NodeId, usize> = IdVec::from_elem(0, graph.nodes.len());
+    for node in consumers.clone() {
+        let others = sent_with_activity(graph, node).into_iter().filter(|c| live[*c]);
+        for connection in events(graph, links, node).chain(others) {
+            waiting.entry(connection).or_default().push(node);
+            waits[node] += 1;
+        }
+    }
     let mut into: BTreeMap<NodeId, Vec<ConnectionId>> = BTreeMap::new();
     for &index in slots {
         into.entry(graph.connections[index].to.node).or_default().push(index);
     }
     let leaves_program = |node: NodeId| matches!(graph.nodes[node].kind, NodeKind::Boundary(_));
-    let mut may_block: IdVec<ConnectionId, bool> = graph.connections.iter().map(|c| !graph.is_synchronous(c)).collect();
+    let connections = graph.connections.iter().zip(live);
+    let mut may_block: IdVec<ConnectionId, bool> =
+        connections.map(|(c, live)| *live && !graph.is_synchronous(c)).collect();
     let mut served: Vec<NodeId> = consumers.filter(|n| waits[*n] == 0 && !leaves_program(*n)).collect();
     while let Some(node) = served.pop() {
         for &index in into.get(&node).into_iter().flatten() {
             may_block[index] = false;
-            let from = graph.connections[index].from;
-            if graph.port(from).kind == PortKind::Event {
-                waits[from.node] -= 1;
-                if waits[from.node] == 0 {
-                    served.push(from.node);
+            for &node in waiting.get(&index).into_iter().flatten() {
+                waits[node] -= 1;
+                if waits[node] == 0 {
+                    served.push(node);
                 }
             }
         }

@@ -79,7 +79,7 @@ impl Catalog {
             Some(first) if self.is_crate(first) && !self.may_hide(parent) => {
                 Constant::Missing(self.names_in(parent).into_iter().map(str::to_owned).collect())
             }
-            Some(first) if self.is_crate(first) || self.is_extern(first) => unknown(),
+            Some(first) if self.knows_crate(first) => unknown(),
             _ => Constant::Missing(vec![]),
         }
     }

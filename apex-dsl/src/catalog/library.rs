@@ -76,6 +76,25 @@ pub fn is_standard(name: &str) -> bool {
     super::STD.contains(&name) || name.split("::").next().is_some_and(|krate| STANDARD.contains(&krate))
 }
 
+/// Name of a listed type in its crate, which is the same whichever crate of the standard library it is taken from. Such
+/// a type is an alias of no other one.
+pub fn name_of_listed(path: &str) -> Option<&'static str> {
+    if let Some(name) = super::STD.into_iter().find(|name| *name == path) {
+        return Some(name);
+    }
+    let (krate, name) = path.split_once("::")?;
+    listed(krate, name).map(|(name, ..)| name)
+}
+
+/// The entry of a type of a crate, with the smallest and largest number of its type arguments.
+fn listed(krate: &str, name: &str) -> Option<(&'static str, usize, usize)> {
+    match krate {
+        RUNTIME => RUNTIME_TYPES.into_iter().find(|listed| *listed == name).map(|name| (name, 0, 0)),
+        _ if STANDARD.contains(&krate) => TYPES.into_iter().find(|(listed, ..)| *listed == name),
+        _ => None,
+    }
+}
+
 /// Name without a path of a type that needs no import.
 pub fn short(path: &[String]) -> Option<&'static str> {
     let [krate, _, name] = path else { return None };
@@ -86,11 +105,7 @@ pub fn short(path: &[String]) -> Option<&'static str> {
 /// Smallest and largest number of type arguments of a listed type.
 pub fn type_arguments(path: &[String]) -> Option<(usize, usize)> {
     let (krate, rest) = path.split_first()?;
-    let rest = rest.join("::");
-    if krate == RUNTIME {
-        return RUNTIME_TYPES.contains(&rest.as_str()).then_some((0, 0));
-    }
-    TYPES.iter().find(|(name, ..)| *name == rest).map(|(_, fewest, most)| (*fewest, *most))
+    listed(krate, &rest.join("::")).map(|(_, fewest, most)| (fewest, most))
 }
 
 /// Looks up the constant that a path names in one of these crates.

@@ -339,6 +339,30 @@ impl Catalog {
             || self.crates.own.iter().any(|own| self.crates.all[*own].externs.contains(name))
     }
 
+    /// Returns `true` if generated code can name a crate: one of the standard library, or on which the package depends.
+    pub fn knows_crate(&self, name: &str) -> bool {
+        self.is_crate(name) || self.is_extern(name)
+    }
+
+    /// Returns `true` if generated code can name all crates of a type.
+    pub fn can_name(&self, ty: &Type) -> bool {
+        self.foreign_crate(ty).is_none()
+    }
+
+    /// A crate of a type that the package does not depend on: only a library that it uses does.
+    pub fn foreign_crate<'t>(&self, ty: &'t Type) -> Option<&'t str> {
+        let of_all = |types: &'t [Type]| types.iter().find_map(|ty| self.foreign_crate(ty));
+        match ty {
+            Type::Named(name, args) => {
+                let krate = name.split_once("::").map(|(krate, _)| krate);
+                krate.filter(|name| *name != "apex_rt" && !self.knows_crate(name)).or_else(|| of_all(args))
+            }
+            Type::Def(_, _, args) | Type::Tuple(args) => of_all(args),
+            Type::Array(inner, _) | Type::Ref(inner) | Type::Measured(inner, _) => self.foreign_crate(inner),
+            Type::Primitive(_) | Type::Alias(..) | Type::Param(_) | Type::Unknown(_) => None,
+        }
+    }
+
     /// Returns `true` if the crate of the program has no preludes, and so no attributes of tools.
     pub fn lacks_prelude(&self) -> bool {
         self.tree.does_without.get(self.crates.here).is_some_and(|without| without.lacks_prelude)

@@ -119,6 +119,14 @@ impl Type {
         matches!(self.without_unit(), Self::Primitive(name) if name.starts_with(['i', 'u']))
     }
 
+    /// Number of bits of the integers in which those of this type are computed with.
+    pub fn wide_bits(&self) -> u32 {
+        match self.name() {
+            "u8" | "u16" | "u32" | "i8" | "i16" | "i32" => 64,
+            _ => 128,
+        }
+    }
+
     /// Part of the Rust libraries that the type needs, and the type in it that is the reason.
     pub fn needs(&self) -> Option<(Need, String)> {
         let of_all = |types: &[Self]| types.iter().filter_map(Self::needs).max_by_key(|(need, _)| *need);
@@ -164,7 +172,7 @@ impl Type {
                 _ => Match::Unknown,
             },
             // A path into a crate that is not scanned may be an alias of the other type.
-            (Named(name, _), _) | (_, Named(name, _)) if !STD.contains(&name.as_str()) => Match::Unknown,
+            (Named(name, _), _) | (_, Named(name, _)) if library::name_of_listed(name).is_none() => Match::Unknown,
             _ => Match::Different,
         }
     }
@@ -259,12 +267,14 @@ impl Match {
 }
 
 /// Compares two named types. Paths into crates that are not scanned may be aliases of each other, so only lists and the
-/// types of [`STD`] are known to be different.
+/// types that are listed are known to be different.
 fn named(a: &str, x: &[Type], b: &str, y: &[Type]) -> Match {
-    let known = |name: &str| STD.contains(&name) || LISTS.contains(&name);
-    match all(x, y) {
-        args if a == b && (known(a) || args == Match::Same) => args,
-        _ if a != b && known(a) && known(b) => Match::Different,
+    let known = |name| LISTS.into_iter().find(|list| *list == name).or_else(|| library::name_of_listed(name));
+    let args = all(x, y);
+    match (known(a), known(b)) {
+        (Some(a), Some(b)) if a != b => Match::Different,
+        (Some(_), Some(_)) => args,
+        _ if a == b && args == Match::Same => args,
         _ => Match::Unknown,
     }
 }

@@ -6,7 +6,7 @@ use crate::{
     source::{FileId, Sources, Span},
     syntax::{
         tokens::{TokenKind, tokens},
-        tree::{Chain, File, GraphItem, Ident, PortKind},
+        tree::{Chain, File, GraphItem, Ident, PortKind, Use},
     },
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -37,16 +37,7 @@ pub fn check_unused(id: FileId, file: &File, sources: &Sources, diagnostics: &mu
     }
     let text = &sources.get(id).text;
     let words = Words::of(text);
-    for import in &file.uses {
-        let last = import.path.last().unwrap_or(&import.name);
-        // Each part of its path is a word of the import.
-        let own: Vec<u32> = import.path.iter().chain([&import.name]).map(|word| word.span.start).collect();
-        let mut places = words.0.get(import.name.text.as_str()).into_iter().flatten();
-        if places.all(|at| own.contains(at)) {
-            let message = format!("`{}` is imported, and not used", import.name.text);
-            diagnostics.push(Diagnostic::warning("not-used", last.span, message).note("remove it from the import"));
-        }
-    }
+    check_imports(file, &words, diagnostics);
     check_graphs(file, &words, diagnostics);
     // A variant may connect what its base leaves open.
     let bases = file.graphs.iter().filter_map(|graph| Some(graph.base.as_ref()?.segments.last()?.text.as_str()));
@@ -61,6 +52,27 @@ pub fn check_unused(id: FileId, file: &File, sources: &Sources, diagnostics: &mu
         if !graph.chains.iter().any(has_wildcard) {
             check_ports(graph, &words, diagnostics);
         }
+    }
+}
+
+/// Warns of names that are imported, and not used: once for those of an item `use`.
+fn check_imports(file: &File, words: &Words<'_>, diagnostics: &mut Diagnostics) {
+    let is_unused = |import: &&Use| {
+        // Each part of its path is a word of the import.
+        let own: Vec<u32> = import.path.iter().chain([&import.name]).map(|word| word.span.start).collect();
+        let mut places = words.0.get(import.name.text.as_str()).into_iter().flatten();
+        places.all(|at| own.contains(at))
+    };
+    let unused: Vec<&Use> = file.uses.iter().filter(is_unused).collect();
+    let item = |import: &Use| import.path.first().unwrap_or(&import.name).span;
+    for unused in unused.chunk_by(|a, b| item(a) == item(b)) {
+        let names = unused.iter().map(|import| format!("`{}`", import.name.text));
+        let (verb, them) = if unused.len() == 1 { ("is", "it") } else { ("are", "them") };
+        let message = format!("{} {verb} imported, and not used", names.collect::<Vec<_>>().join(", "));
+        let mut places = unused.iter().map(|import| import.name.span);
+        let Some(first) = places.next() else { continue };
+        let warning = Diagnostic::warning("not-used", first, message).note(format!("remove {them} from the import"));
+        diagnostics.push(places.fold(warning, |warning, place| warning.also(place, "not used")));
     }
 }
 

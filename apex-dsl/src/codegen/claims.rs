@@ -8,7 +8,8 @@ use super::{
 };
 use crate::{
     claims::Decided,
-    program::{Broken, ClaimCheck, Spot},
+    graph::ScopeId,
+    program::{ActiveScope, Broken, ClaimCheck, Spot},
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -73,9 +74,12 @@ impl Generator<'_> {
         if scopes.is_empty() {
             return quote!();
         }
-        let arms = scopes.iter().map(|(scope, spots)| {
-            let (index, active) = (scope.index() - 1, self.any(spots));
-            quote! { #index => #active, }
+        let number = |scope: &ScopeId| Literal::usize_unsuffixed(scope.index() - 1);
+        let arms = scopes.iter().map(|ActiveScope { scope, own, inner }| {
+            let inner = inner.iter().map(number).map(|inner| quote!(self.is_graph_active(#inner)));
+            let own = (!own.is_empty()).then(|| self.any(own));
+            let (number, active) = (number(scope), own.into_iter().chain(inner));
+            quote! { #number => #(#active)||*, }
         });
         quote! {
             fn is_graph_active(&self, graph: usize) -> bool {

@@ -22,8 +22,8 @@ pub fn holds(condition: &Condition, ty: &Type) -> TokenStream {
 
 /// The type in which tokens of type `ty` are computed with.
 fn width(ty: &Type) -> TokenStream {
-    match ty.name() {
-        "u8" | "u16" | "u32" | "i8" | "i16" | "i32" => quote!(::core::primitive::i64),
+    match ty.wide_bits() {
+        64 => quote!(::core::primitive::i64),
         _ => quote!(::core::primitive::i128),
     }
 }

@@ -90,6 +90,7 @@ impl Generator<'_> {
             }
         }
         code.extend(self.expire_functions(view));
+        code.extend(self.patience_functions(view));
         if view.program.lower.has_start() {
             let begin = self.ops(view, &view.program.first);
             code.extend(quote! {

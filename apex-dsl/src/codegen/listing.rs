@@ -5,7 +5,7 @@ use super::{Generator, activity::ProgramView, each_part};
 use crate::{
     catalog::Catalog,
     checked::CheckedProgram,
-    program::{Carries, Lines, Silence, Slot, Timeout, numbers},
+    program::{Carries, Lines, Slot, Timeout, numbers},
     source::Sources,
 };
 
@@ -100,9 +100,9 @@ fn list_timers(lines: &mut Lines<'_>, view: ProgramView<'_>) {
         lines.add(&format!("timeout {number}: {} {stays} for {after:?}{needs}", view.graph.path(*node)));
         lines.inside(|lines| lines.ops(&view.program.timeouts[number]));
     }
-    for (number, Silence { guard, nodes, .. }) in view.wiring.silences.iter().enumerate() {
-        let nodes: Vec<String> = nodes.iter().map(|node| view.graph.path(*node)).collect();
-        let guard = view.analysis.guards[*guard].text(view.graph);
+    for (number, silence) in view.wiring.silences.iter().enumerate() {
+        let nodes: Vec<String> = view.wiring.missed_by(silence).map(|node| view.graph.path(node)).collect();
+        let guard = view.analysis.guards[silence.guard].text(view.graph);
         lines.add(&format!("silence {number} of {guard}: ⊥ after the time of {}", nodes.join(", ")));
     }
 }

@@ -100,7 +100,7 @@ impl Writer<'_> {
             Op::Set(flag, value) => generator.set(*flag, *value),
             Op::ForgetTokens => {
                 let sets = generator.activity_state(view).into_iter().map(|kept| kept.name);
-                let sets = sets.filter(|name| ["gains", "loses", "carries"].iter().any(|set| name == set));
+                let sets = sets.filter(|name| ["gains", "carries"].iter().any(|set| name == set));
                 quote! { #(core.#sets = ::apex_rt::Bits::NONE;)* }
             }
             Op::ForgetCancelled(node) => {

@@ -170,7 +170,12 @@ impl Generator<'_> {
         let body = match self.channels {
             None => quote!(#react),
             Some(_) => quote! {
-                if let Some(tap) = ::apex_rt::Observer::tap(observer) { tap.begin(now); tap.set_params(self); #before }
+                let ends_early = observer.ends_early();
+                if let Some(tap) = ::apex_rt::Observer::tap(observer) {
+                    tap.begin(now, ends_early);
+                    tap.set_params(self);
+                    #before
+                }
                 let next = #react;
                 if let Some(tap) = ::apex_rt::Observer::tap(observer) { tap.keep_params(self); #after tap.end(); }
                 next

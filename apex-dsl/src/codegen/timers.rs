@@ -120,26 +120,66 @@ impl Generator<'_> {
 
     /// Duration of a silence: the shortest of its nodes.
     fn silence(&self, view: ProgramView<'_>, silence: &Silence) -> TokenStream {
-        let times = silence.nodes.iter().filter_map(|&node| {
-            let parameter = silence_parameter(view.graph, self.catalog, node)?;
-            let place = self.node_place(view.graph, node);
-            let parameter = Literal::usize_unsuffixed(parameter);
-            Some(quote!(::apex_rt::endured::<#parameter, _>(&mut #place)))
+        let times = silence.groups.iter().map(|group| match view.wiring.patience[*group].as_slice() {
+            [node] => self.patience(view, *node),
+            _ => {
+                let name = patience_of(*group);
+                quote!(Self::#name(nodes))
+            }
         });
         times
             .reduce(|shortest, next| quote!(#shortest.min(#next)))
             .unwrap_or_else(|| self.bug(view.graph.nodes[NodeId::from(0)].span, "a silence has no node"))
     }
 
+    /// Functions for the groups of nodes that miss the same tokens: how long they do without them.
+    pub fn patience_functions(&self, view: ProgramView<'_>) -> TokenStream {
+        let several = view.wiring.patience.iter().enumerate().filter(|(_, nodes)| nodes.len() > 1);
+        let functions = several.map(|(group, nodes)| {
+            let (name, ty) = (patience_of(group), self.nodes_type(view));
+            let times = nodes.iter().map(|node| self.patience(view, *node));
+            quote! {
+                fn #name(nodes: &mut #ty) -> ::core::time::Duration {
+                    let times = [#(#times),*];
+                    times.into_iter().fold(::core::time::Duration::MAX, ::core::cmp::Ord::min)
+                }
+            }
+        });
+        functions.collect()
+    }
+
+    /// Time for which a node does without a token.
+    fn patience(&self, view: ProgramView<'_>, node: NodeId) -> TokenStream {
+        let Some(parameter) = silence_parameter(view.graph, self.catalog, node) else {
+            return self.bug(view.graph.nodes[node].span, "a node that misses tokens has no `silence`");
+        };
+        let (place, parameter) = (self.node_place(view.graph, node), Literal::usize_unsuffixed(parameter));
+        quote!(::apex_rt::endured::<#parameter, _>(&mut #place))
+    }
+
     /// Silences that have lasted too long: ⊥ takes the place of the tokens that did not come.
     pub fn silences_end(&self, view: ProgramView<'_>) -> TokenStream {
-        let ends = view.wiring.silences.iter().enumerate().map(|(index, silence)| match &silence.entry {
-            Entry::Input { raises } => quote! {
-                if quiet && self.core.silences[#index].is_due(at) && !self.core.dispatcher.has(#raises) {
-                    self.core.dispatcher.raise(#raises);
-                    quiet = false;
-                }
-            },
+        let is_input = |silence: &Silence| matches!(silence.entry, Entry::Input { .. });
+        let silences: Vec<(usize, &Silence)> = view.wiring.silences.iter().enumerate().collect();
+        let runs = silences.chunk_by(|(_, a), (_, b)| is_input(a) && is_input(b));
+        let ends = runs.map(|run| match run {
+            [(index, silence)] => self.silence_ends(view, *index, silence),
+            inputs => {
+                let raises = inputs.iter().filter_map(|(_, silence)| match silence.entry {
+                    Entry::Input { raises } => Some(Literal::usize_unsuffixed(raises)),
+                    Entry::Connection { .. } => None,
+                });
+                let first = Literal::usize_unsuffixed(inputs[0].0);
+                let ends = silence_of_input(&quote!(silence), &quote!(bit));
+                quote! { for (silence, bit) in (#first..).zip([#(#raises),*]) { #ends } }
+            }
+        });
+        ends.collect()
+    }
+
+    fn silence_ends(&self, view: ProgramView<'_>, index: usize, silence: &Silence) -> TokenStream {
+        match &silence.entry {
+            Entry::Input { raises } => silence_of_input(&quote!(#index), &quote!(#raises)),
             Entry::Connection { connection, raises, occupies, free } => {
                 let (clear, stamp) = self.absent_on(view, *connection);
                 quote! {
@@ -152,8 +192,7 @@ impl Generator<'_> {
                     }
                 }
             }
-        });
-        ends.collect()
+        }
     }
 
     /// Puts ⊥ on an asynchronous connection, with the time of the instant as its stamp.
@@ -284,4 +323,19 @@ impl Generator<'_> {
         let docs = format!(" `{word}` of `{}`, {}.", graph.path(*node), self.line(graph.nodes[*node].span));
         Arm { number: index, docs, code: self.ops(view, &view.program.timeouts[index]) }
     }
+}
+
+/// Code for a silence at an input that has lasted too long, by its number and its condition.
+fn silence_of_input(silence: &TokenStream, bit: &TokenStream) -> TokenStream {
+    quote! {
+        if quiet && self.core.silences[#silence].is_due(at) && !self.core.dispatcher.has(#bit) {
+            self.core.dispatcher.raise(#bit);
+            quiet = false;
+        }
+    }
+}
+
+/// Name of the function for a group of nodes that miss the same tokens.
+fn patience_of(group: usize) -> Ident {
+    format_ident!("patience_{group}")
 }

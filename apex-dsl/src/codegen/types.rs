@@ -31,7 +31,7 @@ pub fn ident(name: &str) -> Ident {
     plain.unwrap_or_else(|| Ident::new_raw(name, span))
 }
 
-/// The type as Rust, if the scan has seen all of it.
+/// The type as Rust, if the scan has seen all of it, and generated code can name it.
 pub fn to_rust(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
     let all = |types: &[Type]| types.iter().map(|t| to_rust(t, catalog)).collect::<Option<Vec<_>>>();
     let with = |head: TokenStream, args: &[Type]| {
@@ -45,7 +45,8 @@ pub fn to_rust(ty: &Type, catalog: &Catalog) -> Option<TokenStream> {
             "String" => Some(quote!(::std::string::String)),
             "Box" => with(quote!(::std::boxed::Box), args),
             "Option" => with(quote!(::core::option::Option), args),
-            _ => with(format!("::{name}").parse().ok()?, args),
+            _ if catalog.can_name(ty) => with(format!("::{name}").parse().ok()?, args),
+            _ => None,
         },
         Type::Measured(number, _) => to_rust(number, catalog),
         Type::Alias(def, ..) => Some(path(catalog.path(*def)?)),
@@ -74,8 +75,8 @@ impl Generator<'_> {
         let args = library.types.iter().map(|arg| match arg {
             TypeArg::Known(ty) => to_rust(ty, self.catalog).unwrap_or_else(|| quote!(_)),
             TypeArg::Verbatim(ty, text) => to_rust(ty, self.catalog).unwrap_or_else(|| self.parsed(graph, text)),
-            TypeArg::TokenOf(end) => self.token_type(graph, *end),
-            TypeArg::ItemOf(end) => {
+            TypeArg::TokenOf(end, _) => self.token_type(graph, *end),
+            TypeArg::ItemOf(end, _) => {
                 let list = self.token_type(graph, *end);
                 quote!(<#list as ::apex_rt::List>::Item)
             }
@@ -195,7 +196,7 @@ impl Generator<'_> {
             let index = signature.generics.iter().position(|g| g == name)?;
             match library.types.get(index)? {
                 TypeArg::Known(ty) | TypeArg::Verbatim(ty, _) => Some(ty.clone()),
-                TypeArg::Open | TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => None,
+                TypeArg::Open | TypeArg::TokenOf(..) | TypeArg::ItemOf(..) => None,
             }
         };
         signature.params[param].ty.substitute(&known)

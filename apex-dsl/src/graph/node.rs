@@ -195,10 +195,10 @@ pub enum TypeArg {
     Known(Type),
     /// A type that is written in the source file, and its Rust code.
     Verbatim(Type, String),
-    /// The type of the tokens at this port, which only rustc can spell.
-    TokenOf(PortId),
-    /// The element type of the lists at this port.
-    ItemOf(PortId),
+    /// The type of the tokens at this port, which generated code cannot spell, as far as it is known.
+    TokenOf(PortId, Type),
+    /// The element type of the lists at this port, as far as it is known.
+    ItemOf(PortId, Type),
 }
 
 /// A nested graph that runs once per element of a list.

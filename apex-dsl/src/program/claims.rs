@@ -4,7 +4,8 @@
 use super::{Carries, Flag, Lower};
 use crate::{
     claims::{Checks, FROM, Model, NEARER, Place, PlaceId, scopes_of},
-    graph::{ClaimKind, NodeId, ScopeId},
+    graph::{ClaimKind, Graph, NodeId, ScopeId},
+    index::IdVec,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -39,6 +40,23 @@ pub enum Broken {
     Never,
 }
 
+/// A nested graph that can be active: if one of its places has activity, or if a graph in it is active.
+#[derive(Debug)]
+pub struct ActiveScope {
+    /// The nested graph.
+    pub scope: ScopeId,
+    /// Places that belong to no graph in it.
+    pub own: Vec<Spot>,
+    /// Graphs in it that can be active.
+    pub inner: Vec<ScopeId>,
+}
+
+impl ActiveScope {
+    fn new(scope: ScopeId) -> Self {
+        Self { scope, own: vec![], inner: vec![] }
+    }
+}
+
 /// Places, with those of the model that each stands for.
 type Spots = BTreeMap<Spot, BTreeSet<PlaceId>>;
 
@@ -65,20 +83,26 @@ impl Lower<'_> {
         undecided.into_iter().map(check).collect()
     }
 
-    /// For each nested graph, the places whose activity is in it. Empty if nothing is ever active.
-    pub fn active_scopes(self) -> Vec<(ScopeId, Vec<Spot>)> {
+    /// The nested graphs that can be active.
+    pub fn active_scopes(self) -> Vec<ActiveScope> {
         let graph = self.graph;
         if self.analysis.active.is_empty() || graph.scopes.len() == 1 {
             return vec![];
         }
         let model = Model::new(graph, self.catalog);
-        let spots = self.spots(&model);
-        let nested = graph.nested().map(|scope| {
-            let inside = (0..).zip(&model.places).filter(|(_, place)| scopes_of(graph, **place).contains(&scope));
-            let inside: Vec<PlaceId> = inside.map(|(id, _)| id).collect();
-            (scope, within(&spots, &inside))
-        });
-        nested.collect()
+        let mut scopes: IdVec<ScopeId, ActiveScope> = graph.scopes.ids().map(ActiveScope::new).collect();
+        for (spot, places) in self.spots(&model) {
+            let places = places.into_iter().map(|place| model.places[place as usize]);
+            scopes[innermost(graph, places)].own.push(spot);
+        }
+        // Those around a graph have smaller numbers.
+        for scope in graph.nested().collect::<Vec<_>>().into_iter().rev() {
+            if !scopes[scope].own.is_empty() || !scopes[scope].inner.is_empty() {
+                scopes[graph.scopes[scope].parent].inner.insert(0, scope);
+            }
+        }
+        let nested = scopes.into_iter().skip(1);
+        nested.filter(|scope| !scope.own.is_empty() || !scope.inner.is_empty()).collect()
     }
 
     /// Places of activity.
@@ -97,6 +121,15 @@ impl Lower<'_> {
         }
         spots
     }
+}
+
+/// The innermost graph that has all of these places.
+fn innermost(graph: &Graph, places: impl Iterator<Item = Place>) -> ScopeId {
+    let common = places.map(|place| scopes_of(graph, place)).reduce(|mut common, of| {
+        common.retain(|scope| of.contains(scope));
+        common
+    });
+    common.and_then(|common| common.first().copied()).unwrap_or(ScopeId::TOP)
 }
 
 /// Those that stand for some of `places`, and for no others.

@@ -23,14 +23,14 @@ mod wiring;
 use crate::{
     analyse::ClusterId,
     catalog::ArgSig,
-    graph::{Node, NodeKind, PortId, ScopeId},
+    graph::{Node, NodeKind, PortId},
     index::IdVec,
 };
 use std::collections::BTreeMap;
 
 pub use bits::{Bits, ClusterRow, MissingRow};
 pub use carries::Carries;
-pub use claims::{Broken, ClaimCheck, Spot};
+pub use claims::{ActiveScope, Broken, ClaimCheck, Spot};
 pub use fire::{Arg, Call, CallResult, Deadline, Failing, Fire, ParamOutput, SlotCall};
 pub use lower::Lower;
 pub use op::{Cancel, Op, Ops, Served, Taken};
@@ -65,8 +65,8 @@ pub struct Program<'a> {
     pub reaction: Reaction,
     /// The claims that are looked at while it runs.
     pub claims: Vec<ClaimCheck>,
-    /// For each nested graph, the places whose activity is in it. Empty if nothing is ever active.
-    pub scopes: Vec<(ScopeId, Vec<Spot>)>,
+    /// The nested graphs that can be active.
+    pub scopes: Vec<ActiveScope>,
 }
 
 /// A program in the making.

@@ -93,7 +93,7 @@ impl<'p> Lines<'p> {
                 let line = format!("{} {}", if *value { "set" } else { "clear" }, self.flag(*flag));
                 self.add(&line);
             }
-            Op::ForgetTokens => self.add("clear gains, loses, carries"),
+            Op::ForgetTokens => self.add("clear gains, carries"),
             Op::ForgetCancelled(node) => self.add(&format!("forget {}", path(*node))),
             Op::GiveBack { interrupt, node, then } => {
                 self.with(&format!("if {} remembers {}", path(*interrupt), path(*node)), then);

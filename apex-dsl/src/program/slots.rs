@@ -152,8 +152,9 @@ impl Lowering<'_> {
             ops.extend(self.deliver(&self.lower.links.sends[node]));
             return ops;
         }
-        ops.extend(self.clear_events(node));
-        ops.extend(self.trigger(node, Standard::Timeout));
+        let timeout = self.lower.standard_event(node, Standard::Timeout);
+        ops.extend(self.clear(node, &|end| Some(end) != timeout));
+        ops.extend(timeout.map(Op::Trigger));
         ops.extend(self.leave(node, &|end| {
             let sent = matches!(graph.port(end).standard, Some(Standard::Timeout | Standard::Deactivated));
             sent && self.lower.is_sent_event(end)

@@ -106,8 +106,8 @@ pub struct Silence {
     pub guard: usize,
     /// Place at which the token is missed.
     pub entry: Entry,
-    /// The nodes that must be called then.
-    pub nodes: Vec<NodeId>,
+    /// The groups of nodes that must be called then, by their numbers in [`Wiring::patience`].
+    pub groups: Vec<usize>,
 }
 
 /// Place of the token that did not come.
@@ -139,6 +139,8 @@ pub struct Wiring {
     pub timeouts: Vec<Timeout>,
     /// The silences, in the order of their guards.
     pub silences: Vec<Silence>,
+    /// Groups of nodes that miss the same tokens. Each node has a time for which it does without.
+    pub patience: Vec<Vec<NodeId>>,
     /// Slot tokens may wait for one another forever, which the program then reports.
     pub may_get_stuck: bool,
 }
@@ -185,18 +187,19 @@ impl Wiring {
             Timeout { node, wait, after, needs }
         });
         let timeouts = timeouts.collect();
-        let silences = analysis.silences.iter().filter_map(|silence| {
-            let (guard, nodes) = (silence.guard, silence.nodes.clone());
-            Some(Silence { guard, entry: entry(graph, analysis, &bits, guard)?, nodes })
-        });
-        let silences = silences.collect();
+        let (silences, patience) = silences(graph, analysis, &bits);
         let may_get_stuck = may_get_stuck(graph, analysis);
-        Self { bits, nodes, ports, slots, timers, timeouts, silences, may_get_stuck }
+        Self { bits, nodes, ports, slots, timers, timeouts, silences, patience, may_get_stuck }
     }
 
     /// The number of the silence of a guard.
     pub fn silence(&self, guard: usize) -> Option<usize> {
         self.silences.binary_search_by_key(&guard, |silence| silence.guard).ok()
+    }
+
+    /// The nodes that must be called when a silence has lasted too long.
+    pub fn missed_by(&self, silence: &Silence) -> impl Iterator<Item = NodeId> {
+        silence.groups.iter().flat_map(|group| &self.patience[*group]).copied()
     }
 
     /// The number of a source's timer.
@@ -243,6 +246,27 @@ impl Wiring {
     pub fn of(&self, node: NodeId) -> &[Port] {
         self.ports.get(&node).map_or(&[], Vec::as_slice)
     }
+}
+
+/// The silences, and the groups of nodes that miss the same tokens.
+fn silences(graph: &Graph, analysis: &Analysis, bits: &Bits) -> (Vec<Silence>, Vec<Vec<NodeId>>) {
+    let missed = analysis.silences.iter().filter_map(|silence| {
+        let entry = entry(graph, analysis, bits, silence.guard)?;
+        Some((Silence { guard: silence.guard, entry, groups: vec![] }, &silence.nodes))
+    });
+    let (mut silences, nodes): (Vec<Silence>, Vec<&Vec<NodeId>>) = missed.unzip();
+    let mut misses: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
+    for (silence, nodes) in nodes.into_iter().enumerate() {
+        nodes.iter().for_each(|node| misses.entry(*node).or_default().push(silence));
+    }
+    let mut groups: BTreeMap<Vec<usize>, Vec<NodeId>> = BTreeMap::new();
+    for (node, silences) in misses {
+        groups.entry(silences).or_default().push(node);
+    }
+    for (group, missed) in groups.keys().enumerate() {
+        missed.iter().for_each(|silence| silences[*silence].groups.push(group));
+    }
+    (silences, groups.into_values().collect())
 }
 
 /// Place at which the token of a guard is missed.

@@ -36,6 +36,18 @@ pub fn infer(graph: &mut Graph, catalog: &Catalog, diagnostics: &mut Diagnostics
                     .note(format!("write it: `{}<{arguments}>(…)`", signature.name)),
             );
         }
+        let foreign = library.types.iter().find_map(|arg| match arg {
+            TypeArg::Known(ty) => Some((ty, catalog.foreign_crate(ty)?)),
+            _ => None,
+        });
+        if let Some((ty, krate)) = foreign.filter(|_| !signature.is_function) {
+            let message = format!(
+                "`{}` of `{ty}` needs the crate `{krate}`, on which the package does not depend",
+                signature.name
+            );
+            let error = Diagnostic::error("unknown-type", node.span, message);
+            diagnostics.push(error.note(format!("add it to the package: `cargo add {krate}`")));
+        }
     }
 }
 
@@ -111,9 +123,9 @@ fn settle_node(
                 let ty = graph.port(c.to).ty.without_unit().bind(name, &own);
                 ty.filter(|ty| !ty.is_open()).map(TypeArg::Known)
             } else if c.to.node == node {
-                argument_from(graph, name, c.to, c.from)
+                argument_from(graph, catalog, name, c.to, c.from)
             } else if c.from.node == node && !only_from_inputs {
-                argument_from(graph, name, c.from, c.to).filter(|arg| matches!(arg, TypeArg::Known(_)))
+                argument_from(graph, catalog, name, c.from, c.to).filter(|arg| matches!(arg, TypeArg::Known(_)))
             } else {
                 None
             }
@@ -132,25 +144,30 @@ fn settle_node(
 }
 
 /// The argument for `name` that follows from the connection between `mine`, whose type mentions `name`, and `other`.
-fn argument_from(graph: &Graph, name: &str, mine: PortId, other: PortId) -> Option<TypeArg> {
+fn argument_from(graph: &Graph, catalog: &Catalog, name: &str, mine: PortId, other: PortId) -> Option<TypeArg> {
     let pattern = graph.port(mine).ty.without_unit();
     let other = graph.origin(other);
     let known = match &graph.nodes[other.node].kind {
         NodeKind::Each(_) => Type::Unknown(String::new()),
         _ => graph.port(other).ty.clone(),
     };
-    match pattern.bind(name, &known) {
-        Some(ty) if !ty.is_open() => Some(TypeArg::Known(ty)),
-        // A node at the other end that is still open has to be settled first.
-        _ if is_open(graph, other.node) => None,
-        _ if graph.port(other).kind == PortKind::Input => None,
-        _ => match pattern {
-            Type::Param(param) if param == name => Some(TypeArg::TokenOf(other)),
-            Type::Named(..) if pattern.list_item() == Some(Type::Param(name.to_owned())) => {
-                Some(TypeArg::ItemOf(other))
-            }
-            _ => None,
-        },
+    let bound = pattern.bind(name, &known).filter(|ty| !ty.is_open());
+    if let Some(ty) = &bound
+        && catalog.can_name(ty)
+    {
+        return Some(TypeArg::Known(ty.clone()));
+    }
+    // A node at the other end that is still open has to be settled first.
+    if bound.is_none() && is_open(graph, other.node) || !graph.port(other).kind.sends() {
+        return bound.map(TypeArg::Known);
+    }
+    let known = |bound: Option<Type>| bound.unwrap_or_else(|| Type::Unknown(name.to_owned()));
+    match pattern {
+        Type::Param(param) if param == name => Some(TypeArg::TokenOf(other, known(bound))),
+        Type::Named(..) if pattern.list_item() == Some(Type::Param(name.to_owned())) => {
+            Some(TypeArg::ItemOf(other, known(bound)))
+        }
+        _ => bound.map(TypeArg::Known),
     }
 }
 
@@ -180,8 +197,9 @@ pub fn substitute_ports(ports: &mut [Port], signature: &Signature, types: &[Type
 fn known_argument(signature: &Signature, types: &[TypeArg], name: &str) -> Option<Type> {
     let index = signature.generics.iter().position(|g| g == name)?;
     match types.get(index)? {
-        TypeArg::Known(ty) | TypeArg::Verbatim(ty, _) => Some(ty.clone()),
-        TypeArg::TokenOf(_) | TypeArg::ItemOf(_) => Some(Type::Unknown(name.to_owned())),
+        TypeArg::Known(ty) | TypeArg::Verbatim(ty, _) | TypeArg::TokenOf(_, ty) | TypeArg::ItemOf(_, ty) => {
+            Some(ty.clone())
+        }
         TypeArg::Open => None,
     }
 }

@@ -11,6 +11,8 @@ use crate::{
 
 /// The node of the library that converts a number.
 const SCALE: &str = "apex_nodes::math::scale";
+/// The node of the library that sends `()` for each token.
+const SIGNAL: &str = "apex_nodes::flow::Signal";
 
 /// Code of the error for a connection from `sent` to `taken`.
 pub fn code(sent: &Type, taken: &Type) -> &'static str {
@@ -26,8 +28,10 @@ pub fn remedy(
     active: bool,
     catalog: &Catalog,
 ) -> Diagnostic {
+    let insert = |error, help, node| inserting(error, help, node, Arrow { active, span: arrow }, catalog);
     let Some((from, to)) = units(sent, taken) else {
-        return error.note("types are not converted implicitly: insert a node that converts the token");
+        let error = error.note("types are not converted implicitly: insert a node that converts the token");
+        return if taken.is_unit() { insert(error, "send the moment without the value", (SIGNAL, "")) } else { error };
     };
     if from.dimension != to.dimension {
         let (sent, taken) = (from.dimension.noun(), to.dimension.noun());
@@ -40,7 +44,7 @@ pub fn remedy(
     }
     // With a decimal point, because whole numbers are integers.
     let args = format!("factor = {factor:?}");
-    inserting(error, "insert the conversion", (SCALE, &args), Arrow { active, span: arrow }, catalog)
+    insert(error, "insert the conversion", (SCALE, &args))
 }
 
 /// Adds the fix that inserts a node behind an arrow, if there is one with this path.

@@ -546,9 +546,10 @@ pub fn suggest<'a>(error: Diagnostic, word: &Ident, candidates: impl Iterator<It
 /// Error about an import whose first segment is neither a crate nor a source file.
 fn unknown_crate(first: &Ident, catalog: &Catalog) -> Diagnostic {
     let message = format!("there is no crate or source file `{}`", first.text);
+    let name = &first.text;
     let note = format!(
-        "an import names a crate that depends on `apex-rt`, `crate` for this package, or a source file in the same folder (`{}.afg`)",
-        first.text
+        "an import names a crate on which the package depends (`cargo add {name}`), `crate` for this package, or a \
+         source file in the same folder (`{name}.afg`)"
     );
     suggest(
         Diagnostic::error("unknown-import", first.span, message).note(note),

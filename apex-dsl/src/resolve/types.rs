@@ -261,7 +261,12 @@ impl Checker<'_> {
         if !is_misspelt && !self.missing.insert(path.text()) {
             return;
         }
-        let note = "a type is built into Rust, imported (`use crate::Name;`), or written with its path";
+        let note = match full {
+            [krate, _, ..] if !self.catalog.knows_crate(krate) => {
+                format!("the package depends on no crate `{krate}`: add it with `cargo add {krate}`")
+            }
+            _ => "a type is built into Rust, imported (`use crate::Name;`), or written with its path".to_owned(),
+        };
         self.diagnostics.push(self.catalog.broken().fold(error.note(note), Diagnostic::note));
     }
 

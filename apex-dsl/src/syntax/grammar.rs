@@ -163,6 +163,7 @@ pub enum Rule {
     r#bad_stmt,
     r#misnamed,
     r#starts_stmt,
+    r#starts_port,
     r#bad_fsm,
     r#starts_fsm,
     r#bad_test,
@@ -333,6 +334,7 @@ impl Rule {
             Rule::r#bad_stmt,
             Rule::r#misnamed,
             Rule::r#starts_stmt,
+            Rule::r#starts_port,
             Rule::r#bad_fsm,
             Rule::r#starts_fsm,
             Rule::r#bad_test,
@@ -5717,7 +5719,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     self::r#node_kw(state)
                         .or_else(|state| { self::r#claim_kw(state) })
                         .or_else(|state| { self::r#record_kw(state) })
-                        .or_else(|state| { self::r#port_kind(state) })
+                        .or_else(|state| { self::r#starts_port(state) })
                         .or_else(|state| {
                             state
                                 .sequence(|state| {
@@ -5729,6 +5731,33 @@ impl ::pest::Parser<Rule> for Grammar {
                                 })
                         })
                         .or_else(|state| { self::r#doc(state) })
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#starts_port(
+                    state: ::alloc::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::alloc::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .sequence(|state| {
+                            self::r#port_kind(state)
+                                .and_then(|state| { super::hidden::skip(state) })
+                                .and_then(|state| { self::r#name(state) })
+                                .and_then(|state| { super::hidden::skip(state) })
+                                .and_then(|state| {
+                                    state
+                                        .lookahead(
+                                            false,
+                                            |state| {
+                                                state
+                                                    .match_string("-")
+                                                    .or_else(|state| { state.match_string("/") })
+                                                    .or_else(|state| { state.match_string(".") })
+                                            },
+                                        )
+                                })
+                        })
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -6662,6 +6691,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#bad_stmt => rules::r#bad_stmt(state),
                     Rule::r#misnamed => rules::r#misnamed(state),
                     Rule::r#starts_stmt => rules::r#starts_stmt(state),
+                    Rule::r#starts_port => rules::r#starts_port(state),
                     Rule::r#bad_fsm => rules::r#bad_fsm(state),
                     Rule::r#starts_fsm => rules::r#starts_fsm(state),
                     Rule::r#bad_test => rules::r#bad_test(state),

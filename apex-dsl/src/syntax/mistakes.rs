@@ -47,6 +47,7 @@ impl CommonMistake<'_> {
         let mistakes = [
             Self::number,
             Self::unit,
+            Self::frame,
             Self::reserved,
             Self::reference,
             Self::slash,
@@ -71,6 +72,11 @@ impl CommonMistake<'_> {
     /// The text before the place, without trailing blanks.
     fn before(&self) -> &str {
         self.text[..self.at].trim_end()
+    }
+
+    /// Returns `true` if the statement declares a port.
+    fn is_port(&self) -> bool {
+        matches!(word(self.text.trim_start()), "in" | "out" | "slot" | "event")
     }
 
     fn expects(&self, what: &str) -> bool {
@@ -120,6 +126,31 @@ impl CommonMistake<'_> {
         Some(error.fix("remove the space", self.span(before.len(), self.at), ""))
     }
 
+    /// Explains `in scan: Scan in;` and `in scan: Scan in base-link;`.
+    fn frame(&self) -> Option<Diagnostic> {
+        let is_frame = |before: &str| self.is_port() && before.contains(':') && before.trim_end().ends_with(" in");
+        if self.expects("a name") && is_frame(self.before()) {
+            let length = self.rest().chars().next().map_or(0, char::len_utf8);
+            let error = Diagnostic::error("syntax", self.here(length), "expected the name of a frame");
+            return Some(error.note("the frame of a port is written `in name: Type in base;`"));
+        }
+        let outside = |c: char| !c.is_ascii_alphanumeric() && c != '_';
+        let start = self.before().rfind(outside).map_or(0, |at| at + 1);
+        let length = self.rest().find(|c| outside(c) && !"-/.".contains(c))?;
+        let written = self.text[start..self.at + length].trim();
+        if !self.expects("`;`")
+            || !is_frame(&self.text[..start])
+            || length == 0
+            || written.contains(char::is_whitespace)
+        {
+            return None;
+        }
+        let frame = self.span(start, self.at + length);
+        let error = Diagnostic::error("syntax", frame, format!("the frame `{written}` must be in quotes"));
+        let error = error.note("a frame without quotes has letters, digits and `_`");
+        Some(error.fix("quote it", frame, format!("\"{written}\"")))
+    }
+
     /// Explains `node in = …`.
     fn reserved(&self) -> Option<Diagnostic> {
         let word = word(self.rest());
@@ -166,7 +197,6 @@ impl CommonMistake<'_> {
     /// Explains `node a Ramp()`, `in x u64`, `in x = u64`, `node a = Ramp;`.
     fn declaration(&self) -> Option<Diagnostic> {
         let first = word(self.text.trim_start());
-        let is_port = matches!(first, "in" | "out" | "slot" | "event");
         let named = !word(self.rest()).is_empty();
         if first == "node" && self.expects("`=`") && named {
             let error = Diagnostic::error("syntax", self.here(word(self.rest()).len()), "expected `=`");
@@ -176,7 +206,7 @@ impl CommonMistake<'_> {
                 "= ",
             ));
         }
-        if !is_port || !self.expects("`:`") {
+        if !self.is_port() || !self.expects("`:`") {
             return None;
         }
         const HOW: &str = "a port is written `in name: Type;`";

@@ -275,7 +275,7 @@ impl Recorder {
         self.channels[channel].role
     }
 
-    pub(super) fn begin(&mut self, now: Time) {
+    pub(super) fn begin(&mut self, now: Time, ends_early: bool) {
         self.now = now;
         self.lost = false;
         self.looks = 0;
@@ -286,6 +286,7 @@ impl Recorder {
         let sent = self.numbered(REACTION, self.reactions, |message| {
             message.u32(group);
             message.i64(now.as_nanos());
+            message.u8(u8::from(ends_early));
         });
         self.lost = !sent;
     }

@@ -109,6 +109,24 @@ enum Meaning {
     Token(usize),
 }
 
+/// Beginning of a recorded reaction.
+struct Beginning {
+    /// The thread group.
+    group: u32,
+    time: Time,
+    /// `true` if it ended after the first of the instants that had passed.
+    ends_early: bool,
+}
+
+impl Beginning {
+    fn read(message: &[u8]) -> Option<Self> {
+        let mut fields = Reader::new(message).ok()?;
+        let (group, time) = (fields.u32().ok()?, Time::from_nanos(fields.i64().ok()?));
+        // In older recordings, all did.
+        Some(Self { group, time, ends_early: bool::read(&mut fields).unwrap_or(true) })
+    }
+}
+
 /// Recorded inputs of one reaction.
 #[derive(Debug, Default)]
 struct Reaction {
@@ -136,8 +154,8 @@ pub struct Replay {
     channels: Vec<Channel>,
     source: Mcap,
     meanings: BTreeMap<u16, Option<Meaning>>,
-    /// Time of the next reaction, whose beginning was read already.
-    next: Option<Time>,
+    /// The next reaction, whose beginning was read already.
+    next: Option<Beginning>,
     /// Number and time of the reaction that was read last.
     read: (u32, Time),
     /// Time of the current reaction.
@@ -264,7 +282,7 @@ impl Replay {
     /// Returns the time of the first recorded reaction, if the program has to be led there: the recording begins in the
     /// middle of a run.
     pub(super) fn leads_in(&self) -> Option<Time> {
-        self.next.filter(|_| self.leads_in)
+        self.next.as_ref().filter(|_| self.leads_in).map(|next| next.time)
     }
 
     /// Ends the reactions before the first recorded one.
@@ -320,12 +338,14 @@ impl Replay {
     }
 
     /// Reads all inputs of the next reaction, up to the beginning of the one after it. Returns the time of the
-    /// reaction, or `None` at the end.
+    /// reaction, and `true` if it ended early where it was late; or `None` at the end.
     ///
     /// # Errors
     /// The file cannot be read.
-    pub(super) fn next_reaction(&mut self) -> Result<Option<Time>, io::Error> {
-        let Some(now) = self.next.take().filter(|_| !self.over) else { return Ok(None) };
+    pub(super) fn next_reaction(&mut self) -> Result<Option<(Time, bool)>, io::Error> {
+        let Some(Beginning { time: now, ends_early, .. }) = self.next.take().filter(|_| !self.over) else {
+            return Ok(None);
+        };
         self.now = now;
         self.reaction = Reaction::new(self.channels.len());
         self.load()?;
@@ -335,16 +355,16 @@ impl Replay {
         }
         self.report.reactions += 1;
         self.report.last = Some(now);
-        Ok(Some(now))
+        Ok(Some((now, ends_early)))
     }
 
     fn load(&mut self) -> io::Result<()> {
         while let Some(message) = self.source.next_message()? {
             match self.meaning(message.channel) {
-                Some(Meaning::Reaction) => match time_of(&message.data) {
-                    Some((group, _)) if !self.is_own(group) => {}
-                    Some((_, time)) => {
-                        self.follow(message.sequence, time);
+                Some(Meaning::Reaction) => match Beginning::read(&message.data) {
+                    Some(beginning) if !self.is_own(beginning.group) => {}
+                    Some(beginning) => {
+                        self.follow(message.sequence, beginning);
                         return Ok(());
                     }
                     None => self.source.damaged("the time of a reaction cannot be read"),
@@ -356,8 +376,9 @@ impl Replay {
         Ok(())
     }
 
-    /// Checks that a reaction follows the previous one, and stores its time.
-    fn follow(&mut self, number: u32, time: Time) {
+    /// Checks that a reaction follows the previous one, and stores its beginning.
+    fn follow(&mut self, number: u32, beginning: Beginning) {
+        let time = beginning.time;
         let (last, before) = mem::replace(&mut self.read, (number, time));
         // Older recordings do not number reactions.
         let ahead = match (number, self.source.files) {
@@ -371,7 +392,7 @@ impl Replay {
             return;
         }
         self.report.skipped += u64::from(ahead - 1);
-        self.next = Some(time);
+        self.next = Some(beginning);
     }
 
     /// Returns the meaning of the messages of a channel, which is stored for the next call.
@@ -586,12 +607,6 @@ impl Replay {
             compared.first = Some(Difference { index, time: self.now, was: shown(was), is: shown(is) });
         }
     }
-}
-
-/// Returns the group and the time of a reaction.
-fn time_of(reaction: &[u8]) -> Option<(u32, Time)> {
-    let mut fields = Reader::new(reaction).ok()?;
-    Some((fields.u32().ok()?, Time::from_nanos(fields.i64().ok()?)))
 }
 
 /// Returns the value of a parameter in TOML.

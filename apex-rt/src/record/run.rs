@@ -7,7 +7,7 @@ use super::{
 use crate::{
     Clock, Next, Observer, Ports, Program, StdErr, Time,
     instruments::{Instruments, Measured, Streams},
-    run::{drive_ports, pace_of_threads, react},
+    run::{drive_ports, pace_of_threads, react, react_again},
 };
 use core::time::Duration;
 use std::{
@@ -196,10 +196,10 @@ pub(super) fn repeat<P: Program, O: Observer>(
 ) -> io::Result<Report> {
     lead_in(program, observer);
     while let Some(Tap::Replay(replay)) = observer.tap()
-        && let Some(now) = replay.next_reaction()?
+        && let Some((now, ends_early)) = replay.next_reaction()?
     {
         before();
-        react(program, now, observer, &mut || Duration::ZERO);
+        react_again(program, now, observer, ends_early);
     }
     Ok(observer.tap().map(Tap::report).unwrap_or_default())
 }

@@ -49,7 +49,7 @@ pub const FIRST: usize = 6;
 
 /// Names and schemas of the channels that every recording has.
 pub const OWN: [(&str, Schema); FIRST] = [
-    ("apex/reaction", own("apex_msgs/msg/Reaction", "uint32 group\nint64 nanoseconds")),
+    ("apex/reaction", own("apex_msgs/msg/Reaction", "uint32 group\nint64 nanoseconds\nbool ends_early")),
     ("apex/elapsed", own("apex_msgs/msg/Elapsed", "uint64 nanoseconds\nuint32 group")),
     ("apex/parameter", own("apex_msgs/msg/Parameter", "string name\nstring value\nbool changed\nuint32 group")),
     ("apex/taken", own("apex_msgs/msg/Taken", "string event")),

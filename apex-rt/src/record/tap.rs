@@ -76,10 +76,11 @@ impl Tap {
         }
     }
 
-    /// Begins a reaction at `now`.
-    pub fn begin(&mut self, now: Time) {
+    /// Begins a reaction at `now`. If it is late, it `ends_early`, after the first of the instants that have passed, or
+    /// makes up for all of them.
+    pub fn begin(&mut self, now: Time, ends_early: bool) {
         match self {
-            Self::Record(recorder) => recorder.begin(now),
+            Self::Record(recorder) => recorder.begin(now, ends_early),
             Self::Replay(replay) => replay.begin(),
         }
     }

@@ -131,6 +131,8 @@ pub struct Case {
     pub groups: Vec<usize>,
     /// Connections that cancel and resume.
     pub cancels: Vec<Cancel>,
+    /// Ports whose tokens reset the program, and `true` for `=>`.
+    pub resets: Vec<((usize, &'static str), bool)>,
     /// `true` if no source makes up for what it has missed, which makes a difference in late reactions.
     pub skips: bool,
 }
@@ -189,6 +191,11 @@ impl Case {
                 add(&|c| c.cancels[i].tells = None);
             }
         }
+        for i in 0..self.resets.len() {
+            add(&|c| {
+                c.resets.remove(i);
+            });
+        }
         for g in 1..self.groups.len() {
             if self.nodes.iter().any(|n| n.group == g) {
                 add(&|c| c.nodes.iter_mut().filter(|n| n.group == g).for_each(|n| n.group = self.groups[g]));
@@ -207,6 +214,7 @@ impl Case {
                     let id = c.nodes[n].id;
                     c.links.retain(|link| link.from != (id, TIMEOUT));
                     c.cancels.retain(|cancel| cancel.by.0 != (id, TIMEOUT));
+                    c.resets.retain(|(by, _)| *by != (id, TIMEOUT));
                 });
             }
             if self.nodes[n].every.is_some() {
@@ -234,8 +242,9 @@ impl Case {
                 break;
             }
         }
-        let Self { nodes, groups, cancels, .. } = self;
+        let Self { nodes, groups, cancels, resets, .. } = self;
         let group = |id: usize| nodes.iter().find(|n| n.id == id).map(|n| n.group);
+        resets.retain(|((id, _), _)| group(*id) == Some(0));
         let is_used = |wanted: usize| nodes.iter().any(|n| around(groups, n.group).contains(&wanted));
         cancels.retain_mut(|cancel| {
             let body = match cancel.of {

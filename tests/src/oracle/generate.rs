@@ -48,6 +48,7 @@ pub fn generate(seed: u64, asynchronous: bool) -> Case {
         links: vec![],
         groups: vec![0],
         cancels: vec![],
+        resets: vec![],
         skips: (seed / 2).is_multiple_of(6),
     };
     nodes(&mut dice, &mut case, size, &flavour);
@@ -96,6 +97,7 @@ pub fn on_threads(mut case: Case) -> Case {
     }
     // One thread takes all activity away at once.
     case.cancels.clear();
+    case.resets.clear();
     // For some lists, the body of an `each` is on another thread, but not for most.
     for at in 1..case.nodes.len() {
         if matches!(case.nodes[at].ty.name, "pass" | "ScListSink") && !dice.one_in(3) {
@@ -114,6 +116,16 @@ pub fn paced(mut case: Case) -> Case {
         node.delay = 0;
         let is_source = node.ty.name.starts_with("ScSource") || node.ty.name == "ScTicker";
         node.every = node.every.or_else(|| is_source.then(|| (1 + dice.below(3), dice.below(2))));
+    }
+    case
+}
+
+/// Lets some tokens of a graph reset it.
+pub fn with_resets(mut case: Case) -> Case {
+    let mut dice = Dice(case.seed.wrapping_mul(0xc2b2_ae3d_27d4_eb4f) | 1);
+    for _ in 0..1 + dice.below(2) {
+        let by = beside(&mut dice, &case, 0);
+        case.resets.extend(by.map(|by| (by, dice.one_in(2))));
     }
     case
 }

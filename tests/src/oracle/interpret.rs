@@ -161,7 +161,7 @@ impl Observer for Notes {
 pub fn interpret(catalog: &Catalog, checked: &Checked, times: &[i64]) -> Result<Interpreted, String> {
     let records = Records::default();
     let library = Scripts { records: records.clone() };
-    let mut program = Interpreter::new(&checked.program, catalog, &library)?;
+    let mut program = Interpreter::new(&checked.program, &checked.machines, catalog, &library)?;
     let mut notes = Notes { records: records.clone(), broken: vec![] };
     for now in times {
         records.borrow_mut().push(Record::Begin(*now as u64));

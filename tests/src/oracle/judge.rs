@@ -6,6 +6,7 @@ use apex_dsl::{
     checked::CheckedProgram,
     claims::MAX_STATES,
     graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId, Value},
+    machine::Machines,
     passes,
     report::{Diagnostics, Severity},
     source::Sources,
@@ -29,6 +30,8 @@ pub struct Checker {
 pub struct Checked {
     /// The program.
     pub program: CheckedProgram,
+    /// The state machines in its source file.
+    pub machines: Machines,
     /// Net of its graph.
     pub net: Net,
 }
@@ -117,7 +120,7 @@ impl Checker {
         }
         let program = checked.programs.into_iter().next_back().ok_or("there is no program")?;
         let net = apex_petri::net(&program.graph, &self.catalog.borrow()).map_err(|e| e.to_string())?;
-        Ok(Checked { program, net })
+        Ok(Checked { program, machines: checked.texts.machines, net })
     }
 
     /// The node types.
@@ -214,7 +217,7 @@ fn choices(undecided: &BTreeSet<NodeId>, reactions: impl Iterator<Item = usize>)
 }
 
 fn replay(catalog: &Catalog, checked: &Checked, records: &[Record], (late, from): Late) -> Result<(), Failure> {
-    let Checked { program: CheckedProgram { graph, .. }, net } = checked;
+    let Checked { program: CheckedProgram { graph, .. }, net, .. } = checked;
     let scripts = script_of(graph, catalog);
     let by_id: BTreeMap<i64, NodeId> = scripts.iter().map(|(node, (id, _))| (*id, *node)).collect();
     let sends = |call: Call, port: usize| match scripts.get(&call.node) {

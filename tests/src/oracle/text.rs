@@ -25,6 +25,9 @@ impl Case {
         for cancel in &self.cancels {
             bodies.cancel(cancel);
         }
+        for ((by, port), active) in &self.resets {
+            bodies.line(0, format!("n{by}.{port} {} reset;", arrow(*active)));
+        }
         let mut names: Vec<&str> = self.nodes.iter().map(|n| n.ty.name).collect();
         names.sort_unstable();
         names.dedup();
@@ -121,6 +124,10 @@ impl Case {
     }
 }
 
+fn arrow(active: bool) -> &'static str {
+    if active { "=>" } else { "->" }
+}
+
 /// The lines of a body, of which those that pass tokens on under the same name become `in.* -> g.*` and `g.* -> out.*`.
 /// The ports of nested graphs are called after the sender, so that those with the same name belong together.
 fn by_name(lines: &[String]) -> Vec<String> {
@@ -157,7 +164,6 @@ impl Bodies<'_> {
             Target::Node(id) => (self.case.node(id).map_or(0, |node| node.group), format!("n{id}")),
             Target::Group(group) => (self.case.groups[group], format!("g{group}")),
         };
-        let arrow = |active: bool| if active { "=>" } else { "->" };
         let ((by, port), active) = cancel.by;
         self.line(body, format!("n{by}.{port} {} {name}.cancel;", arrow(active)));
         if let Some(((by, port), active)) = cancel.back {
@@ -171,7 +177,7 @@ impl Bodies<'_> {
     fn link(&mut self, link: &Link) {
         let (Some(from), Some(to)) = (self.case.node(link.from.0), self.case.node(link.to.0)) else { return };
         let (leaves, enters) = (self.case.around(from.group), self.case.around(to.group));
-        let arrow = if link.active { "=>" } else { "->" };
+        let arrow = arrow(link.active);
         let port = format!(
             "{}_{}{}{}",
             link.from.0,

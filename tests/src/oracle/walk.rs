@@ -15,7 +15,7 @@ use std::{collections::BTreeMap, time::Duration};
 
 /// A random run of `reactions` reactions, one per millisecond. Silent transitions occur at random times.
 pub fn walk(catalog: &Catalog, checked: &Checked, dice: &mut Dice, reactions: u64) -> Vec<Record> {
-    let Checked { program: CheckedProgram { graph, .. }, net } = checked;
+    let Checked { program: CheckedProgram { graph, .. }, net, .. } = checked;
     let scripts = script_of(graph, catalog);
     let sends = |call: Call, port: usize| match scripts.get(&call.node) {
         Some((id, parameters)) => {

@@ -8,6 +8,7 @@ use apex_dsl::{
     catalog::{Catalog, Signature, Type},
     checked::CheckedProgram,
     graph,
+    machine::Machines,
     syntax::tree::PortKind,
 };
 use apex_interpret::{Args, Interpreter, Library, Node, Outcome, Value};
@@ -123,8 +124,8 @@ impl Case {
     /// # Errors
     /// Returns what the interpreter does not know.
     pub fn interpret(&self, program: &CheckedProgram, catalog: &Catalog, iterations: usize) -> Result<Trace, String> {
-        let library = Kinds { tapes: Tapes::default() };
-        let mut running = Interpreter::new(program, catalog, &library)?;
+        let (library, machines) = (Kinds { tapes: Tapes::default() }, Machines::new());
+        let mut running = Interpreter::new(program, &machines, catalog, &library)?;
         let mut trace = Trace { fired: vec![], tapes: vec![vec![]; self.sinks()] };
         for _ in 0..iterations {
             let mut fired = Fired::default();
