@@ -7,7 +7,7 @@ mod recordings;
 use apex_nodes::{
     map::{Grid, Occupancy, OccupancyBuilder},
     scan::Point2,
-    slam::{Mapper, Pose, PoseGraph, PosedScans, Settings, selected_scans},
+    slam::{Mapper, Pose, PosedScans, Settings, selected_scans},
 };
 use plotters::prelude::*;
 use recordings::{Recording, errors, fr079, intel, play};
@@ -23,7 +23,6 @@ fn main() {
         std::process::exit(2);
     };
     let out = arguments.next();
-    optimize(&folder);
     println!(
         "{:24}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}",
         "median and largest error", "odom", "", "slam", "", "scans", "kept", "loops", "ms/kept"
@@ -40,19 +39,6 @@ fn main() {
         }
         time_of_map(&mapper, slowest);
     }
-}
-
-/// Optimizes the graph of the Intel Research Lab and compares it with its known optimum.
-fn optimize(folder: &Path) {
-    let read = |name: &str| PoseGraph::read_g2o(folder.join(name)).unwrap_or_else(|e| panic!("{e}"));
-    let (mut graph, optimum) = (read("input_INTEL.g2o"), read("input_INTEL_optimized.g2o").cost());
-    let (before, start) = (graph.cost(), Instant::now());
-    let result = graph.optimize(50);
-    let time = start.elapsed();
-    let (poses, steps, cost) = (graph.poses().len(), result.steps, result.cost);
-    println!(
-        "graph of {poses} poses: cost {before:.2} -> {cost:.4} (optimum {optimum:.4}), {steps} steps, {time:.1?}\n"
-    );
 }
 
 fn run(name: &str, recording: &Recording) -> (Mapper, Vec<Pose>, Duration) {

@@ -123,7 +123,7 @@ pub fn g2o() -> Box<dyn Target> {
     }
     reader(vec![text.into_bytes()], &["VERTEX_SE2", "EDGE_SE2", "FIX", "0", "1", "1e300", "-1e-300"], |input| {
         let file = file("g2o", input);
-        if let Ok(mut graph) = PoseGraph::read_g2o(&file) {
+        if let Ok(mut graph) = PoseGraph::read(&file) {
             // Every graph that could be read can be optimized.
             let _ = graph.optimize(3);
         }

@@ -214,6 +214,7 @@ impl HazardMap {
 
     /// Marks the cells of floor points in m_f, those between consecutive ones, and those where the floor ends.
     fn see_floor(&mut self, points: &Columns, labels: &Labels, pose: &Pose2) {
+        let pose = pose.transform();
         for first in (0..points.len()).step_by(points.height.max(1)) {
             // From the far end to the near one.
             let (mut last, mut below): (Option<Point2>, Option<Point2>) = (None, None);
@@ -282,6 +283,7 @@ impl HazardMap {
     ) {
         let raster = self.obstacles.raster();
         self.sums.resize(raster.width * raster.height, Sum::default());
+        let pose = pose.transform();
         for (i, label) in labels.labels.iter().enumerate() {
             let counts = matches!(label, Label::Floor | Label::Obstacle | Label::Overhanging);
             if !counts || points.z[i] > self.max_height {
@@ -339,6 +341,7 @@ impl HazardMap {
 
     /// Nearest hazard of the area, by its distance along x.
     fn nearest(&self, area: &Area, pose: &Pose2) -> Option<Hazard> {
+        let pose = pose.transform();
         let (rows, columns) = (steps(area.far - area.near, self.resolution), steps(area.width, self.resolution));
         for row in 0..=rows {
             for column in 0..=columns {

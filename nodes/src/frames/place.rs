@@ -1,7 +1,7 @@
 use super::Pose3;
 #[cfg(feature = "std")]
 use crate::cloud::{CloudPoint, PointCloud};
-use crate::scan::{Point2, Pose2, Scan, around};
+use crate::scan::{BeamDirections, Point2, Pose2, Scan, around};
 use apex_rt::{Out, node};
 
 /// Pose as seen from above: height and tilt are left out.
@@ -17,7 +17,9 @@ pub fn seen_from_above(pose: &Pose3) -> Pose2 {
 /// robot.
 #[node]
 #[derive(Debug, Clone, Default)]
-pub struct PlaceScan;
+pub struct PlaceScan {
+    directions: BeamDirections,
+}
 
 #[node]
 impl PlaceScan {
@@ -35,7 +37,7 @@ impl PlaceScan {
             let (x, y) = turned(Point2::polar(1.0, angle));
             libm::atan2(y, x) as f32
         };
-        around(scan, to_outer, direction, placed.get_mut());
+        around(scan, &mut self.directions, to_outer, direction, placed.get_mut());
     }
 }
 
@@ -72,7 +74,7 @@ mod tests {
 
     fn placed(scan: &Scan, pose: &Pose3) -> Scan {
         let mut out = Out::new();
-        PlaceScan.process(scan, pose, &mut out);
+        PlaceScan::default().process(scan, pose, &mut out);
         out.get().expect("a scan").clone()
     }
 

@@ -28,8 +28,8 @@ impl BlackHat {
         self.part.clear();
         rows(image, &part).for_each(|row| self.part.extend_from_slice(row));
         // The closing: a dilation, then an erosion.
-        self.squares.lightest(&mut self.part, width, self.radius);
-        self.squares.darkest(&mut self.part, width, self.radius);
+        self.squares.lightest(&self.part, width, self.radius).write(&mut self.part);
+        self.squares.darkest(&self.part, width, self.radius).write(&mut self.part);
         let whole = image.size().0 as usize;
         let hats = dark.pixels.chunks_exact_mut(whole).skip(part.top as usize);
         for ((hat, closed), original) in hats.zip(self.part.chunks_exact(width)).zip(rows(image, &part)) {

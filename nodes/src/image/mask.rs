@@ -1,5 +1,5 @@
 use super::{Camera, GrayImage};
-use crate::scan::{Pose2, Scan};
+use crate::scan::{BeamDirections, Pose2, Scan};
 use apex_rt::{Out, node};
 
 /// Keeps the part of an image between two heights above the points of a laser scan and blackens the rest (thesis 4.3.1,
@@ -25,6 +25,7 @@ pub struct LaserMask {
     /// Rotation of the scanner to the left.
     #[param(unit = "rad", default = 0.0, range = -3.15..=3.15)]
     scanner_yaw: f32,
+    directions: BeamDirections,
 }
 
 #[node]
@@ -35,9 +36,9 @@ impl LaserMask {
         }
         let masked = masked.get_mut();
         masked.reset(image.stamp, image.size());
-        let scanner = Pose2::new(self.scanner_x, self.scanner_y, self.scanner_yaw);
+        let scanner = Pose2::new(self.scanner_x, self.scanner_y, self.scanner_yaw).transform();
         let mut before: Option<[[f32; 2]; 2]> = None;
-        for (_, point) in scan.points() {
+        for (_, point) in self.directions.points(scan) {
             let point = scanner.to_outer(point);
             let at = |height| camera.project([point.x, point.y, height]);
             let column = at(self.low).zip(at(self.high)).map(|(low, high)| [low, high]);

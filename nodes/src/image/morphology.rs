@@ -18,8 +18,8 @@ pub struct Erode {
 impl Erode {
     fn process(&mut self, image: &GrayImage, result: &mut Out<GrayImage>) {
         let (result, width) = (result.get_mut(), image.size().0 as usize);
-        result.clone_from(image);
-        self.squares.darkest(&mut result.pixels, width, self.radius);
+        result.resize(image.stamp, image.size());
+        self.squares.darkest(&image.pixels, width, self.radius).write(&mut result.pixels);
     }
 }
 
@@ -38,8 +38,8 @@ pub struct Dilate {
 impl Dilate {
     fn process(&mut self, image: &GrayImage, result: &mut Out<GrayImage>) {
         let (result, width) = (result.get_mut(), image.size().0 as usize);
-        result.clone_from(image);
-        self.squares.lightest(&mut result.pixels, width, self.radius);
+        result.resize(image.stamp, image.size());
+        self.squares.lightest(&image.pixels, width, self.radius).write(&mut result.pixels);
     }
 }
 
@@ -58,9 +58,9 @@ pub struct Open {
 impl Open {
     fn process(&mut self, image: &GrayImage, result: &mut Out<GrayImage>) {
         let (result, width) = (result.get_mut(), image.size().0 as usize);
-        result.clone_from(image);
-        self.squares.darkest(&mut result.pixels, width, self.radius);
-        self.squares.lightest(&mut result.pixels, width, self.radius);
+        result.resize(image.stamp, image.size());
+        self.squares.darkest(&image.pixels, width, self.radius).write(&mut result.pixels);
+        self.squares.lightest(&result.pixels, width, self.radius).write(&mut result.pixels);
     }
 }
 
@@ -78,9 +78,9 @@ pub struct Close {
 impl Close {
     fn process(&mut self, image: &GrayImage, result: &mut Out<GrayImage>) {
         let (result, width) = (result.get_mut(), image.size().0 as usize);
-        result.clone_from(image);
-        self.squares.lightest(&mut result.pixels, width, self.radius);
-        self.squares.darkest(&mut result.pixels, width, self.radius);
+        result.resize(image.stamp, image.size());
+        self.squares.lightest(&image.pixels, width, self.radius).write(&mut result.pixels);
+        self.squares.darkest(&result.pixels, width, self.radius).write(&mut result.pixels);
     }
 }
 

@@ -1,5 +1,5 @@
 use ::image::{ImageBuffer, Luma, Pixel, Rgb};
-use apex_rt::{Out, Time, node};
+use apex_rt::Time;
 use std::fmt;
 
 /// Image with a time stamp. The default has no pixels.
@@ -24,9 +24,14 @@ impl<P: Pixel> Image<P> {
 
     /// Replaces the content by a black image (all zeros) of this width and height. Reuses the allocated storage.
     pub fn reset(&mut self, stamp: Time, (width, height): (u32, u32)) {
+        self.resize(stamp, (width, height));
+        self.pixels.fill(::image::Primitive::DEFAULT_MIN_VALUE);
+    }
+
+    /// Changes the size, like `reset`, but leaves any colours in the pixels.
+    pub(crate) fn resize(&mut self, stamp: Time, (width, height): (u32, u32)) {
         self.stamp = stamp;
         let mut storage = std::mem::take(&mut self.pixels).into_raw();
-        storage.clear();
         let samples = width as usize * height as usize * usize::from(P::CHANNEL_COUNT);
         storage.resize(samples, ::image::Primitive::DEFAULT_MIN_VALUE);
         self.pixels = ImageBuffer::from_raw(width, height, storage).unwrap_or_default();
@@ -72,31 +77,9 @@ impl<P: Pixel> From<ImageBuffer<P, Vec<P::Subpixel>>> for Image<P> {
     }
 }
 
-/// Luminance of a colour image (ITU-R BT.709).
-#[node]
-pub fn to_gray(image: &ColorImage, gray: &mut Out<GrayImage>) {
-    let gray = gray.get_mut();
-    gray.reset(image.stamp, image.size());
-    for (gray, color) in gray.pixels.pixels_mut().zip(image.pixels.pixels()) {
-        *gray = color.to_luma();
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn gray_is_as_light_as_the_colour_and_as_large() {
-        let color = ColorImage::from(ImageBuffer::from_fn(3, 2, |x, y| Rgb([x as u8 * 100, y as u8 * 100, 0])));
-        let mut out = Out::new();
-        to_gray(&color, &mut out);
-        let gray = out.get().expect("an image");
-        assert_eq!((gray.size(), gray.pixels[(0, 0)]), ((3, 2), Luma([0])));
-        assert!(gray.pixels[(0, 1)].0[0] > gray.pixels[(1, 0)].0[0], "green is lighter than red");
-        to_gray(&ColorImage::default(), &mut out);
-        assert_eq!(out.get().map(Image::size), Some((0, 0)));
-    }
 
     #[test]
     fn an_image_is_overwritten_in_its_storage() {

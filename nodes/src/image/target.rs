@@ -1,5 +1,5 @@
 use super::{Camera, Line, Lines, Region, Regions};
-use crate::scan::{Point2, Pose2, Scan};
+use crate::scan::{BeamDirections, Point2, Pose2, Scan};
 use apex_rt::node;
 
 /// Target sign in an image: a cross in rings (thesis 4.3.1).
@@ -111,6 +111,7 @@ pub struct TargetPose {
     #[param(unit = "rad", default = 0.0, range = -3.15..=3.15)]
     scanner_yaw: f32,
     points: Vec<Point2>,
+    directions: BeamDirections,
 }
 
 #[node]
@@ -119,13 +120,13 @@ impl TargetPose {
         let [x, y, _] = camera.ray(target.centre[0], target.centre[1]);
         let eye = Point2::new(camera.position[0], camera.position[1]);
         let sight = Point2::new(x, y).scaled(1.0 / Point2::new(x, y).norm());
-        let scanner = Pose2::new(self.scanner_x, self.scanner_y, self.scanner_yaw);
+        let scanner = Pose2::new(self.scanner_x, self.scanner_y, self.scanner_yaw).transform();
         let ahead = |p: &Point2| {
             let d = *p - eye;
             d.dot(sight) > 0.0 && d.dot(sight.perpendicular()).abs() <= self.reach
         };
         self.points.clear();
-        self.points.extend(scan.points().map(|(_, p)| scanner.to_outer(p)).filter(ahead));
+        self.points.extend(self.directions.points(scan).map(|(_, p)| scanner.to_outer(p)).filter(ahead));
         if self.points.len() < self.min_points {
             return None;
         }

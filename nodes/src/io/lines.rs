@@ -97,9 +97,20 @@ impl Lines {
         self.broken
     }
 
+    /// Number of the last line read, counted from 1.
+    #[cfg(feature = "slam")]
+    pub fn number(&self) -> usize {
+        self.number
+    }
+
     /// Creates an error at the last line read.
     pub fn error(&self, message: impl fmt::Display) -> ReadError {
-        ReadError { path: self.path.clone(), line: Some(self.number), message: message.to_string() }
+        self.error_at(self.number, message)
+    }
+
+    /// Creates an error at a line.
+    pub fn error_at(&self, number: usize, message: impl fmt::Display) -> ReadError {
+        ReadError { path: self.path.clone(), line: Some(number), message: message.to_string() }
     }
 }
 
@@ -151,7 +162,7 @@ impl Ending {
 }
 
 /// A cell or a word as messages show it: its beginning, if it is long.
-pub(super) fn shown(word: &str) -> String {
+pub(crate) fn shown(word: &str) -> String {
     match word.char_indices().nth(SHOWN) {
         Some((end, _)) => format!("{}…", &word[..end]),
         None => word.to_owned(),

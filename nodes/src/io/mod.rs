@@ -33,7 +33,7 @@ pub use error::ReadError;
 #[cfg(feature = "figure")]
 pub use figure::{ScanFigure, WriteError};
 #[cfg(feature = "slam")]
-pub(crate) use lines::Lines;
+pub(crate) use lines::{Lines, shown};
 pub use map_file::{MapFile, SaveMap, SaveMapError, read_map_file, write_map_file};
 pub use pcd::{RecordedCloud, read_cloud};
 #[cfg(feature = "figure")]

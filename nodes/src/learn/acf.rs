@@ -37,16 +37,16 @@ pub fn acf_features(image: &GrayImage, region: &Region, features: &mut Out<Featu
     let _ = features.resize(ACF_FEATURES, 0.0);
     let sums = magnitude_sums(&window);
     for y in 0..WINDOW.1 {
-        for x in 0..WINDOW.0 {
-            let gradient = window.gradient(x, y);
-            let magnitude = gradient.magnitude / (surroundings(&sums, x, y) + 0.01);
+        let gradients = window.gradients(y);
+        for (x, intensity) in window.intensities(y).iter().enumerate() {
+            let magnitude = gradients.magnitudes[x] / (surroundings(&sums, x, y) + 0.01);
             let cell = y / CELL * CELLS.0 + x / CELL;
             let mut add = |channel: usize, value: f32| {
                 features[channel * CELLS.0 * CELLS.1 + cell] += value / (CELL * CELL) as f32;
             };
-            add(0, window.intensity(x, y));
+            add(0, *intensity);
             add(1, magnitude);
-            let bin = gradient.orientation * BINS as f32;
+            let bin = gradients.orientations[x] * BINS as f32;
             let (low, part) = (bin as usize % BINS, bin - bin.floor());
             add(2 + low, magnitude * (1.0 - part));
             add(2 + (low + 1) % BINS, magnitude * part);
@@ -61,8 +61,8 @@ fn magnitude_sums(window: &Window) -> Sums {
     let mut sums = [[0.0; WINDOW.0 + 1]; WINDOW.1 + 1];
     for y in 0..WINDOW.1 {
         let mut row = 0.0;
-        for x in 0..WINDOW.0 {
-            row += window.gradient(x, y).magnitude;
+        for (x, magnitude) in window.gradients(y).magnitudes.into_iter().enumerate() {
+            row += magnitude;
             sums[y + 1][x + 1] = sums[y][x + 1] + row;
         }
     }

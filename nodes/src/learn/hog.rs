@@ -1,9 +1,10 @@
 use super::{
     Features,
-    gradient::{WINDOW, Window},
+    gradient::{Gradients, WINDOW, Window},
 };
 use crate::image::{GrayImage, Region};
 use apex_rt::{Out, node};
+use std::array;
 
 /// Rows and columns of pixels in a cell.
 const CELL: usize = 8;
@@ -50,23 +51,40 @@ pub fn hog_features(image: &GrayImage, region: &Region, features: &mut Out<Featu
 fn cells(window: &Window) -> [[[f32; BINS]; CELLS.0]; CELLS.1] {
     let mut cells = [[[0.0; BINS]; CELLS.0]; CELLS.1];
     for y in 0..WINDOW.1 {
-        for x in 0..WINDOW.0 {
-            let gradient = window.gradient(x, y);
-            let place = |pixel: usize| (pixel as f32 + 0.5) / CELL as f32 - 0.5;
-            let bin = gradient.orientation * BINS as f32 - 0.5;
-            for (row, a) in neighbours(place(y)) {
-                for (column, b) in neighbours(place(x)) {
-                    let cell = usize::try_from(row).ok().zip(usize::try_from(column).ok());
-                    let cell = cell.and_then(|(row, column)| cells.get_mut(row)?.get_mut(column));
-                    let Some(cell) = cell else { continue };
-                    for (bin, c) in neighbours(bin) {
-                        cell[bin.rem_euclid(BINS as i32) as usize] += a * b * c * gradient.magnitude;
-                    }
-                }
-            }
+        let histograms = row_histograms(&window.gradients(y));
+        for (row, weight) in neighbours((y as f32 + 0.5) / CELL as f32 - 0.5) {
+            let Some(cells) = usize::try_from(row).ok().and_then(|row| cells.get_mut(row)) else { continue };
+            let sums = cells.as_flattened_mut().iter_mut().zip(histograms.as_flattened());
+            sums.for_each(|(sum, value)| *sum += weight * value);
         }
     }
     cells
+}
+
+/// Histograms of the pixels of a row, for each column of cells.
+fn row_histograms(gradients: &Gradients) -> [[f32; BINS]; CELLS.0] {
+    // One more cell on each side for what is beyond the window, and one more bin at each end for half turns.
+    let mut sums = [[0.0; (BINS + 2).next_power_of_two()]; CELLS.0 + 2];
+    for (x, (magnitude, orientation)) in gradients.magnitudes.iter().zip(&gradients.orientations).enumerate() {
+        let bin = orientation * BINS as f32 + 0.5;
+        let low = bin as usize;
+        let high_share = magnitude * (bin - low as f32);
+        let low_share = magnitude - high_share;
+        let (column, right) = ((x + CELL / 2) / CELL, ((x + CELL / 2) % CELL) as f32 / CELL as f32 + 0.5 / CELL as f32);
+        for (column, weight) in [(column, 1.0 - right), (column + 1, right)] {
+            let sums = &mut sums[column];
+            let size = sums.len();
+            sums[low % size] += weight * low_share;
+            sums[(low + 1) % size] += weight * high_share;
+        }
+    }
+    array::from_fn(|column| {
+        let sums = &sums[column + 1];
+        let mut bins: [f32; BINS] = array::from_fn(|bin| sums[bin + 1]);
+        bins[BINS - 1] += sums[0];
+        bins[0] += sums[BINS + 1];
+        bins
+    })
 }
 
 /// Whole numbers below and above a number, with their weights.
@@ -77,7 +95,7 @@ fn neighbours(number: f32) -> [(i32, f32); 2] {
 
 fn normalize(block: &mut [f32]) {
     let squares: f32 = block.iter().map(|x| x * x).sum();
-    let factor = 1.0 / libm::sqrtf(squares + 1e-3);
+    let factor = 1.0 / (squares + 1e-3).sqrt();
     block.iter_mut().for_each(|x| *x *= factor);
 }
 
@@ -109,6 +127,33 @@ mod tests {
         let (vertical, horizontal) = (sums(&stripes(true)), sums(&stripes(false)));
         assert!(vertical[0] + vertical[8] > 10.0 * vertical[4], "{vertical:?}");
         assert!(horizontal[4] > 10.0 * horizontal[0], "{horizontal:?}");
+    }
+
+    #[test]
+    fn cells_are_sums_of_weighted_gradients() {
+        let mut random = crate::math::Random::new(1);
+        let image = GrayImage::from(ImageBuffer::from_fn(70, 90, |_, _| Luma([random.bits() as u8])));
+        let window = Window::new(&image, &Region { left: 11, top: 7, width: 40, height: 71, area: 0 }).expect("pixels");
+        let mut expected = [[[0.0; BINS]; CELLS.0]; CELLS.1];
+        for (y, x) in (0..WINDOW.1).flat_map(|y| (0..WINDOW.0).map(move |x| (y, x))) {
+            let gradients = window.gradients(y);
+            let place = |pixel: usize| (pixel as f32 + 0.5) / CELL as f32 - 0.5;
+            for (row, a) in neighbours(place(y)) {
+                for (column, b) in neighbours(place(x)) {
+                    for (bin, c) in neighbours(gradients.orientations[x] * BINS as f32 - 0.5) {
+                        if (0..CELLS.1 as i32).contains(&row) && (0..CELLS.0 as i32).contains(&column) {
+                            let bin = bin.rem_euclid(BINS as i32) as usize;
+                            expected[row as usize][column as usize][bin] += a * b * c * gradients.magnitudes[x];
+                        }
+                    }
+                }
+            }
+        }
+        let found = cells(&window);
+        for (found, expected) in found.as_flattened().as_flattened().iter().zip(expected.as_flattened().as_flattened())
+        {
+            assert!((found - expected).abs() < 1e-4 * expected, "{found} {expected}");
+        }
     }
 
     #[test]

@@ -44,7 +44,7 @@ impl Bins {
     /// Adds a particle with a weight and returns the weight of its bin.
     pub fn add(&mut self, particle: &Particle, weight: f32) -> f32 {
         let pose = &particle.pose;
-        let key = [pose.x / LENGTH, pose.y / LENGTH, pose.theta / ANGLE].map(|value| value.floor() as i32);
+        let key = [pose.x / LENGTH, pose.y / LENGTH, pose.theta / ANGLE].map(floor);
         let mixed = key.iter().fold(0_u64, |hash, &value| {
             (hash ^ u64::from(value as u32)).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29)
         });
@@ -65,6 +65,12 @@ impl Bins {
         }
         weight
     }
+}
+
+/// Largest whole number that is not above a value, without a call of a library.
+fn floor(value: f32) -> i32 {
+    let whole = value as i32;
+    if value < whole as f32 { whole.saturating_sub(1) } else { whole }
 }
 
 /// Number of particles for `bins` bins that are not empty, so that with probability 0.99 the divergence of the sampled

@@ -1,5 +1,5 @@
 use super::{bins::Bins, filter::Particle};
-use crate::scan::{Point2, Pose2};
+use crate::scan::{Point2, Pose2, wrap_angle};
 
 /// Radius of a cluster of particles, in m and rad.
 const RADIUS: f32 = 1.0;
@@ -72,17 +72,13 @@ impl PoseEstimate {
         self.covariance = core::array::from_fn(|i| core::array::from_fn(|j| squares[i][j] / sum - mean[i] * mean[j]));
         self.share = sum.min(1.0);
         let Pose2 { x, y, theta } = self.pose;
-        self.pose = Pose2::new(x + mean[0], y + mean[1], wrapped(theta + mean[2]));
+        self.pose = Pose2::new(x + mean[0], y + mean[1], wrap_angle(theta + mean[2]));
     }
 }
 
 /// Difference of headings in [−π, π] rad.
 fn turn(particle: &Particle, pose: &Pose2) -> f32 {
-    wrapped(particle.pose.theta - pose.theta)
-}
-
-fn wrapped(angle: f32) -> f32 {
-    crate::math::normalize_angle(&angle)
+    wrap_angle(particle.pose.theta - pose.theta)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     math::Random,
-    scan::{Pose2, Scan},
+    scan::{BeamDirections, Pose2, Scan},
 };
 
 /// Minimum number of measured beams of a scan that is used.
@@ -135,6 +135,7 @@ pub struct Filter {
     fast: f32,
     slow: f32,
     updates: usize,
+    directions: BeamDirections,
 }
 
 impl Filter {
@@ -163,6 +164,7 @@ impl Filter {
             fast: 0.0,
             slow: 0.0,
             updates: 0,
+            directions: BeamDirections::default(),
         }
     }
 
@@ -257,8 +259,8 @@ impl Filter {
     fn select(&mut self, scan: &Scan) {
         let Settings { model, mount, beams, .. } = &self.settings;
         self.updates += 1;
-        self.exact.select(model, scan, mount, *beams, self.updates);
-        self.wide.select(model, scan, mount, *beams, self.updates);
+        self.exact.select(model, scan, &mut self.directions, mount, *beams, self.updates);
+        self.wide.select(model, scan, &mut self.directions, mount, *beams, self.updates);
         self.search.select(scan, mount);
     }
 

@@ -1,6 +1,6 @@
 use super::shadow::{Shadow, Square, Wedge};
 use crate::{
-    map::{LineSegment, VectorMap},
+    map::{LineSegment, VectorMap, nearest_hit},
     scan::Point2,
 };
 use core::{
@@ -259,15 +259,28 @@ impl View<'_> {
     /// segment within reach.
     #[inline]
     pub fn range(&self, direction: Point2, angle: f32) -> f32 {
-        let sectors = usize::from(self.table.settings.sectors);
+        self.range_in(self.sector(angle), direction)
+    }
+
+    /// Sector of an angle in [−2π, 2π] rad.
+    #[inline]
+    pub(super) fn sector(&self, angle: f32) -> i32 {
+        // Between 0.5 and 2.5: its integer part is a conversion, without a call of `floor`.
         let share = (angle + 3.0 * PI) * (1.0 / TAU);
-        let sector = ((share - share.floor()) * sectors as f32) as usize;
-        let list = self.first + sector.min(sectors - 1);
-        let bounds = self.table.starts.get(list).zip(self.table.starts.get(list + 1));
-        let Some((&from, &to)) = bounds else { return f32::INFINITY };
+        ((share - share as i32 as f32) * f32::from(self.table.settings.sectors)) as i32
+    }
+
+    /// Distance to the map in a direction of a sector.
+    #[inline]
+    pub(super) fn range_in(&self, sector: i32, direction: Point2) -> f32 {
+        let last = usize::from(self.table.settings.sectors) - 1;
+        let list = self.first + (sector as usize).min(last);
+        let Some(&[from, to]) = self.table.starts.get(list..list + 2).and_then(|bounds| bounds.first_chunk()) else {
+            return f32::INFINITY;
+        };
         let visible = self.table.visible.get(from as usize..to as usize).unwrap_or_default();
-        let hit = |index: &u32| self.table.segments.get(*index as usize)?.hit(self.origin, direction);
-        visible.iter().filter_map(hit).fold(f32::INFINITY, f32::min)
+        let segments = visible.iter().filter_map(|index| self.table.segments.get(*index as usize));
+        nearest_hit(segments, self.origin, direction)
     }
 }
 

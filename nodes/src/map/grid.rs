@@ -170,6 +170,25 @@ impl Raster {
             here
         })
     }
+
+    /// Indices of the [`line`](Self::line) between two cells of the raster, row by row from 0 on.
+    ///
+    /// Each step goes along the longer side; whether it goes along the shorter one, too, is computed without a branch.
+    #[inline]
+    pub(super) fn line_of_indices(&self, from: Cell, to: Cell) -> impl Iterator<Item = usize> + use<> {
+        let step = |from: usize, to: usize, stride: usize| if to < from { stride.wrapping_neg() } else { stride };
+        let x = (from.x.abs_diff(to.x) as i32, step(from.x, to.x, 1));
+        let y = (from.y.abs_diff(to.y) as i32, step(from.y, to.y, self.width));
+        let ((long, along), (short, across)) = if x.0 > y.0 { (x, y) } else { (y, x) };
+        let (mut at, mut error) = (from.y * self.width + from.x, long - short);
+        (0..=long).map(move |_| {
+            let here = at;
+            let is_diagonal = 2 * error < long;
+            error += if is_diagonal { long - short } else { -short };
+            at = at.wrapping_add(along).wrapping_add(if is_diagonal { across } else { 0 });
+            here
+        })
+    }
 }
 
 /// A raster without cells.
@@ -281,6 +300,21 @@ impl<T> Default for Grid<T> {
     }
 }
 
+/// Map with cells of 1 m, from the row of the least y on: `#` is occupied, `?` unknown, all else free.
+#[cfg(test)]
+pub fn drawn(rows: &[&str]) -> Grid<Occupancy> {
+    let raster = Raster { width: rows[0].len(), height: rows.len(), ..Raster::default() };
+    let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+    for (cell, sign) in map.cells_mut().iter_mut().zip(rows.concat().bytes()) {
+        match sign {
+            b'#' => *cell = Occupancy::Occupied,
+            b'?' => *cell = Occupancy::Unknown,
+            _ => {}
+        }
+    }
+    map
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -348,6 +382,8 @@ mod tests {
             let line: Vec<Cell> = Raster::line(from, to).collect();
             assert_eq!((line.len(), line[0], line[line.len() - 1]), (count, from, to));
             assert!(line.windows(2).all(|w| w[0].x.abs_diff(w[1].x) <= 1 && w[0].y.abs_diff(w[1].y) <= 1));
+            let raster = Raster { width: 10, height: 10, ..Raster::default() };
+            assert!(raster.line_of_indices(from, to).eq(line.iter().map(|cell| cell.y * 10 + cell.x)));
         }
     }
 }

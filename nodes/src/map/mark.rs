@@ -1,5 +1,5 @@
 use super::{Grid, Occupancy};
-use crate::scan::{Pose2, Scan};
+use crate::scan::{BeamDirections, Pose2, Scan};
 use apex_rt::{Out, node};
 
 /// Marks the cells that contain points of a scan as occupied (thesis 4.3.6, the combined map m′). `pose` is the pose
@@ -8,16 +8,18 @@ use apex_rt::{Out, node};
 /// Several scanners need several of these nodes in sequence.
 #[node]
 #[derive(Debug, Clone, Default)]
-pub struct MarkScan;
+pub struct MarkScan {
+    directions: BeamDirections,
+}
 
 #[node]
 impl MarkScan {
     fn process(&mut self, map: &Grid<Occupancy>, scan: &Scan, pose: &Pose2, marked: &mut Out<Grid<Occupancy>>) {
         let marked = marked.get_mut();
         marked.clone_from(map);
-        let raster = *map.raster();
-        for (_, point) in scan.points() {
-            if let Some(cell) = raster.cell(pose.to_outer(point)).and_then(|cell| marked.get_mut(cell)) {
+        let (raster, frame) = (*map.raster(), pose.transform());
+        for (_, point) in self.directions.points(scan) {
+            if let Some(cell) = raster.cell(frame.to_outer(point)).and_then(|cell| marked.get_mut(cell)) {
                 *cell = Occupancy::Occupied;
             }
         }
@@ -37,7 +39,7 @@ mod tests {
         let mut scan = Scan { angle_increment: FRAC_PI_2, ..Scan::default() };
         scan.ranges.extend([2.0, 1.0, f32::NAN, 100.0]);
         let mut out = Out::new();
-        MarkScan.process(&map, &scan, &Pose2::new(2.5, 1.5, FRAC_PI_2), &mut out);
+        MarkScan::default().process(&map, &scan, &Pose2::new(2.5, 1.5, FRAC_PI_2), &mut out);
         let marked: Vec<Cell> = out
             .get()
             .expect("a map")
@@ -46,7 +48,7 @@ mod tests {
             .map(|(cell, _)| cell)
             .collect();
         assert_eq!(marked, [Cell::new(1, 1), Cell::new(2, 3)]);
-        MarkScan.process(&map, &scan, &Pose2::new(f32::NAN, 0.0, 0.0), &mut out);
+        MarkScan::default().process(&map, &scan, &Pose2::new(f32::NAN, 0.0, 0.0), &mut out);
         assert_eq!(out.get(), Some(&map));
     }
 }

@@ -11,6 +11,7 @@ mod message;
 mod morphology;
 mod occupancy;
 mod octagon;
+mod seen;
 mod signs;
 mod surroundings;
 mod vector;
@@ -19,13 +20,16 @@ pub use clear::ClearBox;
 pub use containers::MarkContainers;
 pub use distance::DistanceTransform;
 pub(crate) use grid::check_level;
+#[cfg(test)]
+pub(crate) use grid::drawn;
 pub use grid::{Cell, Grid, MAX_CELLS, Occupancy, Raster, TooManyCells};
 pub use mark::MarkScan;
 pub use morphology::{CloseUnknown, GrowObstacles, UnknownRegions, grow};
 pub use occupancy::{OccupancyBuilder, RayCount};
 pub use octagon::{Octagon, OctagonSearch, Station, Stations};
+pub use seen::SeenMap;
 pub use signs::{MAX_SIGNS, MapLookup, Sign, SignMap, Signs};
 pub use surroundings::MarkSurroundings;
-#[cfg(feature = "localize")]
-pub(crate) use vector::cross;
 pub use vector::{LineSegment, MAX_SEGMENTS, MapError, VectorMap};
+#[cfg(feature = "localize")]
+pub(crate) use vector::{cross, nearest_hit};

@@ -150,21 +150,8 @@ impl GrowObstacles {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::map::drawn as map;
     use apex_rt::Construct;
-
-    /// A map with cells of 1 m, starting with the row of the least y: `.` free, `#` occupied, `?` unknown.
-    fn map(rows: &[&str]) -> Grid<Occupancy> {
-        let raster = Raster { width: rows[0].len(), height: rows.len(), ..Raster::default() };
-        let mut map = Grid::new(raster, Occupancy::Unknown).expect("small");
-        for (cell, sign) in map.cells_mut().iter_mut().zip(rows.concat().bytes()) {
-            *cell = match sign {
-                b'.' => Occupancy::Free,
-                b'#' => Occupancy::Occupied,
-                _ => Occupancy::Unknown,
-            };
-        }
-        map
-    }
 
     #[test]
     fn obstacles_grow_by_the_radius() {

@@ -39,13 +39,15 @@ impl OccupancyBuilder {
     /// border. A ray that starts outside or is not finite is ignored.
     pub fn add(&mut self, from: Point2, to: Point2) {
         let raster = *self.counts.raster();
-        let (Some(start), Some(end)) = (raster.cell(from), inside(&raster, from, to)) else { return };
-        for cell in Raster::line(start, end) {
-            if let Some(count) = self.counts.get_mut(cell) {
+        let (Some(start), hit) = (raster.cell(from), raster.cell(to)) else { return };
+        let Some(end) = hit.or_else(|| last_inside(&raster, from, to)) else { return };
+        let counts = self.counts.cells_mut();
+        for at in raster.line_of_indices(start, end) {
+            if let Some(count) = counts.get_mut(at) {
                 count.passes = count.passes.saturating_add(1);
             }
         }
-        if let Some(count) = raster.cell(to).and_then(|cell| self.counts.get_mut(cell)) {
+        if let Some(count) = hit.and_then(|cell| self.counts.get_mut(cell)) {
             count.hits = count.hits.saturating_add(1);
         }
     }
@@ -84,11 +86,8 @@ impl Default for OccupancyBuilder {
     }
 }
 
-/// Last cell inside a raster on the line between two points. The first point is inside.
-fn inside(raster: &Raster, from: Point2, to: Point2) -> Option<Cell> {
-    if let Some(cell) = raster.cell(to) {
-        return Some(cell);
-    }
+/// Last cell inside a raster on the line between two points. The first point is inside, the second one is not.
+fn last_inside(raster: &Raster, from: Point2, to: Point2) -> Option<Cell> {
     let (corner, d) = (raster.corner, to - from);
     // Fraction of the line up to half a cell before the border, along one axis.
     let share = |from: f32, d: f32, low: f32, cells: usize| {

@@ -1,7 +1,7 @@
 use super::{Grid, Occupancy};
 use crate::{
     math::Random,
-    scan::{Point2, Pose2, Scan},
+    scan::{BeamDirections, Point2, Pose2, Scan, wrap_angle},
 };
 use apex_rt::{Out, node};
 use core::f32::consts::FRAC_PI_4;
@@ -43,7 +43,7 @@ impl Octagon {
     pub fn side_pose(&self, side: usize) -> Pose2 {
         let theta = self.theta + FRAC_PI_4 * (side % 8) as f32;
         let middle = self.centre + Point2::polar(self.apothem, theta);
-        Pose2::new(middle.x, middle.y, libm::remainderf(theta, core::f32::consts::TAU))
+        Pose2::new(middle.x, middle.y, wrap_angle(theta))
     }
 
     /// Distance of a point from the nearest side, in m.
@@ -180,6 +180,7 @@ pub struct Stations {
     /// Number of points in the box from which on the station is occupied.
     #[param(default = 3, range = 1..=1000)]
     min_points: usize,
+    directions: BeamDirections,
 }
 
 #[node]
@@ -204,10 +205,12 @@ impl Stations {
         }));
     }
 
-    fn is_free(&self, station: &Pose2, side: f32, scanner: &Pose2, scan: &Scan) -> bool {
-        let inside = |p: &Point2| (self.margin..=self.depth).contains(&p.x) && p.y.abs() <= 0.5 * self.share * side;
-        let points = scan.points().map(|(_, p)| station.to_inner(scanner.to_outer(p)));
-        points.filter(inside).take(self.min_points).count() < self.min_points
+    fn is_free(&mut self, station: &Pose2, side: f32, scanner: &Pose2, scan: &Scan) -> bool {
+        let Self { depth, margin, share, min_points, .. } = *self;
+        let inside = |p: &Point2| (margin..=depth).contains(&p.x) && p.y.abs() <= 0.5 * share * side;
+        let (station, scanner) = (station.transform(), scanner.transform());
+        let points = self.directions.points(scan).map(|(_, p)| station.to_inner(scanner.to_outer(p)));
+        points.filter(inside).take(min_points).count() < min_points
     }
 }
 

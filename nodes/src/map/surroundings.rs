@@ -85,7 +85,7 @@ impl MarkSurroundings {
 
     /// Marks the occupied cells of the last window, also those that are not in view.
     fn mark_window(&self, marked: &mut Grid<Occupancy>, [pose, odometry]: [&Pose2; 2]) {
-        let (window, raster) = (&self.last, *marked.raster());
+        let (window, raster, pose) = (&self.last, *marked.raster(), pose.transform());
         for (place, kind) in occupied(window, odometry).filter(|(place, _)| place.norm() <= self.near) {
             if let Some(cell) = raster.cell(pose.to_outer(place)) {
                 mark(marked, cell, kind);
@@ -104,11 +104,12 @@ impl MarkSurroundings {
     /// Forgets the cells that are free now, and adds those that are occupied.
     fn look(&mut self, window: &Grid<Occupancy>, raster: &Raster, [pose, odometry]: [&Pose2; 2], now: Time) {
         let Self { reach, view_angle, known, .. } = self;
+        let (pose, outside) = (pose.transform(), odometry.transform());
         let is_in_view = |place: Point2| place.norm() <= *reach && place.angle().abs() <= 0.5 * *view_angle;
         known.retain(|known| {
             let place = pose.to_inner(raster.centre(known.cell));
             let is_seen = is_in_view(place) && place.norm() <= known.distance + FARTHER;
-            !(is_seen && window.at(odometry.to_outer(place)) == Some(&Occupancy::Free))
+            !(is_seen && window.at(outside.to_outer(place)) == Some(&Occupancy::Free))
         });
         for (place, kind) in occupied(window, odometry).filter(|(place, _)| is_in_view(*place)) {
             let Some(cell) = raster.cell(pose.to_outer(place)) else { continue };
@@ -135,9 +136,10 @@ fn insert(known: &mut Vec<Known>, place: usize, new: Known) {
 }
 
 /// Places of the occupied cells of a window, in the frame of the robot, and what is in them.
-fn occupied<'a>(window: &'a Grid<Occupancy>, odometry: &'a Pose2) -> impl Iterator<Item = (Point2, Occupancy)> + 'a {
+fn occupied<'a>(window: &'a Grid<Occupancy>, odometry: &Pose2) -> impl Iterator<Item = (Point2, Occupancy)> + use<'a> {
+    let odometry = odometry.transform();
     let cells = window.iter().filter(|(_, kind)| kind.is_obstacle());
-    cells.map(|(cell, kind)| (odometry.to_inner(window.raster().centre(cell)), *kind))
+    cells.map(move |(cell, kind)| (odometry.to_inner(window.raster().centre(cell)), *kind))
 }
 
 /// Marks an obstacle in a cell. A low one does not replace a higher one.

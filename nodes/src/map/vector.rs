@@ -111,12 +111,38 @@ impl LineSegment {
     /// Distance from `origin` along the unit vector `direction` to this segment, or `None` if it is not hit.
     #[inline]
     pub fn hit(&self, origin: Point2, direction: Point2) -> Option<f32> {
+        Some(nearest_hit([self], origin, direction)).filter(|range| range.is_finite())
+    }
+
+    /// Distance from `origin` along `direction` to the line through this segment, and the place where it is hit: 0 at
+    /// the first end, 1 at the second one. Neither is finite if they are parallel.
+    #[inline]
+    fn crossing(&self, origin: Point2, direction: Point2) -> (f32, f32) {
         let (along, from) = (self.b - self.a, self.a - origin);
         let scale = 1.0 / cross(direction, along);
-        let (distance, place) = (cross(from, along) * scale, cross(from, direction) * scale);
-        // Not true for the NaN and the infinity of a parallel segment.
-        (distance >= 0.0 && (0.0..=1.0).contains(&place) && distance.is_finite()).then_some(distance)
+        (cross(from, along) * scale, cross(from, direction) * scale)
     }
+}
+
+/// Distance from `origin` along the unit vector `direction` to the nearest segment; infinite if none is hit.
+///
+/// Compares the bits of floating-point numbers, which have the order of the numbers if these are not negative;
+/// negative ones and NaN come after infinity. So there are few instructions for a segment, and no branch that is hard
+/// to predict.
+#[inline]
+pub(crate) fn nearest_hit<'a>(
+    segments: impl IntoIterator<Item = &'a LineSegment>,
+    origin: Point2,
+    direction: Point2,
+) -> f32 {
+    // −0 + 0 is 0.
+    let bits = |value: f32| (value + 0.0).to_bits();
+    let mut nearest = f32::INFINITY.to_bits();
+    for segment in segments {
+        let (distance, place) = segment.crossing(origin, direction);
+        nearest = nearest.min(if bits(place) <= bits(1.0) { bits(distance) } else { u32::MAX });
+    }
+    f32::from_bits(nearest)
 }
 
 /// z component of the cross product: positive if `b` points to the left of `a`.

@@ -1,12 +1,12 @@
 use super::{Path, open::Open};
 use crate::{
-    map::{DistanceTransform, Grid, Occupancy},
+    map::{Cell, DistanceTransform, Grid, Occupancy},
     persons::{Person, Persons},
-    scan::{Point2, Pose2},
+    scan::{Point2, Pose2, wrap_angle},
 };
 use apex_rt::{Event, node};
 use core::f32::consts::TAU;
-use libm::{floorf, hypotf};
+use libm::{floorf, hypotf, sqrtf};
 use std::collections::BinaryHeap;
 
 /// Length of a step, in m, and number of its parts that are checked.
@@ -27,6 +27,11 @@ const GREED: f32 = 1.3;
 const MOST: usize = 20_000;
 /// Distance from the start up to which a vehicle may be as near to obstacles as it is there, in m.
 const LEAVES: f32 = 0.8;
+/// Additional cost per metre, for each metre of distance from the trail between these two, in m.
+const STRAY: f32 = 0.5;
+const ASTRAY: [f32; 2] = [0.3, 2.3];
+/// Distance of the place on the border of the map at which it is reached, in m.
+const BEYOND: f32 = 1.5;
 /// Radius of a person with room to walk, in m, and time for which persons are predicted, in s.
 const BODY: f32 = 0.45;
 const PREDICTED: f32 = 2.0;
@@ -42,8 +47,12 @@ const NONE: u32 = u32::MAX;
 /// sees the ground only here and there. Other `persons` are avoided where they will be when the vehicle, at the speed
 /// `pace`, is there.
 ///
-/// `map` and `pose` are in the frame of the person; the last ones count when a goal comes. A person outside of the map
-/// is approached up to its border. `path` is a path forward, `back` one backward, which are to be followed by different
+/// With a `trail`, where the person went, a path near to it costs less: where a person went, nothing stands, and the
+/// ground carries.
+///
+/// `map`, `pose` and `trail` are in the frame of the person; the last ones count when a goal comes. What is occupied
+/// where the vehicle stands is taken to be wrong. A person outside of the map is approached up to its border, along the
+/// trail if there is one. `path` is a path forward, `back` one backward, which are to be followed by different
 /// inputs of a follower: of a path that changes its direction only the first piece is sent. `no_path` says that there
 /// is none to this person, or that no map or pose has come yet.
 #[node]
@@ -79,6 +88,7 @@ pub struct ArcPlanner {
     map: Option<Grid<Occupancy>>,
     pose: Option<Pose2>,
     persons: Persons,
+    trail: Path,
     search: Search,
 }
 
@@ -92,6 +102,8 @@ struct Search {
     /// Least cost of each state.
     best: Vec<f32>,
     columns: usize,
+    /// Points of the trail on the map.
+    trail: Vec<Point2>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -107,7 +119,13 @@ struct Node {
 
 #[node]
 impl ArcPlanner {
-    fn process(&mut self, map: Option<&Grid<Occupancy>>, pose: Option<&Pose2>, persons: Option<&Persons>) {
+    fn process(
+        &mut self,
+        map: Option<&Grid<Occupancy>>,
+        pose: Option<&Pose2>,
+        persons: Option<&Persons>,
+        trail: Option<&Path>,
+    ) {
         if let Some(map) = map {
             match &mut self.map {
                 Some(last) => last.clone_from(map),
@@ -117,6 +135,9 @@ impl ArcPlanner {
         self.pose = pose.filter(|pose| pose.is_usable()).copied().or(self.pose);
         if let Some(persons) = persons {
             self.persons.clone_from(persons);
+        }
+        if let Some(trail) = trail {
+            self.trail.clone_from(trail);
         }
     }
 
@@ -131,8 +152,9 @@ impl ArcPlanner {
     }
 
     fn plan(&mut self, person: &Person) -> Option<(Path, bool)> {
-        let (map, start) = (self.map.take()?, self.pose?);
+        let (mut map, start) = (self.map.take()?, self.pose?);
         let mut search = core::mem::take(&mut self.search);
+        self.free_discs(&mut map, &start);
         search.transform.run(&map, |cell| cell.is_obstacle(), &mut search.distances);
         self.map = Some(map);
         let (goal, reach) = self.target(&search.distances, &start, person);
@@ -140,6 +162,22 @@ impl ArcPlanner {
         let planned = end.map(|end| search.trace(end));
         self.search = search;
         planned
+    }
+
+    /// Frees the cells in the discs that cover the vehicle, which stands there: obstacles in them are false, or it
+    /// touches them already. It could not leave them otherwise.
+    fn free_discs(&self, map: &mut Grid<Occupancy>, start: &Pose2) {
+        let radius = self.radius_of_discs() + map.raster().resolution;
+        self.discs(start).into_iter().for_each(|middle| free(map, middle, radius));
+    }
+
+    /// Middles of the two discs that cover the vehicle.
+    fn discs(&self, pose: &Pose2) -> [Point2; 2] {
+        [0.25, -0.25].map(|part| pose.to_outer(Point2::new(part * self.length, 0.0)))
+    }
+
+    fn radius_of_discs(&self) -> f32 {
+        hypotf(0.5 * self.width, 0.25 * self.length)
     }
 
     /// Place to get near to, and distance from it at which it is reached. It is on the map.
@@ -152,9 +190,20 @@ impl ArcPlanner {
         if (place - middle).norm() <= most {
             return (place, self.gap);
         }
+        let is_near = |point: &Point2| (*point - middle).norm() <= most;
+        if let Some(on_trail) = self.trail_ahead(start).take_while(is_near).last() {
+            return (on_trail, BEYOND);
+        }
         let way = place - start.position();
         let reach = (most - (start.position() - middle).norm()).max(1.0);
-        (start.position() + way.scaled(reach / way.norm().max(1e-3)), 1.5)
+        (start.position() + way.scaled(reach / way.norm().max(1e-3)), BEYOND)
+    }
+
+    /// Trail from the point on that is the nearest to a pose.
+    fn trail_ahead(&self, start: &Pose2) -> impl Iterator<Item = Point2> + '_ {
+        let off = |i: &usize| (self.trail.points[*i] - start.position()).norm_squared();
+        let nearest = (0..self.trail.points.len()).min_by(|a, b| off(a).total_cmp(&off(b)));
+        self.trail.points[nearest.unwrap_or(0)..].iter().copied()
     }
 }
 
@@ -162,6 +211,8 @@ impl Search {
     /// Searches for a path, and returns its last node.
     fn run(&mut self, vehicle: &ArcPlanner, start: &Pose2, goal: Point2, reach: f32, followed: u32) -> Option<u32> {
         self.begin(start);
+        self.trail.clear();
+        self.trail.extend(vehicle.trail_ahead(start));
         let near = self.clearance(vehicle, start);
         let mut expanded = 0;
         while let Some(Open { node: at, .. }) = self.open.pop() {
@@ -229,7 +280,7 @@ impl Search {
             return;
         }
         let bend = [curvature.abs(), (curvature - node.curvature).abs()].map(|c| c * vehicle.radius);
-        let way = STEP * (1.0 + 2.0 * narrow) * if is_back { BACKWARD[0] } else { 1.0 };
+        let way = STEP * (1.0 + 2.0 * narrow + self.stray(pose.position())) * if is_back { BACKWARD[0] } else { 1.0 };
         let turns = node.before != NONE && node.is_back != is_back;
         let change = if turns { BACKWARD[1] } else { 0.0 };
         let cost = node.cost + way + BENDING[0] * STEP * bend[0] + BENDING[1] * bend[1] + change;
@@ -241,15 +292,19 @@ impl Search {
         self.nodes.push(Node { pose, cost, driven, curvature, is_back, before });
     }
 
+    /// Additional cost per metre at a place beside the trail.
+    fn stray(&self, place: Point2) -> f32 {
+        let off = |point: &Point2| (*point - place).norm_squared();
+        let Some(nearest) = self.trail.iter().map(off).min_by(f32::total_cmp) else { return 0.0 };
+        STRAY * (sqrtf(nearest).min(ASTRAY[1]) - ASTRAY[0]).max(0.0)
+    }
+
     /// Distance of the vehicle from the nearest occupied cell, in m; NaN outside of the map.
     fn clearance(&self, vehicle: &ArcPlanner, pose: &Pose2) -> f32 {
-        let quarter = 0.25 * vehicle.length;
-        let radius = hypotf(0.5 * vehicle.width, quarter) + 0.5 * self.distances.raster().resolution;
-        let at = |x: f32| {
-            let place = pose.to_outer(Point2::new(x, 0.0));
+        let radius = vehicle.radius_of_discs() + 0.5 * self.distances.raster().resolution;
+        let [front, rear] = vehicle.discs(pose).map(|place| {
             self.distances.raster().cell(place).and_then(|cell| self.distances.get(cell)).copied().unwrap_or(f32::NAN)
-        };
-        let (front, rear) = (at(quarter), at(-quarter));
+        });
         let least = if front < rear || front.is_nan() { front } else { rear };
         least - radius
     }
@@ -303,13 +358,28 @@ impl ArcPlanner {
     }
 }
 
+/// Frees the cells whose centres are in a disc.
+fn free(map: &mut Grid<Occupancy>, middle: Point2, radius: f32) {
+    let raster = *map.raster();
+    let Some(at) = raster.cell(middle) else { return };
+    let count = (radius / raster.resolution) as usize + 1;
+    let around = |at: usize| at.saturating_sub(count)..=at + count;
+    for cell in around(at.y).flat_map(|y| around(at.x).map(move |x| Cell::new(x, y))) {
+        if (raster.centre(cell) - middle).norm() <= radius
+            && let Some(cell) = map.get_mut(cell)
+        {
+            *cell = Occupancy::Unknown;
+        }
+    }
+}
+
 /// Pose after an arc of a curvature in 1/m and a length in m, which is negative backward.
 fn advanced(pose: &Pose2, curvature: f32, length: f32) -> Pose2 {
     let turn = curvature * length;
     // Chord of the arc: the error of its length is below 1 %.
     let chord = length * (1.0 - turn * turn / 24.0);
     let position = pose.position() + Point2::polar(chord, pose.theta + 0.5 * turn);
-    Pose2::new(position.x, position.y, libm::remainderf(pose.theta + turn, TAU))
+    Pose2::new(position.x, position.y, wrap_angle(pose.theta + turn))
 }
 
 /// Length of the way between two points, in m.
@@ -328,7 +398,7 @@ mod tests {
     fn map(walls: &[(f32, f32, f32, f32)]) -> Grid<Occupancy> {
         let raster = Raster { corner: Point2::new(-12.0, -12.0), resolution: 0.15, width: 160, height: 160 };
         let mut map = Grid::new(raster, Occupancy::Unknown).expect("small");
-        for cell in (0..160).flat_map(|y| (0..160).map(move |x| crate::map::Cell::new(x, y))) {
+        for cell in (0..160).flat_map(|y| (0..160).map(move |x| Cell::new(x, y))) {
             let p = raster.centre(cell);
             if walls.iter().any(|(x0, x1, y0, y1)| p.x >= *x0 && p.x <= *x1 && p.y >= *y0 && p.y <= *y1) {
                 *map.get_mut(cell).expect("inside") = Occupancy::Occupied;
@@ -338,9 +408,19 @@ mod tests {
     }
 
     fn plan(walls: &[(f32, f32, f32, f32)], backward: bool, person: Point2, others: &[Person]) -> Option<(Path, bool)> {
+        plan_with(walls, backward, person, others, None)
+    }
+
+    fn plan_with(
+        walls: &[(f32, f32, f32, f32)],
+        backward: bool,
+        person: Point2,
+        others: &[Person],
+        trail: Option<&Path>,
+    ) -> Option<(Path, bool)> {
         let mut node = ArcPlanner::construct((0.72, 0.61, 0.1, 0.5, 1.2, 2.0, 0.0, backward, 2.0));
         let persons: Persons = others.iter().copied().collect();
-        node.process(Some(&map(walls)), Some(&Pose2::default()), Some(&persons));
+        node.process(Some(&map(walls)), Some(&Pose2::default()), Some(&persons), trail);
         let (mut path, mut back, mut none) = (None, None, None);
         let goal = Person { id: 7, position: person, ..Person::default() };
         node.goal(&goal, event(&mut path), event(&mut back), event(&mut none));
@@ -385,6 +465,36 @@ mod tests {
         assert!(plan(&walls, false, person, &[]).is_none());
         let (path, is_back) = plan(&walls, true, person, &[]).expect("a path");
         assert!(is_back && path.goal().expect("an end").x < -0.5, "{:?}", path.goal());
+    }
+
+    #[test]
+    fn a_vehicle_leaves_what_it_seems_to_stand_in() {
+        let person = Point2::new(8.0, 0.0);
+        for wall in [(-0.1, 0.1, -0.3, 0.3), (0.3, 0.5, -0.2, 0.5), (-0.4, 0.4, 0.25, 0.4)] {
+            assert!(plan(&[wall], true, person, &[]).is_some(), "{wall:?}");
+        }
+        // What is ahead of it remains.
+        assert!(plan(&[(0.9, 1.1, -12.0, 12.0)], false, person, &[]).is_none());
+    }
+
+    #[test]
+    fn it_goes_where_the_person_went() {
+        // Round a corner to the left: the straight way is free, too.
+        let corner = [Point2::new(0.0, 0.0), Point2::new(7.0, 0.0), Point2::new(7.0, 7.0)];
+        let legs =
+            corner.windows(2).flat_map(|leg| (0..15).map(|i| leg[0] + (leg[1] - leg[0]).scaled(i as f32 / 15.0)));
+        let trail = Path { points: legs.collect(), heading: 0.0 };
+        let off = |path: &Path| {
+            let off = |p: &Point2| trail.points.iter().map(|t| way(*t, *p)).fold(f32::INFINITY, f32::min);
+            path.points.iter().map(off).fold(0.0, f32::max)
+        };
+        let straight = plan(&[], false, corner[2], &[]).expect("a path").0;
+        let along = plan_with(&[], false, corner[2], &[], Some(&trail)).expect("a path").0;
+        assert!(off(&straight) > 2.2 && off(&along) < 1.6, "{} m, {} m", off(&straight), off(&along));
+        // Beyond the map it leads towards the end of the trail on it.
+        let far = Point2::new(-20.0, 30.0);
+        let along = plan_with(&[], false, far, &[], Some(&trail)).expect("a path").0;
+        assert!(way(along.goal().expect("an end"), corner[2]) < 2.0, "{:?}", along.goal());
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     map::{Grid, Occupancy},
     math::normalize_angle,
-    scan::{FarFromOrigin, Pose2, Scan},
+    scan::{BeamDirections, FarFromOrigin, Pose2, Scan},
 };
 use apex_rt::{Ctx, Event, Time, node};
 use libm::{atanf, fabsf, fmaxf, fminf, sqrtf};
@@ -113,6 +113,7 @@ pub struct CurveFollower {
     /// Hazards near the way.
     hazards: Near,
     halt: Halt,
+    directions: [BeamDirections; 2],
 }
 
 /// Prediction of a way.
@@ -217,18 +218,21 @@ impl CurveFollower {
     /// Finds the points of the scans that may be on the way.
     fn find_near(&mut self, ctx: &Ctx, axes: &Axes) {
         let (zone, margin) = (self.zone(), self.margin);
-        let scans = self.scans.iter().zip(axes).filter_map(|(scan, axis)| Some((scan.young(ctx, self.max_age)?, axis)));
-        self.near.find(&zone, axes, self.look_ahead, scans.flat_map(|(scan, axis)| seen(scan, axis, margin)));
+        let scans = self.scans.iter().zip(&mut self.directions).zip(axes);
+        let places = scans.filter_map(|((scan, directions), axis)| {
+            Some(seen(scan.young(ctx, self.max_age)?, directions, axis, margin))
+        });
+        self.near.find(&zone, axes, self.look_ahead, places.flatten());
     }
 
     /// Finds the hazards that may be on the way. `there` are the axes in the frame of the ground.
     fn find_hazards(&mut self, ctx: &Ctx, axes: &Axes, there: Option<Axes>) {
         let Self { vehicle, clearance, look_ahead, .. } = *self;
         let ground = self.ground.young(ctx, self.max_age).zip(there.as_ref());
-        let here = axes[0];
+        let here = axes[0].transform();
         let hazards = ground.into_iter().flat_map(|(map, there)| {
-            let hazards = clearance.hazards(map, vehicle, there, false);
-            hazards.map(move |(place, margin)| (here.to_outer(there[0].to_inner(place)), margin))
+            let (hazards, there) = (clearance.hazards(map, vehicle, there, false), there[0].transform());
+            hazards.map(move |(place, margin)| (here.to_outer(there.to_inner(place)), margin))
         });
         self.hazards.find(&clearance.zone(vehicle, false), axes, look_ahead, hazards);
     }

@@ -7,11 +7,10 @@ use super::{
 };
 use crate::{
     math::PidLaw,
-    scan::{FarFromOrigin, Point2, Pose2, Scan},
+    scan::{BeamDirections, FarFromOrigin, Point2, Pose2, Scan, wrap_angle},
 };
 use apex_rt::{Ctx, Event, Time, node};
-use core::f32::consts::{PI, TAU};
-use libm::remainderf;
+use core::f32::consts::PI;
 
 /// Weight of a heading error in the distance left to go, in m/rad.
 const TURN: f32 = 0.1;
@@ -107,6 +106,7 @@ pub struct PathFollower {
     obstacle: Option<f32>,
     motion: Motion,
     halt: Halt,
+    directions: BeamDirections,
 }
 
 /// Present motion of a robot.
@@ -202,10 +202,13 @@ impl PathFollower {
 
     fn look(&mut self, scan: &Scan, pose: &Pose2, projection: &Projection, now: Time) {
         let sight = self.look_ahead + self.clearance;
-        let points = || scan.points().map(|(_, point)| point);
-        self.obstacle = points().map(Point2::norm).reduce(f32::min);
-        let mut near = points().filter(|point| point.norm_squared() <= sight * sight);
-        let is_obstructed = near.any(|point| self.stands_on_path(pose.to_outer(point), projection));
+        let frame = pose.transform();
+        let mut directions = core::mem::take(&mut self.directions);
+        self.obstacle = directions.points(scan).map(|(_, point)| point.norm()).reduce(f32::min);
+        let mut near = directions.points(scan).filter(|(_, point)| point.norm_squared() <= sight * sight);
+        let is_obstructed = near.any(|(_, point)| self.stands_on_path(frame.to_outer(point), projection));
+        drop(near);
+        self.directions = directions;
         self.progress.obstruct(is_obstructed, now);
     }
 
@@ -232,7 +235,7 @@ impl PathFollower {
 
     fn end(&mut self, pose: &Pose2, goal: Point2, projection: &Projection, now: Time) -> Option<End> {
         let to_goal = (goal - pose.position()).norm();
-        let turn = remainderf(self.path.heading - pose.theta, TAU).abs();
+        let turn = wrap_angle(self.path.heading - pose.theta).abs();
         let is_last = self.is_arriving(projection) && projection.stop + 1 == self.path.points.len();
         if is_last && to_goal <= self.tolerance && turn <= self.heading_tolerance {
             return Some(End::Reached);
@@ -258,7 +261,7 @@ impl PathFollower {
     fn drive(&mut self, pose: &Pose2, projection: &Projection, now: Time) -> Twist {
         let dt = self.motion.at.replace(now).map_or(0.0, |last| now.since(last).as_secs_f32());
         let heading = if projection.remaining <= self.turn_within { self.path.heading } else { projection.tangent };
-        let rotation = self.rotation(remainderf(heading - pose.theta, TAU), dt);
+        let rotation = self.rotation(wrap_angle(heading - pose.theta), dt);
         let most = self.rotation_acceleration * dt;
         self.motion.rotation += (rotation - self.motion.rotation).clamp(-most, most);
         let change = self.velocity(pose, projection) - self.motion.velocity;
@@ -433,7 +436,7 @@ mod tests {
                 assert_eq!(end, End::Reached);
                 let missed = robot.pose.position() - way.goal().expect("a goal");
                 assert!(missed.norm() <= 0.05, "{missed:?}");
-                assert!(remainderf(robot.pose.theta - heading, TAU).abs() <= 0.05);
+                assert!(wrap_angle(robot.pose.theta - heading).abs() <= 0.05);
                 assert!(changes <= 0.02 + 1e-4, "accelerates by {} m/s^2", changes / 0.02);
             }
         }

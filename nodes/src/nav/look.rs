@@ -3,10 +3,8 @@ use super::{
     latest::{any_far, fresh},
     twist::Halt,
 };
-use crate::scan::{FarFromOrigin, Point2, Pose2};
+use crate::scan::{FarFromOrigin, Point2, Pose2, wrap_angle};
 use apex_rt::{Ctx, node};
-use core::f32::consts::TAU;
-use libm::remainderf;
 
 /// Angular velocity per error of the direction, in 1/s.
 const GAIN: f32 = 2.0;
@@ -49,7 +47,7 @@ impl LookAround {
 
     fn look(&mut self, pose: Option<&Pose2>) -> Option<Twist> {
         let Some(pose) = pose else { return self.halt.drive(Twist::ZERO) };
-        let error = self.last.map(|place| remainderf((place - pose.position()).angle() - pose.theta, TAU));
+        let error = self.last.map(|place| wrap_angle((place - pose.position()).angle() - pose.theta));
         let Some(error) = error.filter(|error| error.is_finite() && !self.has_looked) else {
             let side = if self.side == 0.0 { 1.0 } else { self.side };
             return self.halt.drive(Twist::new(0.0, 0.0, side * self.rotation));
@@ -95,7 +93,7 @@ mod tests {
             pose.theta += 0.05 * twist.omega;
             turned += 0.05 * twist.omega;
         }
-        assert!(turned < -TAU, "{turned}");
+        assert!(turned < -core::f32::consts::TAU, "{turned}");
         let late = Ctx::new(Time::from_millis(60_000));
         assert_eq!(node.process(&late, Some(&pose)).unwrap(), Some(Twist::ZERO), "the activity has left");
         assert_eq!(node.process(&late, Some(&pose)).unwrap(), None);

@@ -20,6 +20,8 @@ mod costs;
 mod curve_follow;
 #[cfg(feature = "std")]
 mod follow;
+#[cfg(feature = "std")]
+mod frontiers;
 mod guard;
 #[cfg(feature = "std")]
 mod hazard;
@@ -60,6 +62,8 @@ mod steer;
 mod sweep;
 mod track;
 #[cfg(feature = "std")]
+mod trail;
+#[cfg(feature = "std")]
 mod trailer_field;
 mod twist;
 
@@ -75,6 +79,8 @@ pub use costs::{CostMap, write_costs};
 pub use curve_follow::CurveFollower;
 #[cfg(feature = "std")]
 pub use follow::PathFollower;
+#[cfg(feature = "std")]
+pub use frontiers::Frontiers;
 pub use guard::OdometryGuard;
 #[cfg(feature = "std")]
 pub use hazard::HazardStop;
@@ -105,6 +111,8 @@ pub use steer::Steer;
 #[cfg(feature = "std")]
 pub use sweep::SweepStop;
 pub use track::{TrackPose, stand_before};
+#[cfg(feature = "std")]
+pub use trail::PersonTrail;
 #[cfg(feature = "std")]
 pub use trailer_field::TrailerField;
 pub use twist::Twist;

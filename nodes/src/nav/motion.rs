@@ -6,10 +6,10 @@ use super::{
     latest::{any_far, fresh},
     twist::Halt,
 };
-use crate::scan::{FarFromOrigin, Point2, Pose2, Scan};
+use crate::scan::{FarFromOrigin, Point2, Pose2, Scan, wrap_angle};
 use apex_rt::{Ctx, Event, Time, node};
-use core::f32::consts::{PI, TAU};
-use libm::{remainderf, sqrtf};
+use core::f32::consts::PI;
+use libm::sqrtf;
 
 /// Minimum speed before a stop, in m/s.
 const SLOWEST: f32 = 0.02;
@@ -78,7 +78,7 @@ impl MoveRobot {
         let least = travelled.min(remaining) + SLOWEST * SLOWEST / self.acceleration;
         let speed = braking_speed(least, self.speed, self.acceleration);
         let to_goal = pose.to_inner(goal);
-        let omega = TURN_GAIN * remainderf(start.theta - pose.theta, TAU);
+        let omega = TURN_GAIN * wrap_angle(start.theta - pose.theta);
         self.halt.drive(Twist::of(to_goal.scaled(speed / to_goal.norm()), omega))
     }
 

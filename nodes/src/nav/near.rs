@@ -1,5 +1,5 @@
 use super::outline::{Axes, Outline};
-use crate::scan::{Point2, Pose2, Scan};
+use crate::scan::{BeamDirections, Point2, Pose2, Scan};
 use std::vec::Vec;
 
 /// Greatest distance that a corner of the vehicle moves on a metre of a curve, in m.
@@ -9,8 +9,14 @@ const SWING: f32 = 2.0;
 pub(super) const GRAZE: f32 = 0.01;
 
 /// Points of a scan whose scanner is at `axis`, with the distance to be kept from them in m.
-pub(super) fn seen<'a>(scan: &'a Scan, axis: &'a Pose2, margin: f32) -> impl Iterator<Item = (Point2, f32)> + 'a {
-    scan.points().map(move |(_, point)| (axis.to_outer(point), margin))
+pub(super) fn seen<'a>(
+    scan: &'a Scan,
+    directions: &'a mut BeamDirections,
+    axis: &Pose2,
+    margin: f32,
+) -> impl Iterator<Item = (Point2, f32)> + use<'a> {
+    let axis = axis.transform();
+    directions.points(scan).map(move |(_, point)| (axis.to_outer(point), margin))
 }
 
 /// Zone about a vehicle: its outline, and the same with a longer front.

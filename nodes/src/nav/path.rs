@@ -1,5 +1,5 @@
-use crate::scan::Point2;
-use libm::{fabsf, remainderf};
+use crate::scan::{Point2, wrap_angle};
+use libm::fabsf;
 
 /// A path in the plane, in the frame of the map that it was planned on.
 #[derive(Debug, PartialEq, Default)]
@@ -149,7 +149,7 @@ impl Path {
     /// coincide, it is that of the first one.
     pub fn turn(&self, i: usize) -> f32 {
         let Some((before, after)) = self.legs(i) else { return 0.0 };
-        remainderf(after.angle() - before.angle(), core::f32::consts::TAU)
+        wrap_angle(after.angle() - before.angle())
     }
 
     /// Segment that ends at a point, and the next one that has a length.

@@ -3,7 +3,7 @@ use super::{
     latest::Latest,
     twist::{Command, braking_speed},
 };
-use crate::scan::{Point2, Scan};
+use crate::scan::{BeamDirections, Point2, Scan};
 use apex_rt::{Ctx, node};
 use libm::{fmaxf, sqrtf};
 
@@ -80,6 +80,7 @@ pub struct SafetyField {
     max_age: f32,
     last: Latest<Scan>,
     command: Command,
+    directions: BeamDirections,
 }
 
 #[node]
@@ -90,7 +91,7 @@ impl SafetyField {
         self.last.update(ctx, scan, max_age);
         let twist = self.command.update(ctx, twist, max_age);
         self.command.send(match self.last.young(ctx, max_age) {
-            Some(scan) => field.limit(&twist, scan.points().map(|(_, point)| point)),
+            Some(scan) => field.limit(&twist, self.directions.points(scan).map(|(_, point)| point)),
             None => Twist::ZERO,
         })
     }

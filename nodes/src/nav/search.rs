@@ -146,14 +146,39 @@ impl Search {
                 self.trace(&raster, at, path);
                 return Ok(length * f64::from(raster.resolution));
             }
-            for (next, step) in neighbours(terrain, cell) {
-                let length = length + step * (1.0 + f64::from(terrain.cost(next)));
-                if length.is_finite() {
-                    self.reach(index(&raster, next), at, length, octile(next, goal));
-                }
-            }
+            self.expand(terrain, cell, length, |next| octile(next, goal));
         }
         Err(NoPath::Unreachable)
+    }
+
+    /// Writes the length with costs of the shortest path from `start` to each cell, in m: infinite where no path leads.
+    ///
+    /// # Errors
+    /// The start is not an open cell of the map, or the costs are on another raster. All lengths are infinite then.
+    pub fn lengths(&mut self, terrain: &Terrain<'_>, start: Cell, lengths: &mut Grid<f32>) -> Result<(), NoPath> {
+        lengths.reset_like(terrain.map, f32::INFINITY);
+        check(terrain, start, start)?;
+        let raster = *terrain.map.raster();
+        self.begin(terrain.map.cells().len());
+        self.reach(index(&raster, start), index(&raster, start), 0.0, 0.0);
+        while let Some(Open { cell: at, length, .. }) = self.open.pop() {
+            if !core::mem::replace(&mut self.nodes[at as usize].closed, true) {
+                lengths.cells_mut()[at as usize] = (length * f64::from(raster.resolution)) as f32;
+                self.expand(terrain, cell(&raster, at), length, |_| 0.0);
+            }
+        }
+        Ok(())
+    }
+
+    /// Reaches the neighbours of a cell, to which a path of this length leads. `rest` is the heuristic.
+    fn expand(&mut self, terrain: &Terrain<'_>, at: Cell, length: f64, rest: impl Fn(Cell) -> f64) {
+        let raster = terrain.map.raster();
+        for (next, step) in neighbours(terrain, at) {
+            let length = length + step * (1.0 + f64::from(terrain.cost(next)));
+            if length.is_finite() {
+                self.reach(index(raster, next), index(raster, at), length, rest(next));
+            }
+        }
     }
 
     fn begin(&mut self, cells: usize) {
@@ -224,7 +249,7 @@ fn octile(a: Cell, b: Cell) -> f64 {
 }
 
 /// Index of a cell. Grids have far fewer cells than a `u32` has values.
-fn index(raster: &Raster, cell: Cell) -> u32 {
+pub(super) fn index(raster: &Raster, cell: Cell) -> u32 {
     (cell.y * raster.width + cell.x) as u32
 }
 
@@ -235,20 +260,7 @@ fn cell(raster: &Raster, index: u32) -> Cell {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Map with cells of 1 m: `#` is occupied, `?` unknown.
-    fn map(rows: &[&str]) -> Grid<Occupancy> {
-        let raster = Raster { width: rows[0].len(), height: rows.len(), ..Raster::default() };
-        let mut map = Grid::new(raster, Occupancy::Free).expect("small");
-        for (cell, sign) in map.cells_mut().iter_mut().zip(rows.concat().bytes()) {
-            match sign {
-                b'#' => *cell = Occupancy::Occupied,
-                b'?' => *cell = Occupancy::Unknown,
-                _ => {}
-            }
-        }
-        map
-    }
+    use crate::map::drawn as map;
 
     fn length(terrain: &Terrain<'_>, start: (usize, usize), goal: (usize, usize)) -> Result<f64, NoPath> {
         Search::default().run(terrain, Cell::new(start.0, start.1), Cell::new(goal.0, goal.1), &mut Vec::new())
@@ -286,6 +298,20 @@ mod tests {
         costs.cells_mut().fill(f32::NAN);
         assert_eq!(with(&costs), Ok(2.0));
         assert_eq!(with(&Grid::default()), Err(NoPath::OtherRaster));
+    }
+
+    #[test]
+    fn lengths_to_all_cells_are_those_of_single_paths() {
+        let map = map(&["..#.", ".#..", "...?", ".#.."]);
+        let terrain = Terrain { map: &map, costs: None, unknown_is_open: false };
+        let (mut search, mut lengths) = (Search::default(), Grid::default());
+        assert_eq!(search.lengths(&terrain, Cell::new(0, 0), &mut lengths), Ok(()));
+        for (goal, all) in lengths.iter() {
+            let one = length(&terrain, (0, 0), (goal.x, goal.y)).map_or(f32::INFINITY, |length| length as f32);
+            assert_eq!(*all, one, "{goal:?}");
+        }
+        assert_eq!(search.lengths(&terrain, Cell::new(2, 0), &mut lengths), Err(NoPath::StartBlocked));
+        assert!(lengths.cells().iter().all(|length| length.is_infinite()));
     }
 
     #[test]

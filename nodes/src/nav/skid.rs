@@ -8,7 +8,7 @@ use super::{
 use crate::{
     map::{Grid, Occupancy},
     math::normalize_angle,
-    scan::{FarFromOrigin, Point2, Pose2, Scan},
+    scan::{BeamDirections, FarFromOrigin, Point2, Pose2, Scan},
 };
 use apex_rt::{Ctx, Event, Time, node};
 use core::f32::consts::PI;
@@ -117,6 +117,7 @@ pub struct SkidFollower {
     /// Time up to which the robot goes on without activity, once that has left.
     until: Option<Option<Time>>,
     halt: Halt,
+    directions: BeamDirections,
 }
 
 #[node]
@@ -221,15 +222,17 @@ impl SkidFollower {
     }
 
     /// Length of the path up to an obstacle, in m; infinite if there is none within the look-ahead.
-    fn free_length(&self, ctx: &Ctx, pose: &Pose2, projection: &Projection) -> f32 {
+    fn free_length(&mut self, ctx: &Ctx, pose: &Pose2, projection: &Projection) -> f32 {
         let reach = fminf(self.look_ahead, projection.remaining);
         let mut free = f32::INFINITY;
+        let mut directions = core::mem::take(&mut self.directions);
         if let Some(scan) = self.scan.young(ctx, self.max_age) {
-            let sight = self.look_ahead + self.clearance;
-            for (_, point) in scan.points().filter(|(_, point)| point.norm_squared() <= sight * sight) {
-                free = fminf(free, self.along(pose.to_outer(point), projection, reach));
+            let (sight, frame) = (self.look_ahead + self.clearance, pose.transform());
+            for (_, point) in directions.points(scan).filter(|(_, point)| point.norm_squared() <= sight * sight) {
+                free = fminf(free, self.along(frame.to_outer(point), projection, reach));
             }
         }
+        self.directions = directions;
         if let Some(map) = self.map.young(ctx, self.max_age) {
             let mut ahead = 0.0;
             while ahead < reach && ahead < free {

@@ -5,7 +5,7 @@ use super::{
     outline::{Axes, Outline},
     twist::Command,
 };
-use crate::scan::{Pose2, Scan};
+use crate::scan::{BeamDirections, Pose2, Scan};
 use apex_rt::{Ctx, node};
 
 /// Distance between predicted places, in m.
@@ -48,6 +48,7 @@ pub struct TrailerField {
     command: Command,
     /// Points near the vehicle.
     near: Near,
+    directions: [BeamDirections; 2],
 }
 
 #[node]
@@ -79,7 +80,8 @@ impl TrailerField {
     fn find_near(&mut self, ctx: &Ctx, now: &Axes) -> bool {
         let (zone, [ahead, behind]) = (self.zone(), [0, 1].map(|i| self.last[i].young(ctx, self.max_age)));
         let Some((ahead, behind)) = ahead.zip(behind) else { return false };
-        let places = seen(ahead, &now[0], self.margin).chain(seen(behind, &now[1], self.margin));
+        let [first, second] = &mut self.directions;
+        let places = seen(ahead, first, &now[0], self.margin).chain(seen(behind, second, &now[1], self.margin));
         self.near.find(&zone, now, LOOK_AHEAD, places);
         true
     }

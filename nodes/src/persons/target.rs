@@ -23,6 +23,8 @@ const MOVES: f32 = 0.6;
 const FORGET: f32 = 0.8;
 /// Difference of velocities up to which a person may be the same, in m/s.
 const ALIKE: f32 = 1.2;
+/// Highest speed of a person who was lost, in m/s.
+const RUNS: f32 = 3.0;
 /// Age up to which a track may be a target that has appeared again, in s.
 const NEW: f32 = 2.5;
 
@@ -88,6 +90,8 @@ pub struct TrackTarget {
     /// Time of the states of the tracks.
     now: Time,
     target: Option<u32>,
+    /// Person who is lost, where the person was seen last.
+    missing: Option<Track>,
     here: Option<Pose2>,
 }
 
@@ -198,7 +202,7 @@ impl TrackTarget {
     fn predict(&mut self, now: Time) {
         // The clock was set back.
         if now < self.now {
-            self.tracks.clear();
+            self.reset();
         }
         let dt = now.since(self.now).as_secs_f32();
         self.now = now;
@@ -263,6 +267,13 @@ impl TrackTarget {
 
     fn forget(&mut self) {
         let (now, target, keep) = (self.now, self.target, self.keep);
+        if let Some(followed) = self.followed().filter(|track| now.since(track.seen).as_secs_f32() > keep) {
+            // The prediction since the person was seen last is taken back.
+            let unseen = now.since(followed.seen).as_secs_f32();
+            let position = followed.position + followed.velocity.scaled(-unseen);
+            self.missing = Some(Track { position, ..*followed });
+            self.target = None;
+        }
         self.tracks.retain(|track| {
             let age = now.since(track.seen).as_secs_f32();
             age <= if Some(track.id) == target { keep } else { FORGET }
@@ -301,17 +312,25 @@ impl TrackTarget {
             }
             return;
         }
-        let here = self.here.map(|pose| pose.position()).unwrap_or_default();
-        let distance = |track: &Track| (track.position - here).norm();
-        let sure = self.tracks.iter().filter(|track| track.evidence >= PERSON && since(track.seen) < 0.5);
+        let near = match &self.missing {
+            Some(missing) => missing.position + missing.velocity.scaled(since(missing.seen)),
+            None => self.here.map(|pose| pose.position()).unwrap_or_default(),
+        };
+        let distance = |track: &Track| (track.position - near).norm();
+        let is_person = |track: &&Track| track.evidence >= PERSON && since(track.seen) < 0.5;
+        let may_be = |track: &&Track| self.missing.is_none_or(|missing| missing.may_be(track, now));
+        let sure = self.tracks.iter().filter(is_person).filter(may_be);
         self.target = sure.min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|track| track.id);
+        if self.target.is_some() {
+            self.missing = None;
+        }
     }
 
     /// Forgets everything.
     #[slot]
     fn reset(&mut self) {
         self.tracks.clear();
-        self.target = None;
+        (self.target, self.missing) = (None, None);
     }
 }
 
@@ -338,6 +357,14 @@ impl Track {
         // The covariance is that of the worse direction.
         let whole = p + fmaxf(variances[0], variances[1]);
         self.spread = [p - p * p / whole, c - p * c / whole, v - c * c / whole];
+    }
+
+    /// Returns `true` if someone can be this lost person: not one who was seen beside the person, nor one who is too
+    /// far away.
+    fn may_be(&self, other: &Self, now: Time) -> bool {
+        let since = |time: Time| now.since(time).as_secs_f32();
+        let reach = 1.0 + RUNS * since(self.seen);
+        since(other.born) < since(self.seen) + NEW && (other.position - self.position).norm() <= reach
     }
 
     fn person(&self) -> Person {
@@ -453,6 +480,23 @@ mod tests {
         assert!(test.target.is_none());
         let (word, ms) = test.said[1];
         assert!(word == "lost" && (4000..4300).contains(&(ms - until)), "{word} {}", ms - until);
+    }
+
+    #[test]
+    fn who_stands_near_the_robot_is_not_the_person_who_was_lost() {
+        let mut test = Test::new();
+        let person = |i: usize| Point2::new(5.0 + 0.2 * i as f32, 0.0);
+        let other = Point2::new(3.0, 1.5);
+        (0..20).for_each(|i| test.step(&[person(i)], &[person(i)]));
+        (20..50).for_each(|i| test.step(&[person(i), other], &[person(i), other]));
+        (0..60).for_each(|_| test.step(&[other], &[other]));
+        assert!(test.target.is_none(), "{:?}", test.target);
+        assert_eq!(test.said.len(), 2);
+        // The person stands still where one comes to in that time.
+        let place = Point2::new(18.0, 2.0);
+        (0..10).for_each(|_| test.step(&[other, place], &[other, place]));
+        let found = test.target.expect("it is found again");
+        assert!((found.position - place).norm() < 0.3 && test.said.len() == 3, "{found:?} {:?}", test.said);
     }
 
     #[test]

@@ -1,5 +1,5 @@
 use super::Persons;
-use crate::scan::{Pose2, Scan};
+use crate::scan::{BeamDirections, Pose2, Scan};
 use apex_rt::{Out, node};
 
 /// Marks the beams of a scan that end at persons who walk as not measured (NaN): they will be elsewhere when the robot
@@ -16,6 +16,7 @@ pub struct HideWalkers {
     /// Distance from a person up to which beams end at that person, with both legs in a step.
     #[param(unit = "m", default = 0.45, range = 0.0..=10.0)]
     radius: f32,
+    directions: BeamDirections,
 }
 
 #[node]
@@ -26,7 +27,7 @@ impl HideWalkers {
         let Some((pose, persons)) = pose.filter(|pose| pose.is_usable()).zip(persons) else { return };
         for person in persons.iter().filter(|person| person.velocity.norm() >= self.walking) {
             let place = pose.to_inner(person.position);
-            for (beam, point) in scan.points() {
+            for (beam, point) in self.directions.points(scan) {
                 if (point - place).norm_squared() <= self.radius * self.radius {
                     rest.ranges[beam] = f32::NAN;
                 }

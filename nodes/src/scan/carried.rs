@@ -1,4 +1,4 @@
-use super::{Point2, Pose2, Scan};
+use super::{BeamDirections, Point2, Pose2, Scan};
 use crate::math::normalize_angle;
 use apex_rt::{Ctx, Out, Time, node};
 use core::f32::consts::TAU;
@@ -54,6 +54,7 @@ pub struct HideCarried {
     parts: Vec<Point2, MOST>,
     /// Points beside the load, in the fixed frame, and when they were seen.
     others: Vec<(Point2, Time), MOST>,
+    directions: BeamDirections,
 }
 
 #[node]
@@ -88,7 +89,8 @@ impl HideCarried {
         }
         let learns = self.since.is_some_and(|since| ctx.now().since(since).as_secs_f32() <= self.learn);
         let [length, width] = [self.length, self.width].map(|size| size + 2.0 * self.around);
-        for (beam, point) in scan.points().filter(|(_, point)| place.is_in_box(*point, length, width)) {
+        let mut directions = core::mem::take(&mut self.directions);
+        for (beam, point) in directions.points(scan).filter(|(_, point)| place.is_in_box(*point, length, width)) {
             let part = place.to_inner(point);
             if learns && !self.is_part(part, APART) {
                 // Does not matter if it is full: then there are parts everywhere.
@@ -98,14 +100,15 @@ impl HideCarried {
                 rest.ranges[beam] = f32::NAN;
             }
         }
+        self.directions = directions;
     }
 
     /// Remembers what a scan without the load shows beside it, and adds what it hides there.
     fn remember(&mut self, now: Time, place: &Pose2, pose: &Pose2, near: &mut Scan) {
         let [length, width] = [self.length, self.width].map(|size| size + 2.0 * (self.around + RING));
-        let memory = self.memory;
+        let (memory, frame) = (self.memory, pose.transform());
         self.others.retain(|(point, seen)| {
-            let here = pose.to_inner(*point);
+            let here = frame.to_inner(*point);
             // The beams beside that of a point may end at the same thing.
             let passes = |range: &f32| *range > here.norm() + BEYOND;
             let about = beam(near, here).map(|beam| beam.saturating_sub(1)..(beam + 2).min(near.ranges.len()));
@@ -113,8 +116,8 @@ impl HideCarried {
                 && place.is_in_box(here, length, width)
                 && !about.is_some_and(|about| near.ranges[about].iter().all(passes))
         });
-        for (_, point) in near.points().filter(|(_, point)| place.is_in_box(*point, length, width)) {
-            let point = pose.to_outer(point);
+        for (_, point) in self.directions.points(near).filter(|(_, point)| place.is_in_box(*point, length, width)) {
+            let point = frame.to_outer(point);
             let is_same =
                 |(other, _): &&mut (Point2, Time)| (*other - point).norm_squared() <= OTHERS_APART * OTHERS_APART;
             match self.others.iter_mut().find(is_same) {

@@ -133,12 +133,9 @@ impl BoxModel {
     /// Points that may be inside the model, in its frame. NaN is dropped.
     fn nearby<'a>(&self, pose: &Pose2, points: &'a [Point2]) -> impl Iterator<Item = Point2> + use<'a> {
         let reach = self.reach_squared();
-        let (sin, cos) = libm::sincosf(pose.theta);
-        let centre = pose.position();
-        points.iter().filter_map(move |&p| {
-            let d = p - centre;
-            (d.norm_squared() <= reach).then(|| Point2::new(cos * d.x + sin * d.y, cos * d.y - sin * d.x))
-        })
+        let (centre, frame) = (pose.position(), pose.transform());
+        let near = points.iter().filter(move |&&p| (p - centre).norm_squared() <= reach);
+        near.map(move |&p| frame.to_inner(p))
     }
 
     /// Box in which only wheels may stand: the container and the strip before it.

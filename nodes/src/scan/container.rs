@@ -1,5 +1,5 @@
 use super::{
-    MAX_SEGMENTS, Point2, Pose2, Scan, Segments,
+    BeamDirections, MAX_SEGMENTS, Point2, Pose2, Scan, Segments,
     consensus::{BoxModel, Consensus, Sighting},
     ranges::PerBeam,
     wheel::{Sums, View, WheelShape},
@@ -137,6 +137,7 @@ pub struct ContainerSearch {
     points: PerBeam<Point2>,
     /// Segments, seen as wheels.
     views: Vec<View, MAX_SEGMENTS>,
+    directions: BeamDirections,
 }
 
 /// Distance along x within which a wheel belongs to the near side, in m.
@@ -149,7 +150,7 @@ impl ContainerSearch {
     fn process(&mut self, scan: &Scan, segments: &Segments) -> Option<Container> {
         self.points.clear();
         self.points.extend(scan.ranges.iter().map(|_| Point2::new(f32::NAN, f32::NAN)));
-        for (beam, point) in scan.points() {
+        for (beam, point) in self.directions.points(scan) {
             self.points[beam] = point;
         }
         let shape = self.shape();
@@ -259,6 +260,7 @@ mod tests {
 
     fn node() -> ContainerSearch {
         ContainerSearch {
+            directions: BeamDirections::default(),
             width: 0.7,
             length: 1.2,
             // Squares about the discs of the scans.

@@ -142,17 +142,20 @@ impl Pose2 {
         self.is_finite() && !self.is_usable()
     }
 
+    /// Transformation of many points between this frame and the outer frame.
+    pub fn transform(&self) -> Transform2 {
+        let (sin, cos) = libm::sincosf(self.theta);
+        Transform2 { origin: self.position(), sin, cos }
+    }
+
     /// Transforms a point from this frame to the outer frame.
     pub fn to_outer(&self, point: Point2) -> Point2 {
-        let (sin, cos) = libm::sincosf(self.theta);
-        self.position() + Point2::new(cos * point.x - sin * point.y, sin * point.x + cos * point.y)
+        self.transform().to_outer(point)
     }
 
     /// Transforms a point from the outer frame to this frame (thesis eq. 6.17).
     pub fn to_inner(&self, point: Point2) -> Point2 {
-        let (sin, cos) = libm::sincosf(self.theta);
-        let d = point - self.position();
-        Point2::new(cos * d.x + sin * d.y, cos * d.y - sin * d.x)
+        self.transform().to_inner(point)
     }
 
     /// Returns `true` if a point of the outer frame is in a box of this length and width, in m, whose middle has this
@@ -177,16 +180,61 @@ impl Pose2 {
     }
 }
 
-/// Angle wrapped to [−π, π] rad.
-fn wrap_angle(angle: f32) -> f32 {
-    let wrapped = libm::remainderf(angle, TAU);
-    wrapped.clamp(-PI, PI)
+/// Transformation of points between the frame of a pose and its outer frame: the sine and the cosine of the heading are
+/// computed once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transform2 {
+    origin: Point2,
+    sin: f32,
+    cos: f32,
+}
+
+impl Transform2 {
+    /// Transforms a point from the frame of the pose to the outer frame.
+    #[inline]
+    pub fn to_outer(&self, point: Point2) -> Point2 {
+        let (sin, cos) = (self.sin, self.cos);
+        self.origin + Point2::new(cos * point.x - sin * point.y, sin * point.x + cos * point.y)
+    }
+
+    /// Transforms a point from the outer frame to the frame of the pose.
+    #[inline]
+    pub fn to_inner(&self, point: Point2) -> Point2 {
+        let (sin, cos) = (self.sin, self.cos);
+        let d = point - self.origin;
+        Point2::new(cos * d.x + sin * d.y, cos * d.y - sin * d.x)
+    }
+}
+
+/// Angle wrapped to [−π, π] rad: the remainder of a division by a whole turn.
+pub fn wrap_angle(angle: f32) -> f32 {
+    let size = angle.abs();
+    if size <= PI {
+        return angle;
+    }
+    if size >= 3.0 * PI || angle.is_nan() {
+        return libm::remainderf(angle, TAU);
+    }
+    // Exact, as the remainder is: the angle is between a half and twice of what is subtracted.
+    if angle < 0.0 { -(size - TAU) } else { size - TAU }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use core::f32::consts::FRAC_PI_2;
+
+    #[test]
+    fn wrapped_angles_are_remainders() {
+        let near = |angle: f32| (-3..=3).map(move |steps| f32::from_bits((angle.to_bits() as i32 + steps) as u32));
+        let steps = (0..200_000).map(|i| i as f32 * 1e-4);
+        let edges = (1..=8).flat_map(|i| near(i as f32 * FRAC_PI_2)).chain([0.0, 1e9, f32::MAX, f32::INFINITY]);
+        for angle in steps.chain(edges).flat_map(|angle| [angle, -angle]) {
+            let expected = libm::remainderf(angle, TAU);
+            let wrapped = wrap_angle(angle);
+            assert!(wrapped.to_bits() == expected.to_bits() || wrapped.is_nan() && expected.is_nan(), "{angle}");
+        }
+    }
 
     fn close(a: Point2, b: Point2) -> bool {
         (a - b).norm() < 1e-6

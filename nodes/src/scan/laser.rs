@@ -84,16 +84,30 @@ impl Scan {
     ///
     /// Rotates one direction vector from beam to beam, which is several times faster than two trigonometric functions
     /// per beam. In double precision, the error after a full turn is below 10⁻¹² rad.
+    ///
+    /// Whatever turns scans into points again and again keeps [`BeamDirections`](super::BeamDirections).
     pub fn points(&self) -> impl Iterator<Item = (usize, Point2)> + '_ {
-        let (sin, cos) = libm::sincos(f64::from(self.angle_min));
-        let (step_sin, step_cos) = libm::sincos(f64::from(self.angle_increment));
-        let mut direction = (cos, sin);
-        self.ranges.iter().enumerate().filter_map(move |(beam, &range)| {
-            let (c, s) = direction;
-            direction = (c * step_cos - s * step_sin, s * step_cos + c * step_sin);
-            self.is_measured(range).then(|| (beam, Point2::new(range * c as f32, range * s as f32)))
-        })
+        self.points_in(directions(self.angle_min, self.angle_increment))
     }
+
+    /// Measured points, given the directions of the beams.
+    #[inline]
+    pub(super) fn points_in(&self, directions: impl Iterator<Item = Point2>) -> impl Iterator<Item = (usize, Point2)> {
+        let beams = self.ranges.iter().zip(directions).enumerate();
+        let measured = beams.filter(|(_, (range, _))| self.is_measured(**range));
+        measured.map(|(beam, (range, direction))| (beam, direction.scaled(*range)))
+    }
+}
+
+/// Directions of beams as vectors of length 1, without end.
+pub(super) fn directions(angle_min: f32, angle_increment: f32) -> impl Iterator<Item = Point2> {
+    let (mut sin, mut cos) = libm::sincos(f64::from(angle_min));
+    let (step_sin, step_cos) = libm::sincos(f64::from(angle_increment));
+    core::iter::repeat_with(move || {
+        let direction = Point2::new(cos as f32, sin as f32);
+        (cos, sin) = (cos * step_cos - sin * step_sin, sin * step_cos + cos * step_sin);
+        direction
+    })
 }
 
 /// Copies into a scan use the memory of its ranges again.

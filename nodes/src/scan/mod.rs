@@ -7,6 +7,7 @@ mod carried;
 mod confirm;
 mod consensus;
 mod container;
+mod directions;
 mod filter;
 #[cfg(feature = "record")]
 mod foreign;
@@ -23,8 +24,9 @@ mod wheel;
 pub use carried::HideCarried;
 pub use confirm::ConfirmContainer;
 pub use container::{Container, ContainerSearch, best_container};
+pub use directions::BeamDirections;
 pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};
-pub use geometry::{FarFromOrigin, Point2, Pose2};
+pub use geometry::{FarFromOrigin, Point2, Pose2, Transform2, wrap_angle};
 pub use laser::Scan;
 pub(crate) use mount::around;
 pub use mount::{MergeScans, MountScan, OtherBeams};

@@ -1,4 +1,4 @@
-use super::{Point2, Pose2, Scan};
+use super::{BeamDirections, Point2, Pose2, Scan, wrap_angle};
 use apex_rt::{Out, node};
 use core::{
     f32::consts::{PI, TAU},
@@ -26,20 +26,22 @@ pub struct MountScan {
     /// Direction of the scanner's x axis, counter-clockwise from straight ahead.
     #[param(unit = "rad", default = 0.0, range = -6.3..=6.3)]
     heading: f32,
+    directions: BeamDirections,
 }
 
 #[node]
 impl MountScan {
     fn process(&mut self, scan: &Scan, mounted: &mut Out<Scan>) {
         let mount = Pose2::new(self.x, self.y, self.heading);
-        let direction = |angle| libm::remainderf(angle + self.heading, TAU);
-        around(scan, |point| mount.to_outer(point), direction, mounted.get_mut());
+        let (direction, mount) = (|angle| wrap_angle(angle + self.heading), mount.transform());
+        around(scan, &mut self.directions, |point| mount.to_outer(point), direction, mounted.get_mut());
     }
 }
 
 /// Scan around the origin of an outer frame: `to_outer` transforms points into it, and `direction` angles, to [−π, π].
 pub(crate) fn around(
     scan: &Scan,
+    directions: &mut BeamDirections,
     to_outer: impl Fn(Point2) -> Point2,
     direction: impl Fn(f32) -> f32,
     mounted: &mut Scan,
@@ -56,7 +58,7 @@ pub(crate) fn around(
         // What is far away is in this direction from any place on the robot.
         mounted.ranges[towards(direction(scan.angle(beam)))] = f32::INFINITY;
     }
-    for (_, point) in scan.points() {
+    for (_, point) in directions.points(scan) {
         let point = to_outer(point);
         let range = &mut mounted.ranges[towards(point.angle())];
         // `min` ignores the NaN of a beam without a point.

@@ -1,4 +1,4 @@
-use super::{Point2, Scan};
+use super::{BeamDirections, Point2, Scan};
 use apex_rt::{Out, node};
 use core::{fmt, ops::RangeInclusive};
 use heapless::Vec;
@@ -109,26 +109,37 @@ pub struct JumpDistance {
     /// Maximum number of consecutive beams without a measurement inside a segment.
     #[param(default = 1, range = 0..=100)]
     max_gap_beams: usize,
+    directions: BeamDirections,
 }
 
 #[node]
 impl JumpDistance {
     fn process(&mut self, scan: &Scan, segments: &mut Out<Segments>) -> Result<(), TooManySegments> {
-        let list = segments.get_mut();
+        let mut directions = core::mem::take(&mut self.directions);
+        let split = self.split(scan, directions.points(scan), segments.get_mut());
+        self.directions = directions;
+        if split.is_err() {
+            segments.clear();
+        }
+        split
+    }
+
+    /// Splits the measured points of a scan.
+    fn split(
+        &self,
+        scan: &Scan,
+        points: impl Iterator<Item = (usize, Point2)>,
+        list: &mut Segments,
+    ) -> Result<(), TooManySegments> {
         list.clear();
         let mut last: Option<(usize, f32)> = None;
-        for (beam, point) in scan.points() {
+        for (beam, point) in points {
             let range = scan.ranges[beam];
             let joins = last.is_some_and(|(before, r)| self.joins(beam - before, range - r));
             last = Some((beam, range));
             match list.last_mut() {
                 Some(segment) if joins => segment.push(beam as u16, point),
-                _ => {
-                    if list.push(Segment::of(beam as u16, point)).is_err() {
-                        segments.clear();
-                        return Err(TooManySegments);
-                    }
-                }
+                _ => list.push(Segment::of(beam as u16, point)).map_err(|_| TooManySegments)?,
             }
         }
         self.close(scan, list);

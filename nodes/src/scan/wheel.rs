@@ -1,4 +1,4 @@
-use super::{Point2, Pose2, Scan, Segment};
+use super::{Point2, Pose2, Scan, Segment, wrap_angle};
 use core::f32::consts::FRAC_PI_2;
 
 /// Maximum number of castors whose directions are searched together. Each has four possible pivots.
@@ -129,7 +129,7 @@ impl WheelShape {
             let (reference, least) = *first.get_or_insert((pose, error));
             // Relative to the first combination, so that the exponential does not underflow.
             let weight = libm::expf(((least - error) / (2.0 * SIGMA * SIGMA)).clamp(-80.0, 80.0));
-            let turn = libm::remainderf(pose.theta - reference.theta, core::f32::consts::TAU);
+            let turn = wrap_angle(pose.theta - reference.theta);
             for (sum, value) in sum.iter_mut().zip([pose.x, pose.y, turn]) {
                 *sum += weight * value;
             }

@@ -1,5 +1,5 @@
 use super::{
-    Edge, Pose, PoseGraph, Window, heading,
+    Edge, Pose, PoseGraph, RobustKernel, Window, heading,
     matcher::{Match, Matcher},
     table::Table,
 };
@@ -187,7 +187,7 @@ impl Mapper {
         self.neighbours[from].push((to, length.min(longest)));
         self.neighbours[to].push((from, length.min(longest)));
         // Cannot fail: both poses are in the graph.
-        let _ = self.graph.add_edge(Edge { from, to, measured, information });
+        let _ = self.graph.add_edge(Edge { from, to, measured, information, kernel: RobustKernel::Square });
     }
 
     /// Compares the last kept scan with earlier scans around it.
@@ -211,7 +211,7 @@ impl Mapper {
         }
         self.scans[new] = points;
         let closed = &self.graph.edges()[before..];
-        if closed.iter().any(|edge| edge.cost(self.graph.poses()) > CONTRADICTION) {
+        if closed.iter().any(|edge| edge.chi2(self.graph.poses()) > CONTRADICTION) {
             self.graph.optimize(STEPS);
         } else if !closed.is_empty() {
             self.graph.settle_last();

@@ -2,16 +2,21 @@
 //!
 //! Poses have double precision: after an hour of operation, the errors of single precision would affect scan matches.
 
-mod g2o;
+mod edge;
 mod graph;
+mod kernel;
 mod map;
 mod mapper;
 mod matcher;
 mod node;
+mod read;
 mod sparse;
+mod start;
 mod table;
 
-pub use graph::{Edge, NoSuchPose, Optimized, PoseGraph};
+pub use edge::Edge;
+pub use graph::{NoSuchPose, Optimized, PoseGraph};
+pub use kernel::RobustKernel;
 pub use map::{DrawScans, PosedScans, selected_scans};
 pub use mapper::{Mapper, Settings};
 pub use matcher::Window;

@@ -1,5 +1,5 @@
 use super::{Mapper, Pose, PosedScans, Settings, Window, heading, pose, selected_scans};
-use crate::scan::{Pose2, Scan};
+use crate::scan::{BeamDirections, Pose2, Scan};
 use apex_rt::{Out, node};
 use core::f32::consts::PI;
 
@@ -9,8 +9,8 @@ use core::f32::consts::PI;
 /// `odometry` is the pose of the robot at the time of the scan, in any frame without jumps. `pose` is the corrected
 /// pose in the frame of the map, which is that of odometry at the first scan; it is sent for every scan. `scans` are
 /// those of which [`DrawScans`] draws the map, at their corrected poses; they are sent for the first kept scan and then
-/// for every `map_every`-th one, otherwise ⊥. If odometry is not a number or more than 1000 km away, both outputs are ⊥
-/// and the scan is not used.
+/// for every `map_every`-th one, otherwise ⊥. With `whole` they are all of them, not a bounded number. If odometry is
+/// not a number or more than 1000 km away, both outputs are ⊥ and the scan is not used.
 ///
 /// Scans should show stationary objects only: remove other robots with [`ShortSegmentFilter`].
 ///
@@ -62,7 +62,11 @@ pub struct GraphSlam {
     /// Number of kept scans per map.
     #[param(default = 5, range = 1..=1000)]
     map_every: u32,
+    /// Choice of all kept scans for each map, so that no place is forgotten. The time to draw a map grows with them.
+    #[param(default = false)]
+    whole: bool,
     mapper: Option<Mapper>,
+    directions: BeamDirections,
 }
 
 #[node]
@@ -74,13 +78,19 @@ impl GraphSlam {
         let due = mapper.is_due(&odometry);
         let mount = Pose2::new(self.mount_x, self.mount_y, self.mount_theta);
         if due {
-            mapper.add(&odometry, scan.points().map(|(_, p)| mount.to_outer(p)).collect());
+            let mount = mount.transform();
+            mapper.add(&odometry, self.directions.points(scan).map(|(_, p)| mount.to_outer(p)).collect());
         }
         let here = mapper.locate(&odometry);
         pose.set(Pose2::new(here.translation.x as f32, here.translation.y as f32, heading(&here) as f32));
         let count = mapper.scans().len();
         if due && (count - 1).is_multiple_of(self.map_every.max(1) as usize) {
-            mapper.write_scans(selected_scans(count), mount.position(), scans.get_mut());
+            let scans = scans.get_mut();
+            if self.whole {
+                mapper.write_scans(0..count, mount.position(), scans);
+            } else {
+                mapper.write_scans(selected_scans(count), mount.position(), scans);
+            }
         }
     }
 
@@ -124,7 +134,7 @@ mod tests {
 
     fn node(map_every: u32) -> GraphSlam {
         let Pose2 { x, y, theta } = MOUNT;
-        GraphSlam::construct((x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.06, 20, 0.04, 4.0, 0.6, map_every))
+        GraphSlam::construct((x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.06, 20, 0.04, 4.0, 0.6, map_every, false))
     }
 
     /// A scan of a room of 8 m × 6 m with its centre at the origin, and with a pillar in it.

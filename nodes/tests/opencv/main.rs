@@ -1,6 +1,8 @@
 //! Images as OpenCV makes them: its wheel for Python is asked, and without it the test is skipped.
 
-use apex_nodes::image::{AdaptiveThreshold, Blobs, Close, Dilate, Erode, FindBlobs, GrayImage, MAX_BLOBS, Open};
+use apex_nodes::image::{
+    AdaptiveThreshold, Blobs, Close, Dilate, Edges, Erode, FindBlobs, GrayImage, MAX_BLOBS, Open, Region, Regions,
+};
 use apex_optim::Random;
 use apex_rt::{Construct, Out};
 use image::{ImageBuffer, Luma};
@@ -8,11 +10,10 @@ use std::{
     env, fs,
     path::{Path, PathBuf},
     process::Command,
-    time::Instant,
 };
 
 /// Width and height of the images.
-const SIZES: [(u32, u32); 3] = [(640, 480), (97, 61), (3, 5)];
+const SIZES: [(u32, u32); 5] = [(640, 480), (97, 61), (3, 5), (1, 9), (1, 1)];
 
 /// Python with OpenCV.
 fn python() -> Option<PathBuf> {
@@ -22,6 +23,7 @@ fn python() -> Option<PathBuf> {
         test.is_ok_and(|output| output.status.success())
     });
     if python.is_none() {
+        assert!(env::var_os("CI").is_none(), "no Python has `opencv-python-headless`");
         println!("skipped: no Python has `opencv-python-headless`");
     }
     python
@@ -39,6 +41,14 @@ fn picture(random: &mut Random, (width, height): (u32, u32)) -> GrayImage {
         Luma([(light + 12.0 * random.standard_normal()).clamp(0.0, 255.0) as u8])
     })
     .into()
+}
+
+/// Edges of the whole image.
+fn edges(image: &GrayImage, [high, low]: [f32; 2]) -> GrayImage {
+    let ((width, height), mut out) = (image.size(), Out::new());
+    let whole = Regions::from([Region { width, height, ..Region::default() }]);
+    Edges::construct((high, low, 0)).process(image, &whole, &mut out);
+    out.get().expect("an image").clone()
 }
 
 /// Image that a node sends.
@@ -78,6 +88,9 @@ fn images_and_blobs_are_those_of_opencv() {
             same(format!("open_{radius}"), &sent!(Open(radius,) of &image));
             same(format!("close_{radius}"), &sent!(Close(radius,) of &image));
         }
+        for [high, low] in [[150.0, 60.0], [40.0, 40.0], [700.5, 20.5]] {
+            same(format!("edges_{high}_{low}"), &edges(&image, [high, low]));
+        }
         let binary = sent!(Open(1,) of &sent!(AdaptiveThreshold(15, 10, true) of &image));
         let blobs: Blobs = sent!(FindBlobs(128, 1, 1_000_000) of &binary);
         let text = fs::read_to_string(folder.join("blobs")).expect("a file of the script");
@@ -93,33 +106,4 @@ fn images_and_blobs_are_those_of_opencv() {
         }
     }
     drop(fs::remove_dir_all(&folder));
-}
-
-/// Times beside those of OpenCV on one thread: `cargo test --release -p apex-nodes --test opencv -- --ignored
-/// --nocapture`.
-#[test]
-#[ignore = "it measures"]
-fn times_beside_opencv() {
-    let Some(python) = python() else { return };
-    let image = picture(&mut Random::new(5), (640, 480));
-    /// Prints the shortest of many times.
-    macro_rules! time {
-        ($node:ident $arguments:tt) => {
-            let (mut node, mut out) = ($node::construct($arguments), Out::new());
-            let times = (0..200).map(|_| {
-                let start = Instant::now();
-                node.process(&image, &mut out);
-                start.elapsed()
-            });
-            let least = times.min().expect("some").as_secs_f64() * 1e6;
-            println!("{:20} {:8} {least:6.0} µs", stringify!($node), format!("{:?}", $arguments.0));
-        };
-    }
-    for radius in [1, 7, 15, 60] {
-        time!(AdaptiveThreshold(radius, 10, true));
-        time!(Erode(radius,));
-        time!(Open(radius,));
-    }
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/opencv/reference.py");
-    drop(Command::new(python).arg("-B").arg(script).arg("time").status());
 }

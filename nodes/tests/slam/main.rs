@@ -4,12 +4,13 @@
 //! `CI=true`.
 
 mod arena;
+mod graphs;
 mod recordings;
 
 use apex_nodes::{
     map::Occupancy,
     scan::{Point2, Pose2, Scan},
-    slam::{PoseGraph, Settings},
+    slam::Settings,
 };
 use apex_rt::Time;
 use recordings::{Recording, errors, fr079, intel, play};
@@ -29,21 +30,6 @@ fn recording(name: &str) -> Option<PathBuf> {
     assert!(std::env::var("CI").as_deref() != Ok("true"), "{} is missing", file.display());
     eprintln!("skipped: {} is missing", file.display());
     None
-}
-
-/// The graph of the Intel Research Lab, compared with its known optimum.
-#[test]
-fn a_known_graph_is_optimized_as_well_as_it_can_be() {
-    let (Some(raw), Some(optimum)) = (recording("input_INTEL.g2o"), recording("input_INTEL_optimized.g2o")) else {
-        return;
-    };
-    let mut graph = PoseGraph::read_g2o(raw).expect("the graph");
-    let optimum = PoseGraph::read_g2o(optimum).expect("its optimum").cost();
-    let before = graph.cost();
-    let start = std::time::Instant::now();
-    let after = graph.optimize(50);
-    println!("cost {before:.3} -> {after:?}, optimum {optimum:.3}, {:?}", start.elapsed());
-    assert!(before > 2.0 * optimum && (after.cost / optimum - 1.0).abs() < 0.001);
 }
 
 /// Largest and median error of the poses that a mapper finds, in m.

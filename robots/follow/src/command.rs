@@ -1,7 +1,7 @@
 //! Commands of the program.
 
 use apex_sim::{
-    experiment::{Command, Options, Seeds, rows, write_file},
+    experiment::{Command, Options, Seeds, activity_table, rows, write_file},
     say,
 };
 use follow::{
@@ -95,12 +95,7 @@ fn follow_one(options: &mut Options) -> Result<ExitCode, String> {
         }
     }
     let run = run(&world.of(seed))?;
-    say(&format!("{HEAD}\n{}\n\nActive nodes:\n", Row(&run)))?;
-    let mut activity = run.activity.clone();
-    activity.sort_by_key(|(_, time)| std::cmp::Reverse(*time));
-    for (name, time) in activity {
-        say(&format!("{name:<40}{:>8.1} s\n", time.as_secs_f32()))?;
-    }
+    say(&format!("{HEAD}\n{}\n\nActive nodes:\n{}", Row(&run), activity_table(&run.activity)))?;
     for loss in &run.report.losses {
         say(&format!("lost at {} for {:.2} s\n", loss.from, loss.lasted))?;
     }

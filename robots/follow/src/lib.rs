@@ -53,6 +53,7 @@ mod follow_person {
 mod tests {
     use super::robot::Summit;
     use apex_rt::Program;
+    use apex_sim::experiment::instances_of;
 
     /// Most instances of nodes are those of the library: only the drivers, the referee and a conversion are the
     /// robot's.
@@ -60,8 +61,7 @@ mod tests {
     fn most_nodes_are_reused() {
         let info = &<Summit as Program>::INFO;
         let own = ["Scanner", "Wheels", "Camera", "Motors", "Judge", "place_of"];
-        let is_own = |kind: usize| own.contains(&info.kinds[kind].name.rsplit("::").next().unwrap_or_default());
-        let ours = info.nodes.iter().filter(|node| is_own(node.kind)).count();
+        let ours = instances_of(info, &own);
         assert_eq!(ours, own.len());
         let share = 1.0 - ours as f32 / info.nodes.len() as f32;
         assert!(share >= 0.6, "{share} of {}", info.nodes.len());

@@ -35,6 +35,13 @@ pub const CONTAINER_AHEAD: apex_nodes::scan::Container = apex_nodes::scan::Conta
 pub const CONTAINER_BEFORE: apex_nodes::scan::Container =
     apex_nodes::scan::Container { pose: apex_nodes::scan::Pose2 { x: 0.9, y: 0.0, theta: 0.0 }, ..CONTAINER_AHEAD };
 
+/// Scan in which nothing is near, for tests.
+#[apex_rt::node]
+pub fn clear_view() -> apex_nodes::scan::Scan {
+    use apex_nodes::scan::Scan;
+    Scan { angle_min: -1.5, angle_increment: 0.1, ranges: [20.0; 31].into_iter().collect(), ..Scan::default() }
+}
+
 pub use beneath::Beneath;
 pub use container::{BODY, LENGTH, TOP, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
 pub use detector::{Detector, Weights};
@@ -74,6 +81,12 @@ mod collect {
 #[cfg(test)]
 mod bring {
     apex_macros::graph!("bring.afg");
+}
+
+/// Travel on its own, with the tests of `travel.afg`.
+#[cfg(test)]
+mod travel {
+    apex_macros::graph!("travel.afg");
 }
 
 /// The mission on its own, with the tests of `mission.afg`.

@@ -17,6 +17,8 @@ mod battery;
 mod building;
 #[cfg(feature = "camera")]
 mod camera;
+#[cfg(feature = "camera")]
+mod color;
 mod drive;
 #[cfg(feature = "experiment")]
 pub mod experiment;
@@ -55,6 +57,8 @@ pub use battery::Battery;
 pub use building::Building;
 #[cfg(feature = "camera")]
 pub use camera::{CameraSim, Light, NotLevel, expose};
+#[cfg(feature = "camera")]
+pub use color::{ColorCamera, ColorScene, Paint, Post};
 pub use drive::{Differential, Limits, Omnidirectional, Tractor};
 pub use fault::Fault;
 pub use held_twist::HeldTwist;

@@ -102,7 +102,8 @@ impl Wall {
         (from - along.scaled(share)).norm()
     }
 
-    fn hit(&self, origin: Point2, direction: Point2) -> Option<f32> {
+    /// Distance from `origin` along the unit vector `direction` to the object, or `None` if it is not met.
+    pub fn hit(&self, origin: Point2, direction: Point2) -> Option<f32> {
         let (along, from) = (self.b - self.a, self.a - origin);
         let normal = along.perpendicular();
         let slope = direction.dot(normal);
@@ -116,7 +117,8 @@ impl Wall {
 }
 
 impl Disc {
-    fn hit(&self, origin: Point2, direction: Point2) -> Option<f32> {
+    /// Distance from `origin` along the unit vector `direction` to the object, or `None` if it is not met.
+    pub fn hit(&self, origin: Point2, direction: Point2) -> Option<f32> {
         let to_centre = self.centre - origin;
         let along = to_centre.dot(direction);
         let across = direction.perpendicular().dot(to_centre);

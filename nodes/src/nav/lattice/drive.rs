@@ -12,10 +12,9 @@ use super::{
 };
 use crate::{
     map::{Grid, Occupancy},
-    scan::{Point2, Pose2},
+    scan::{Point2, Pose2, wrap_angle},
 };
-use core::f32::consts::TAU;
-use libm::{fmaxf, fminf, remainderf, sinf};
+use libm::{fmaxf, fminf, sinf};
 
 /// Distance between places that are checked on a step, in m.
 pub(super) const CHECK: f32 = 0.1;
@@ -87,6 +86,15 @@ pub struct Ground<'a> {
     pub floor: Option<Floor<'a>>,
 }
 
+/// Look at a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Look {
+    /// Costs of the tractor alone.
+    Glance,
+    /// Everything that is touched, and all costs.
+    Check,
+}
+
 /// Vehicle on a map.
 pub(super) struct Drive<'a> {
     pub ground: &'a Ground<'a>,
@@ -98,19 +106,19 @@ pub(super) struct Drive<'a> {
 
 impl Drive<'_> {
     /// Length of an arc with costs, and the heading of the trailer at its end, or `None` if something is touched on it.
-    pub fn arc(&self, from: &Pose2, trailer: f32, curvature: f32, length: f32) -> Option<(f32, f32)> {
+    pub fn arc(&self, from: &Pose2, trailer: f32, curvature: f32, length: f32, look: Look) -> Option<(f32, f32)> {
         let step = |pose: &Pose2, trailer: f32, step: f32| {
             (advanced(pose, curvature, step), self.towed(pose, trailer, curvature, step))
         };
-        self.along(from, trailer, length, false, step).map(|(cost, _, trailer)| (cost, trailer))
+        self.along(from, trailer, length, (false, look), step).map(|(cost, _, trailer)| (cost, trailer))
     }
 
     /// Length of a step backward with costs, and the pose and the heading of the trailer at its end, or `None` if
     /// something is touched on it. The angle to the trailer approaches `wanted`, in rad.
-    pub fn back(&self, from: &Pose2, trailer: f32, wanted: f32, length: f32) -> Option<(f32, Pose2, f32)> {
+    pub fn back(&self, from: &Pose2, trailer: f32, wanted: f32, length: f32, look: Look) -> Option<(f32, Pose2, f32)> {
         let CurveDrive { shape, backing_gain, .. } = *self.vehicle;
-        self.along(from, trailer, length, true, |pose, trailer, step| {
-            let angle = remainderf(pose.theta - trailer, TAU);
+        self.along(from, trailer, length, (true, look), |pose, trailer, step| {
+            let angle = wrap_angle(pose.theta - trailer);
             let turn = shape.backing_rotation(1.0, angle, -backing_gain * (angle - wanted));
             let trailer = trailer + step * shape.trailer_rotation(-1.0, turn, angle);
             (advanced(pose, -turn, -step), trailer)
@@ -124,7 +132,7 @@ impl Drive<'_> {
         from: &Pose2,
         mut trailer: f32,
         length: f32,
-        is_backward: bool,
+        (is_backward, look): (bool, Look),
         step: impl Fn(&Pose2, f32, f32) -> (Pose2, f32),
     ) -> Option<(f32, Pose2, f32)> {
         let count = libm::ceilf(length / CHECK);
@@ -137,19 +145,40 @@ impl Drive<'_> {
             if bend(&pose, trailer) > MAX_BEND.max(before) {
                 return None;
             }
-            cost += distance * (1.0 + self.fits(&pose, trailer, is_backward)?);
+            let ground = match look {
+                Look::Glance => self.cost(pose.position()),
+                Look::Check => self.fits(&pose, trailer, is_backward)?,
+            };
+            cost += distance * (1.0 + ground);
         }
         Some((cost, pose, trailer))
     }
 
-    /// Heading of the trailer at the end of a curve, or `None` if something is touched on it.
-    pub fn at_end(&self, curve: &Curve, mut trailer: f32) -> Option<f32> {
+    /// Heading of the trailer at the end of a curve.
+    pub fn trailer_at_end(&self, curve: &Curve, mut trailer: f32) -> f32 {
         let mut pose = curve.start;
         for (curvature, length) in curve.parts.into_iter().filter(|(_, length)| *length > 0.0) {
-            (_, trailer) = self.arc(&pose, trailer, curvature, length)?;
-            pose = advanced(&pose, curvature, length);
+            let count = libm::ceilf(length / CHECK);
+            let step = length / count;
+            for _ in 0..count as u32 {
+                trailer = self.towed(&pose, trailer, curvature, step);
+                pose.theta += step * curvature;
+            }
         }
-        Some(trailer)
+        trailer
+    }
+
+    /// Returns `true` if nothing is touched on a curve.
+    pub fn is_free(&self, curve: &Curve, mut trailer: f32) -> bool {
+        let mut pose = curve.start;
+        curve.parts.into_iter().filter(|(_, length)| *length > 0.0).all(|(curvature, length)| {
+            let arc = self.arc(&pose, trailer, curvature, length, Look::Check);
+            pose = advanced(&pose, curvature, length);
+            arc.is_some_and(|(_, end)| {
+                trailer = end;
+                true
+            })
+        })
     }
 
     /// Heading of the trailer after a step.
@@ -159,19 +188,23 @@ impl Drive<'_> {
 
     /// Highest cost of the axes of the vehicle and of the middle of its load, or `None` if something is touched there.
     fn fits(&self, pose: &Pose2, trailer: f32, is_backward: bool) -> Option<f32> {
-        let Self { ground: Ground { terrain, .. }, vehicle, room, footing } = self;
+        let Self { vehicle, room, footing, .. } = self;
         let axes = vehicle.axes(pose, trailer);
         let is_safe = || footing.is_none_or(|footing| footing.fits(vehicle, &axes, is_backward));
         if !(room.fits(vehicle, &axes) && is_safe()) {
             return None;
         }
-        let cost = |point: Point2| terrain.map.raster().cell(point).map_or(0.0, |cell| terrain.cost(cell));
         let middle = axes[1].to_outer(Point2::new(vehicle.shape.lift(), 0.0));
-        Some([pose.position(), axes[1].position(), middle].into_iter().map(cost).fold(0.0, f32::max))
+        Some([pose.position(), axes[1].position(), middle].into_iter().map(|at| self.cost(at)).fold(0.0, f32::max))
+    }
+
+    fn cost(&self, point: Point2) -> f32 {
+        let terrain = &self.ground.terrain;
+        terrain.map.raster().cell(point).map_or(0.0, |cell| terrain.cost(cell))
     }
 }
 
 /// Angle between a vehicle and its trailer, in rad.
 pub(super) fn bend(pose: &Pose2, trailer: f32) -> f32 {
-    remainderf(pose.theta - trailer, TAU).abs()
+    wrap_angle(pose.theta - trailer).abs()
 }

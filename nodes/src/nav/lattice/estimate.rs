@@ -1,6 +1,6 @@
 use super::{Place, SIDE};
 use crate::{
-    map::{Cell, Grid, Raster},
+    map::{Cell, Grid, Occupancy, Raster},
     nav::{Terrain, open::Open},
     scan::Point2,
 };
@@ -12,6 +12,8 @@ use std::collections::BinaryHeap;
 pub(super) struct Estimates {
     /// Distance of each coarse cell, in m, with costs.
     cells: Grid<f32>,
+    /// Cost of each metre through them, or infinity where nothing leads through.
+    metres: Grid<f32>,
     open: BinaryHeap<Open>,
 }
 
@@ -26,7 +28,7 @@ impl Estimates {
         self.cells.at(point).copied().unwrap_or(f32::INFINITY)
     }
 
-    /// Computes all distances (Dijkstra 1959). A coarse cell is open if a part of it is.
+    /// Computes all distances on free cells (Dijkstra 1959). A coarse cell is open if a part of it is.
     pub fn run(&mut self, terrain: &Terrain<'_>, goals: &[Place]) {
         let fine = terrain.map.raster();
         let part = libm::roundf(SIDE / fine.resolution).max(1.0) as usize;
@@ -37,9 +39,10 @@ impl Estimates {
             height: fine.height.div_ceil(part),
         };
         // Coarser than a grid that exists.
-        if self.cells.reset(raster, f32::INFINITY).is_err() {
+        if self.cells.reset(raster, f32::INFINITY).is_err() || self.metres.reset(raster, f32::INFINITY).is_err() {
             return;
         }
+        self.measure(terrain, part);
         for goal in goals {
             if let Some(cell) = raster.cell(goal.pose.position()) {
                 self.reach(cell, goal.cost);
@@ -53,10 +56,21 @@ impl Estimates {
             for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)] {
                 // A neighbour left of or below 0 wraps to the greatest number, which no raster contains.
                 let next = Cell::new(at.x.wrapping_add_signed(dx), at.y.wrapping_add_signed(dy));
-                if let Some(cost) = openness(terrain, &raster, next, part) {
+                if let Some(metre) = self.metres.get(next) {
                     let length = raster.resolution * if dx != 0 && dy != 0 { SQRT_2 } else { 1.0 };
-                    self.reach(next, estimate + length * (1.0 + cost));
+                    self.reach(next, estimate + length * metre);
                 }
+            }
+        }
+    }
+
+    /// Finds the least cost of a metre through the open fine cells of each coarse cell.
+    fn measure(&mut self, terrain: &Terrain<'_>, part: usize) {
+        for (cell, occupancy) in terrain.map.iter() {
+            if let Some(metre) = self.metres.get_mut(Cell::new(cell.x / part, cell.y / part))
+                && *occupancy == Occupancy::Free
+            {
+                *metre = metre.min(1.0 + terrain.cost(cell));
             }
         }
     }
@@ -68,13 +82,4 @@ impl Estimates {
             self.open.push(Open { estimate, node: (cell.y * width + cell.x) as u32 });
         }
     }
-}
-
-/// Least cost of the open fine cells of a coarse cell, or `None` if none is open.
-fn openness(terrain: &Terrain<'_>, raster: &Raster, cell: Cell, part: usize) -> Option<f32> {
-    if !raster.contains(cell) {
-        return None;
-    }
-    let fine = (0..part * part).map(|i| Cell::new(cell.x * part + i % part, cell.y * part + i / part));
-    fine.filter(|cell| terrain.is_open(*cell)).map(|cell| terrain.cost(cell)).reduce(f32::min)
 }

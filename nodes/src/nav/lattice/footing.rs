@@ -82,7 +82,7 @@ impl Footing {
         let leaves = (axes[0].position() - self.start).norm_squared() <= LEAVES * LEAVES;
         let beyond = if is_backward { 0.0 } else { f32::INFINITY };
         let is_free =
-            |(part, axis): (Part, &Pose2)| lacking(distances, &part, axis, self.clearance.side, beyond) == 0.0;
+            |(part, axis): (Part, &Pose2)| lacking(distances, &part, axis, [self.clearance.side, beyond], 0.0) == 0.0;
         zone.grown.parts(&axes).all(is_free) && !(leaves && near.is_met(&zone, &axes, f32::INFINITY, GRAZE))
     }
 

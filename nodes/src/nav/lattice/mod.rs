@@ -18,7 +18,7 @@ use super::{
     payload::dubins::{Curve, advanced, curves},
 };
 use crate::scan::{Point2, Pose2};
-use drive::{CHECK, Drive, bend};
+use drive::{CHECK, Drive, Look, bend};
 use estimate::Estimates;
 use footing::Footing;
 use room::Room;
@@ -84,6 +84,10 @@ pub struct CurveSearch {
     room: Room,
     footing: Footing,
     states: States,
+    /// Curves to a goal that are tried.
+    curves: Vec<Curve>,
+    /// Least cost of a way that was found so far.
+    ended: f32,
     /// Weight of the estimates.
     weight: f32,
     /// Start of the last search, if it expanded all states that it may.
@@ -106,6 +110,8 @@ struct Node {
     before: u32,
     /// Number of the ending that leads from here to a goal.
     ending: Option<u32>,
+    /// `true` if nothing is touched on the way to it, and its cost is known.
+    is_checked: bool,
 }
 
 /// Dubins curve to a goal.
@@ -203,10 +209,16 @@ impl CurveSearch {
             if let Some(ending) = node.ending {
                 return Ok(self.trace(at, self.endings[ending as usize]));
             }
-            let Some(best) = self.states.best(&node.pose, node.trailer).filter(|best| node.cost < **best) else {
+            if self.states.best(&node.pose, node.trailer).is_none_or(|best| node.cost >= *best) {
                 continue;
-            };
-            *best = node.cost;
+            }
+            if !node.is_checked {
+                self.check(ground, vehicle, at);
+                continue;
+            }
+            if let Some(best) = self.states.best(&node.pose, node.trailer) {
+                *best = node.cost;
+            }
             expanded += 1;
             if expanded > most {
                 break;
@@ -232,31 +244,54 @@ impl CurveSearch {
         self.nodes.clear();
         self.endings.clear();
         self.open.clear();
+        self.ended = f32::INFINITY;
         self.states.reset(self.estimates.raster(), (effort == Effort::Fine).then_some(pose.position()));
-        let first =
-            Node { pose, trailer, cost: 0.0, length: 0.0, curvature: 0.0, back: None, before: NONE, ending: None };
-        self.nodes.push(first);
+        self.nodes.push(Node { pose, trailer, is_checked: true, ..Node::NEXT });
         self.open.push(Open { estimate: 0.0, node: 0 });
     }
 
+    /// Adds the node after a step, without a look at what is touched on it.
     fn step(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, curvature: f32, length: f32) {
         let node = self.nodes[before as usize];
-        let drive = self.drive(ground, vehicle);
-        let Some((way, trailer)) = drive.arc(&node.pose, node.trailer, curvature, length) else { return };
-        let bend = [curvature.abs(), (curvature - node.curvature).abs()].map(|c| c * vehicle.radius);
-        let cost = node.cost + way + BENDING[0] * length * bend[0] + BENDING[1] * bend[1] + node.turn(false);
+        let Some((way, trailer)) =
+            self.drive(ground, vehicle).arc(&node.pose, node.trailer, curvature, length, Look::Glance)
+        else {
+            return;
+        };
         let pose = advanced(&node.pose, curvature, length);
-        self.add(Node { pose, trailer, cost, length, curvature, back: None, before, ending: None });
+        let cost = node.cost_after(vehicle, way, (curvature, None), length);
+        self.add(Node { pose, trailer, cost, length, curvature, back: None, before, ..Node::NEXT });
     }
 
     fn step_back(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, bend: f32, length: f32) {
         let node = self.nodes[before as usize];
         let drive = self.drive(ground, vehicle);
-        let Some((way, pose, trailer)) = drive.back(&node.pose, node.trailer, bend, length) else { return };
-        let angles = [bend.abs(), (bend - node.back.unwrap_or(0.0)).abs()];
-        let angled = ANGLED[0] * length * angles[0] + ANGLED[1] * angles[1];
-        let cost = node.cost + BACKWARD[0] * way + angled + node.turn(true);
-        self.add(Node { pose, trailer, cost, length, curvature: 0.0, back: Some(bend), before, ending: None });
+        let Some((way, pose, trailer)) = drive.back(&node.pose, node.trailer, bend, length, Look::Glance) else {
+            return;
+        };
+        let cost = node.cost_after(vehicle, way, (0.0, Some(bend)), length);
+        self.add(Node { pose, trailer, cost, length, back: Some(bend), before, ..Node::NEXT });
+    }
+
+    /// Adds a node again with its true cost, unless something is touched on the step to it.
+    fn check(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, at: u32) {
+        let node = self.nodes[at as usize];
+        let (before, drive) = (self.nodes[node.before as usize], self.drive(ground, vehicle));
+        let way = match node.back {
+            None => drive.arc(&before.pose, before.trailer, node.curvature, node.length, Look::Check).map(|way| way.0),
+            Some(bend) => drive.back(&before.pose, before.trailer, bend, node.length, Look::Check).map(|way| way.0),
+        };
+        if let Some(way) = way {
+            let cost = before.cost_after(vehicle, way, (node.curvature, node.back), node.length);
+            self.nodes[at as usize] = Node { cost, is_checked: true, ..node };
+            self.enqueue(at);
+        }
+    }
+
+    fn enqueue(&mut self, at: u32) {
+        let Node { cost, pose, .. } = self.nodes[at as usize];
+        let estimate = cost + self.weight * self.estimates.at(pose.position());
+        self.open.push(Open { estimate, node: at });
     }
 
     fn drive<'a>(&'a self, ground: &'a Ground<'a>, vehicle: &'a CurveDrive) -> Drive<'a> {
@@ -265,11 +300,10 @@ impl CurveSearch {
 
     /// Adds a node, unless its state was reached at a lower cost.
     fn add(&mut self, node: Node) {
-        let rest = self.estimates.at(node.pose.position());
         let is_best = self.states.best(&node.pose, node.trailer).is_some_and(|best| node.cost < *best);
-        if rest.is_finite() && is_best {
-            self.open.push(Open { estimate: node.cost + self.weight * rest, node: self.nodes.len() as u32 });
+        if is_best && self.estimates.at(node.pose.position()).is_finite() {
             self.nodes.push(node);
+            self.enqueue(self.nodes.len() as u32 - 1);
         }
     }
 
@@ -277,21 +311,26 @@ impl CurveSearch {
     /// asks for that. Only its length counts: with costs, most ways to a goal would be searched before one is found.
     fn try_to_end(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, goal: &Place) {
         let node = self.nodes[before as usize];
-        let drive = self.drive(ground, vehicle);
-        let mut best: Option<Curve> = None;
+        let reached = node.cost + node.turn(false) + goal.cost;
+        let mut ways = core::mem::take(&mut self.curves);
+        ways.clear();
         let lines = if vehicle.straight > 0.0 { LINES } else { 1 };
         for straight in (0..lines).map(|i| vehicle.straight * f32::from(i) / f32::from(LINES - 1)) {
             let begin = goal.pose.compose(&Pose2::new(-straight, 0.0, 0.0));
-            for curve in curves(&node.pose, &begin, vehicle.radius, straight) {
-                let is_shorter = best.is_none_or(|best| curve.length() < best.length());
-                let is_right = |trailer: f32| lines == 1 || bend(&goal.pose, trailer) <= IN_LINE;
-                if is_shorter && drive.at_end(&curve, node.trailer).is_some_and(is_right) {
-                    best = Some(curve);
-                }
-            }
+            ways.extend(curves(&node.pose, &begin, vehicle.radius, straight));
         }
+        ways.sort_unstable_by(|a, b| a.length().total_cmp(&b.length()));
+        let drive = self.drive(ground, vehicle);
+        let is_right = |curve: &Curve| {
+            let is_in_line = || lines == 1 || bend(&goal.pose, drive.trailer_at_end(curve, node.trailer)) <= IN_LINE;
+            is_in_line() && drive.is_free(curve, node.trailer)
+        };
+        let mut shorter = ways.iter().take_while(|curve| reached + curve.length() < self.ended);
+        let best = shorter.find(|curve| is_right(curve)).copied();
+        self.curves = ways;
         if let Some(curve) = best {
-            let cost = node.cost + curve.length() + node.turn(false) + goal.cost;
+            let cost = reached + curve.length();
+            self.ended = cost;
             self.open.push(Open { estimate: cost, node: self.nodes.len() as u32 });
             self.nodes.push(Node { cost, before, ending: Some(self.endings.len() as u32), ..node });
             self.endings.push(Ending { curve, goal: *goal });
@@ -311,6 +350,30 @@ impl CurveSearch {
 }
 
 impl Node {
+    /// Node after a step, without that step.
+    const NEXT: Self = Self {
+        pose: Pose2 { x: 0.0, y: 0.0, theta: 0.0 },
+        trailer: 0.0,
+        cost: 0.0,
+        length: 0.0,
+        curvature: 0.0,
+        back: None,
+        before: NONE,
+        ending: None,
+        is_checked: false,
+    };
+
+    /// Cost of the way beyond the node, after a step of a length with the costs `way`: with a curvature, or backward.
+    fn cost_after(&self, vehicle: &CurveDrive, way: f32, (curvature, back): (f32, Option<f32>), length: f32) -> f32 {
+        if let Some(bend) = back {
+            let angles = [bend.abs(), (bend - self.back.unwrap_or(0.0)).abs()];
+            let angled = ANGLED[0] * length * angles[0] + ANGLED[1] * angles[1];
+            return self.cost + BACKWARD[0] * way + angled + self.turn(true);
+        }
+        let bend = [curvature.abs(), (curvature - self.curvature).abs()].map(|c| c * vehicle.radius);
+        self.cost + way + BENDING[0] * length * bend[0] + BENDING[1] * bend[1] + self.turn(false)
+    }
+
     /// Cost of going on in a direction.
     fn turn(&self, backward: bool) -> f32 {
         let changes = self.before != NONE && self.back.is_some() != backward;
@@ -339,7 +402,8 @@ mod tests {
     use super::*;
     use crate::{
         map::{Cell, Grid, Occupancy, Raster},
-        nav::{Articulated, BackPath, Clearance, Path, payload::Backing},
+        math::Random,
+        nav::{Articulated, BackPath, Clearance, Path, outline::Axes, payload::Backing},
     };
     use core::f32::consts::{FRAC_PI_2, PI, TAU};
 
@@ -443,7 +507,8 @@ mod tests {
             let mut room = Room::default();
             room.measure(&ground.terrain, &vehicle, &at(start, heading));
             let drive = Drive { ground: &ground, vehicle: &vehicle, room: &room, footing: None };
-            bend(&goals[0].pose, drive.at_end(&way.end, last.trailer).expect("it is free"))
+            assert!(drive.is_free(&way.end, last.trailer));
+            bend(&goals[0].pose, drive.trailer_at_end(&way.end, last.trailer))
         };
         let from_the_side = Pose2::new(5.0, 2.5, FRAC_PI_2);
         assert!(bend_at_end(0.0, from_the_side, FRAC_PI_2) > 0.3);
@@ -653,6 +718,78 @@ mod tests {
         };
         let [first, again, elsewhere] = [20.0, 20.1, 22.0].map(&mut expanded);
         assert!(again < first / 2 && elsewhere > again, "{first}, {again}, {elsewhere}");
+    }
+
+    /// Each cell that is not free is compared with the outline, apart from how the search looks at them.
+    #[test]
+    fn ways_between_random_boxes_touch_nothing() {
+        let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 100, height: 100 };
+        let vehicle = CurveDrive { load: LOAD, backing_gain: 2.5, ..VEHICLE };
+        let mut random = Random::new(3);
+        let mut found = 0;
+        for _ in 0..12 {
+            let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+            for _ in 0..6 {
+                let corner = [0; 2].map(|_| random.uniform(20.0, 76.0) as usize);
+                for (x, y) in (0..7).flat_map(|x| (0..7).map(move |y| (x, y))) {
+                    *map.get_mut(Cell::new(corner[0] + x, corner[1] + y)).expect("inside") = Occupancy::Occupied;
+                }
+            }
+            let (start, goal) = (Pose2::new(1.2, 1.2, 0.8), Pose2::new(8.8, 8.8, random.uniform(-PI, PI)));
+            let ground = Ground { terrain: Terrain { map: &map, costs: None, unknown_is_open: false }, floor: None };
+            let Ok(way) = CurveSearch::default().plan(&ground, &vehicle, &at(start, start.theta), &[free(goal)]) else {
+                continue;
+            };
+            found += 1;
+            let boxes = map.iter().filter(|(_, cell)| **cell != Occupancy::Free).map(|(cell, _)| raster.centre(cell));
+            let boxes: Vec<Point2> = boxes.collect();
+            let distance = |axes: Axes| {
+                let stance = vehicle.outline().at(&axes);
+                boxes.iter().map(|place| stance.distance(*place)).fold(f32::INFINITY, f32::min)
+            };
+            let nearest = places_on(&way, &ground, &vehicle).into_iter().map(distance).fold(f32::INFINITY, f32::min);
+            // The points of the outline and the cells that they are in are up to 7 cm from what they stand for.
+            assert!(nearest > vehicle.margin - 0.07, "{nearest} m from a box on the way to {goal:?}");
+        }
+        assert!(found >= 9, "{found} ways");
+    }
+
+    /// Axes of a vehicle at the ends of steps on a way.
+    fn places_on(way: &Way, ground: &Ground<'_>, vehicle: &CurveDrive) -> Vec<Axes> {
+        let room = Room::default();
+        let drive = Drive { ground, vehicle, room: &room, footing: None };
+        let mut places: Vec<Axes> = way.nodes.iter().map(|node| vehicle.axes(&node.pose, node.trailer)).collect();
+        let last = way.nodes[way.nodes.len() - 1];
+        let (mut pose, mut trailer) = (last.pose, last.trailer);
+        for (curvature, length) in way.end.parts.into_iter().filter(|(_, length)| *length > 0.0) {
+            let count = libm::ceilf(length / CHECK);
+            for _ in 0..count as u16 {
+                let step = drive.arc(&pose, trailer, curvature, length / count, Look::Glance);
+                trailer = step.expect("the trailer is not bent too far").1;
+                pose = advanced(&pose, curvature, length / count);
+                places.push(vehicle.axes(&pose, trailer));
+            }
+        }
+        places
+    }
+
+    #[test]
+    fn a_gap_that_is_too_narrow_for_a_load_leads_nowhere() {
+        // Two halls, and between them a wall of 1 m with a gap of 55 cm: enough for the vehicle alone.
+        let raster = Raster { corner: Point2::default(), resolution: 0.05, width: 320, height: 160 };
+        let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+        for (x, y) in (150..170).flat_map(|x| (0..160).map(move |y| (x, y))).filter(|(_, y)| !(80..91).contains(y)) {
+            *map.get_mut(Cell::new(x, y)).expect("inside") = Occupancy::Occupied;
+        }
+        let ground = Ground { terrain: Terrain { map: &map, costs: None, unknown_is_open: false }, floor: None };
+        let start = at(Pose2::new(4.0, 4.275, 0.0), 0.0);
+        let mut search = CurveSearch::default();
+        let mut plan = |load| {
+            let vehicle = CurveDrive { load, backing_gain: 2.5, ..VEHICLE };
+            let is_way = search.plan(&ground, &vehicle, &start, &[free(Pose2::new(12.0, 4.275, 0.0))]).is_ok();
+            (is_way, search.nodes.len() < 1000)
+        };
+        assert_eq!([plan([0.0; 2]), plan(LOAD)], [(true, true), (false, true)]);
     }
 
     #[test]

@@ -3,14 +3,13 @@ use apex_nodes::{
     frames::{Pose3, Rotation},
     nav::Twist,
     persons::Person,
-    scan::{Point2, Pose2},
+    scan::{Point2, Pose2, wrap_angle},
 };
 use apex_rt::Time;
 use apex_sim::{
     HeldTwist, Limits, Random, Shared, Simulation,
     outdoor::{Attitude, Passersby, Runner, Sample, SkidBase, SkidShape, Terrain, Track, Walker},
 };
-use core::f32::consts::PI;
 use std::{collections::VecDeque, time::Duration};
 
 /// Step of the simulation.
@@ -218,7 +217,7 @@ impl State {
         // It has to get away before it touches something again.
         self.touches = gap <= 0.05 && (touches || self.touches);
         // The wheels do not tell the slip; the gyroscope drifts.
-        let turn = libm::remainderf(self.base.pose.theta - before.pose.theta, 2.0 * PI);
+        let turn = wrap_angle(self.base.pose.theta - before.pose.theta);
         let turn = turn + (self.bias + self.noise.normal(0.01)) * dt;
         let way = self.base.wheels.x * dt * (1.0 + self.noise.normal(0.02));
         let half = Pose2::new(self.wheels.x, self.wheels.y, self.wheels.theta + 0.5 * turn);

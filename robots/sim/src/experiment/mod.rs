@@ -21,4 +21,4 @@ pub use outages::broken_promises;
 pub use progress::Progress;
 #[cfg(feature = "record")]
 pub use recording::Recording;
-pub use run::{Failure, RunLog, Spell, run};
+pub use run::{Failure, RunLog, Spell, activity_table, instances_of, run};

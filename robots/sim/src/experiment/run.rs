@@ -1,5 +1,5 @@
 use apex_rt::{Clock as _, Info, Next, Observer, Parameters, Program, SimClock, Time, UntilStopped};
-use std::{fmt, time::Duration};
+use std::{cmp::Reverse, fmt, time::Duration};
 
 /// Activity and failures of a robot in a run.
 #[derive(Debug)]
@@ -127,6 +127,20 @@ impl fmt::Display for Failure {
     }
 }
 
+/// Table of the nodes that were active in a run, and for how long, the longest time first.
+pub fn activity_table(activity: &[(&'static str, Duration)]) -> String {
+    let mut sorted = activity.to_vec();
+    sorted.sort_by_key(|(_, time)| Reverse(*time));
+    let rows = sorted.iter().map(|(name, time)| format!("{name:<40}{:>8.1} s\n", time.as_secs_f32()));
+    rows.collect()
+}
+
+/// Number of node instances of a robot that are of these types, whose names have no path.
+pub fn instances_of(info: &Info, types: &[&str]) -> usize {
+    let name = |kind: usize| info.kinds[kind].name.rsplit("::").next().unwrap_or_default();
+    info.nodes.iter().filter(|node| types.contains(&name(node.kind))).count()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,7 +173,11 @@ mod tests {
             Observer::activity(&mut log, node, active);
         }
         let seconds = Duration::from_secs;
-        assert_eq!(log.activity(Time::from_secs(9)), [("front", seconds(6)), ("search", seconds(1))]);
+        let activity = log.activity(Time::from_secs(9));
+        assert_eq!(activity, [("front", seconds(6)), ("search", seconds(1))]);
+        let table = activity_table(&[activity[1], activity[0]]);
+        let rows = table.lines().map(|row| row.split_whitespace().collect::<Vec<_>>());
+        assert!(rows.eq([["front", "6.0", "s"], ["search", "1.0", "s"]]), "{table}");
         let spell = |node, from, until| Spell { node, from: Time::from_secs(from), until: Time::from_secs(until) };
         assert_eq!(log.spells, [spell("front", 1, 3), spell("search", 4, 5)]);
     }

@@ -2,7 +2,7 @@ use super::{Attitude, Surface, Terrain, ThingShape, Walker};
 use crate::Random;
 use apex_nodes::{
     cloud::{CloudPoint, RingCloud},
-    scan::{Point2, Pose2},
+    scan::{Point2, Pose2, wrap_angle},
 };
 use apex_rt::Time;
 use core::f32::consts::{PI, TAU};
@@ -294,7 +294,7 @@ fn between(samples: &[Sample], part: f32) -> Sample {
     let (a, b) = (samples[i], samples[(i + 1).min(samples.len() - 1)]);
     let t = place - i as f32;
     let mix = |a: f32, b: f32| a + t * (b - a);
-    let turn = libm::remainderf(b.pose.theta - a.pose.theta, TAU);
+    let turn = wrap_angle(b.pose.theta - a.pose.theta);
     let pose = Pose2::new(mix(a.pose.x, b.pose.x), mix(a.pose.y, b.pose.y), a.pose.theta + t * turn);
     let attitude = Attitude {
         height: mix(a.attitude.height, b.attitude.height),

@@ -1,0 +1,108 @@
+use apex_sim::{Promise, Stops};
+use std::{fmt, str::FromStr, time::Duration};
+
+/// Temporary fault of a device of the robot.
+pub type Fault = apex_sim::Fault<FaultKind>;
+
+/// Period of all sensors.
+const PERIOD: Duration = Duration::from_millis(50);
+
+/// Kind of a fault.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FaultKind {
+    /// The scanner sends nothing.
+    LaserSilent,
+    /// The scanner sends the same scan repeatedly, with its stamp.
+    LaserRepeated,
+    /// The scanner measures infinity in all directions.
+    BeamsInfinite,
+    /// The wheels send nothing.
+    WheelsSilent,
+    /// The wheels send NaN.
+    WheelsNan,
+    /// The wheels send the same pose repeatedly, and afterwards continue at their real pose.
+    WheelsStopped,
+    /// The gauge of the battery sends nothing.
+    ChargeSilent,
+    /// The images of the camera are black.
+    EyeBlack,
+}
+
+impl FaultKind {
+    /// All kinds of faults.
+    pub const ALL: [Self; 8] = [
+        Self::LaserSilent,
+        Self::LaserRepeated,
+        Self::BeamsInfinite,
+        Self::WheelsSilent,
+        Self::WheelsNan,
+        Self::WheelsStopped,
+        Self::ChargeSilent,
+        Self::EyeBlack,
+    ];
+
+    /// Name of the fault on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::LaserSilent => "laser-silent",
+            Self::LaserRepeated => "laser-repeated",
+            Self::BeamsInfinite => "beams-infinite",
+            Self::WheelsSilent => "wheels-silent",
+            Self::WheelsNan => "wheels-nan",
+            Self::WheelsStopped => "wheels-stopped",
+            Self::ChargeSilent => "charge-silent",
+            Self::EyeBlack => "eye-black",
+        }
+    }
+
+    /// Promises of the robot about each of [`ALL`](Self::ALL).
+    pub fn promises() -> [Promise; Self::ALL.len()] {
+        Self::ALL.map(Self::promise)
+    }
+
+    /// Promise of the robot without the sensor. The stated times are those of the guards, that of their next firing,
+    /// and 0.6 s in which the base brakes with 1 m/s² from 0.6 m/s.
+    const fn promise(self) -> Promise {
+        const fn after(ms: u64) -> Duration {
+            Duration::from_millis(ms + 50 + 600)
+        }
+        let stops = match self {
+            Self::LaserSilent | Self::LaserRepeated | Self::BeamsInfinite => Stops::Within(after(500)),
+            Self::WheelsSilent | Self::WheelsNan => Stops::Within(after(0)),
+            // The guard waits for more than 0.4 s.
+            Self::WheelsStopped => Stops::Tries(after(400 + 50)),
+            Self::ChargeSilent | Self::EyeBlack => Stops::No,
+        };
+        Promise { fault: self.name(), period: PERIOD, stops }
+    }
+}
+
+impl FromStr for FaultKind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let names = || Self::ALL.map(Self::name).join(", ");
+        let known = Self::ALL.into_iter().find(|known| known.name() == text);
+        known.ok_or_else(|| format!("`{text}` is not a kind of fault; there are {}", names()))
+    }
+}
+
+impl fmt::Display for FaultKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_are_read_as_they_are_written() {
+        for kind in FaultKind::ALL {
+            let text = format!("{kind}@1.5s..30s");
+            assert_eq!(text.parse::<Fault>().map(|fault| fault.to_string()), Ok(text));
+        }
+        assert!("laser@1s..2s".parse::<Fault>().is_err());
+    }
+}
