@@ -2,8 +2,11 @@
 
 use super::{
     condition::names_in,
-    names::suggest,
-    value::{Evaluated, RustNames, Scope, Wanted, declared_unit, duration, evaluate, period, seconds},
+    scope::{Evaluated, RustNames, Scope},
+    suggest::suggest,
+    time::{duration, period, seconds},
+    value::{declared_unit, describe, evaluate},
+    wanted::Wanted,
 };
 use crate::{
     catalog::{DefaultValue, Literal, ParamSig, Signature, Type},
@@ -343,7 +346,7 @@ pub fn modifiers(list: &[Modifier], scope: &Scope<'_>, origins: &Origins, diagno
             other => Err(Box::new(Diagnostic::error(
                 "wrong-value",
                 expr.span,
-                format!("expected a time, but this is {}", super::value::describe(&other)),
+                format!("expected a time, but this is {}", describe(&other)),
             ))),
         });
         match value {

@@ -2,8 +2,8 @@
 //! and has the same name.
 
 use super::{
-    connect::{Chosen, End, without_ports},
-    instance::{Body, Builder},
+    builder::{Body, Builder},
+    ends::{All, Chosen, End, without_ports},
     standard::own_node,
     table::{Candidate, Symbol, Table},
 };
@@ -17,40 +17,6 @@ use std::{
     collections::{BTreeMap, BTreeSet},
     rc::Rc,
 };
-
-/// The ports for which `.*` stands.
-#[derive(Debug, Clone)]
-pub struct All {
-    /// Node or nested graph with the ports; `None` for the graph itself, whose ports are named alone.
-    node: Option<String>,
-    /// The endpoint as text.
-    text: String,
-    span: Span,
-    ports: Vec<Candidate>,
-}
-
-impl All {
-    fn sends(&self) -> impl Iterator<Item = &Candidate> {
-        self.ports.iter().filter(|port| port.kind.sends())
-    }
-
-    fn takes(&self) -> impl Iterator<Item = &Candidate> {
-        self.ports.iter().filter(|port| !port.kind.sends())
-    }
-
-    /// Number of ports.
-    pub fn count(&self) -> usize {
-        self.ports.len()
-    }
-
-    /// One of the ports as a graph names it.
-    fn name(&self, port: &Candidate) -> String {
-        match &self.node {
-            Some(node) => format!("{node}.{}", port.name),
-            None => port.name.clone(),
-        }
-    }
-}
 
 impl Builder<'_> {
     /// The ports for which an endpoint with `.*` stands. `None` stands for an error. Parameters are not among them.

@@ -1,10 +1,9 @@
 //! Resolution of the names in claims to nodes and nested graphs.
 
 use super::{
-    MAX_CLAIMS,
-    instance::{Body, Builder},
-    names::suggest,
+    builder::{Body, Builder},
     standard::own_node,
+    suggest::suggest,
     table::{Symbol, Table},
 };
 use crate::{
@@ -13,6 +12,9 @@ use crate::{
     syntax::tree::{self, PortRef},
 };
 use std::collections::BTreeMap;
+
+/// Largest number of claims of a program.
+const MAX_CLAIMS: usize = 256;
 
 impl Builder<'_> {
     /// Resolves the claims of a graph body. The numbers of its nodes and scopes begin at `node` and `scope`.

@@ -1,6 +1,10 @@
 //! Conditions on a token: checks of their types and of the constants in them.
 
-use super::value::{Evaluated, Scope, Wanted, describe, evaluate, limits};
+use super::{
+    scope::{Evaluated, Scope},
+    value::{describe, evaluate, limits},
+    wanted::Wanted,
+};
 use crate::{
     catalog::Type,
     graph::{Condition, Number, Value, is_arithmetic},

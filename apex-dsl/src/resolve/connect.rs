@@ -1,13 +1,13 @@
 //! Connections as written: the choice of ports that are not named, and the comparison of their types.
 
 use super::{
-    by_name::All,
+    builder::{Body, Builder},
+    ends::{All, Chosen, End, without_ports},
     given,
-    instance::{Body, Builder},
     link::{Link, Side},
     mismatch,
     standard::own_node,
-    table::{Candidate, Symbol, Table},
+    table::{Candidate, Symbol, Table, list},
 };
 use crate::{
     catalog::{Match, Type},
@@ -16,56 +16,7 @@ use crate::{
     source::Span,
     syntax::tree::{Arrow, Endpoint, Expr, GraphItem, Ident, PortKind, PortRef, PortsOf},
 };
-use std::{collections::BTreeSet, rc::Rc};
-
-/// Adds every `node.port` of an endpoint to `names`.
-pub fn named_ports<'a>(end: &'a Endpoint, names: &mut BTreeSet<(&'a str, &'a str)>) {
-    match end {
-        Endpoint::Port(reference, _) => {
-            if let [node, port] = reference.parts.as_slice() {
-                names.insert((&node.text, &port.text));
-            }
-        }
-        Endpoint::List(ends, _) => ends.iter().for_each(|e| named_ports(e, names)),
-        Endpoint::All(_) | Endpoint::Instance(_) => {}
-    }
-}
-
-/// An end of a connection: one port of `symbol`.
-#[derive(Debug, Clone)]
-pub struct End {
-    /// The meaning of its name, narrowed to a port if one is named.
-    pub symbol: Symbol,
-    /// The name as text: `node`, `node.port` or a port of the graph.
-    pub text: String,
-    /// The place of the name.
-    pub span: Span,
-    /// The value that is given to the port.
-    pub given: Option<Box<Given>>,
-}
-
-/// A port that is chosen for an end of a connection.
-#[derive(Debug, Clone, Copy)]
-pub struct Chosen<'a> {
-    /// The end as text.
-    pub text: &'a str,
-    /// The place of the end.
-    pub span: Span,
-    /// The port.
-    pub port: &'a Candidate,
-}
-
-impl End {
-    /// A port of this end.
-    fn chosen<'a>(&'a self, port: &'a Candidate) -> Chosen<'a> {
-        Chosen { text: &self.text, span: self.span, port }
-    }
-
-    /// Name of the node, or of the port of the graph.
-    fn node(&self) -> &str {
-        self.text.split('.').next().unwrap_or(&self.text)
-    }
-}
+use std::rc::Rc;
 
 /// Meaning of an end of a chain.
 #[derive(Debug, Clone)]
@@ -494,12 +445,6 @@ fn is_named(end: &Endpoint) -> bool {
     }
 }
 
-/// The error at `span`, where a port of a port is named.
-pub fn without_ports(port: &Ident, span: Span) -> Diagnostic {
-    let message = format!("`{}` is a port of this graph and has no ports of its own", port.text);
-    Diagnostic::error("unknown-port", span, message)
-}
-
 /// Returns `true` if a connection leads to the node `name` in this graph from anything but `start`.
 fn is_fed(graph: &GraphItem, name: &str) -> bool {
     fn names(end: &Endpoint, name: &str) -> bool {
@@ -543,13 +488,4 @@ fn meant(end: &End, sends: bool) -> EndpointCandidates {
         name: name.clone(),
         span: *span,
     }
-}
-
-/// Ports as text.
-pub fn list(ports: &[&Candidate]) -> String {
-    let word = |p: &&Candidate| match p.ty.to_string().as_str() {
-        "" => format!("{} `{}`", p.kind.word(), p.name),
-        ty => format!("{} `{}: {ty}`", p.kind.word(), p.name),
-    };
-    ports.iter().map(word).collect::<Vec<_>>().join(", ")
 }

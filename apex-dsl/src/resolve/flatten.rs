@@ -1,6 +1,6 @@
 //! Flattening: wires through ports of nested graphs become connections between nodes.
 
-use super::{MAX_NODES, instance::Builder};
+use super::{budget::MAX_NODES, builder::Builder};
 use crate::{
     graph::{Connection, ConnectionId, Crossing, NodeId, NodeKind, Pin, Port, PortId, ScopeId, Wire, WireEnd},
     index::IdVec,

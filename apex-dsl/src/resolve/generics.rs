@@ -1,6 +1,6 @@
 //! Inference of type arguments from connections.
 
-use super::{given::own_type, value::Wanted};
+use super::{given::own_type, wanted::Wanted};
 use crate::{
     catalog::{Catalog, Signature, Type},
     graph::{ConnectionId, Graph, Library, NodeId, NodeKind, Port, PortId, TypeArg},

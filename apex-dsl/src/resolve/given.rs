@@ -1,8 +1,9 @@
 //! Values that slots get in place of tokens: `node.slot(value)`.
 
 use super::{
-    instance::{Body, Builder},
-    value::{Wanted, evaluate},
+    builder::{Body, Builder},
+    value::evaluate,
+    wanted::Wanted,
 };
 use crate::{
     catalog::Type,

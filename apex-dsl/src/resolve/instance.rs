@@ -1,55 +1,27 @@
 //! Construction of one flat graph: its body is resolved, and nested graphs are expanded in place.
 
 use super::{
-    Budget, MAX_NESTING, MAX_NODES,
     args::{self, Origins},
-    connect::named_ports,
-    flatten, generics,
+    budget::{Budget, MAX_NESTING},
+    builder::{Body, Builder},
+    flatten, generics, given,
     link::Link,
+    lists,
     names::{Constructor, GraphId, SourceSet},
     nodes::require_function_params,
+    record::record,
+    scope::RustNames,
     table::{Symbol, Table},
-    value::{RustNames, Scope as Names},
+    wrap,
 };
 use crate::{
     catalog::{Catalog, Type},
-    graph::{self, Claim, Graph, Node, NodeKind, Pin, Port, PortId, Scope, ScopeId, Value, Wire, WireEnd},
-    index::IdVec,
+    graph::{self, Graph, NodeKind, Pin, Port, PortId, Scope, ScopeId, Value, WireEnd},
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Expr, GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, PathExpr, PortKind, TypeExpr},
+    syntax::tree::{GraphItem, Ident, Instance, Modifier, ModifierKind, NodeBody, NodeItem, PortKind},
 };
 use std::collections::{BTreeMap, BTreeSet};
-
-/// State of the construction of one flat graph.
-pub struct Builder<'a> {
-    pub texts: &'a SourceSet,
-    pub catalog: &'a Catalog,
-    pub diagnostics: &'a mut Diagnostics,
-    pub nodes: IdVec<graph::NodeId, Node>,
-    pub scopes: IdVec<ScopeId, Scope>,
-    pub pins: Vec<Pin>,
-    pub wires: Vec<Wire>,
-    /// Inputs whose connection could not be made, which has been reported.
-    pub suppressed: BTreeSet<WireEnd>,
-    /// Declared ports for any number of inputs that have a connection.
-    pub arrays: BTreeSet<WireEnd>,
-    /// Unknown names of nodes or ports in each graph, which have been reported.
-    pub unknown: BTreeSet<(GraphId, String)>,
-    /// Constructors of the instances at each place of a text, which a graph that is used many times names many times.
-    made: BTreeMap<Span, Result<Constructor, Option<Box<Diagnostic>>>>,
-    /// The initial tokens of delays, as written.
-    pub delays: Vec<(graph::NodeId, Expr)>,
-    pub claims: Vec<Claim>,
-    /// The graphs that are being expanded, outermost first.
-    pub open: Vec<GraphId>,
-    /// Instances with which a test replaces nodes, by path.
-    pub replaced: BTreeMap<String, &'a Instance>,
-    /// Remaining budget.
-    pub budget: &'a mut Budget,
-    /// List that receives the connections of the outermost graph, if they are wanted.
-    pub links: Option<&'a mut Vec<Link>>,
-}
 
 /// Purpose for which a graph is expanded, with the arguments for its parameters.
 pub enum Purpose {
@@ -59,31 +31,6 @@ pub enum Purpose {
     Body(BTreeMap<String, Value>),
     /// A graph under test.
     Test(BTreeMap<String, Value>),
-}
-
-/// A graph body and the context in which it is expanded.
-pub struct Body<'a> {
-    pub id: GraphId,
-    pub scope: ScopeId,
-    pub values: BTreeMap<String, Value>,
-    /// Origins of the values.
-    pub origins: Origins,
-    pub item: &'a GraphItem,
-    /// All `node.port` to which a chain of the body leads.
-    pub fed: BTreeSet<(&'a str, &'a str)>,
-}
-
-impl<'a> Body<'a> {
-    fn new(
-        id: GraphId,
-        scope: ScopeId,
-        (values, origins): (BTreeMap<String, Value>, Origins),
-        item: &'a GraphItem,
-    ) -> Self {
-        let mut fed = BTreeSet::new();
-        item.chains.iter().flat_map(|c| &c.ends[1..]).for_each(|end| named_ports(end, &mut fed));
-        Self { id, scope, values, origins, item, fed }
-    }
 }
 
 /// Resolves graph `id` as a program of its own.
@@ -101,35 +48,6 @@ pub fn graph(
 }
 
 impl<'a> Builder<'a> {
-    /// An empty builder, to be used while the graphs `open` are being expanded.
-    pub fn new(
-        texts: &'a SourceSet,
-        catalog: &'a Catalog,
-        diagnostics: &'a mut Diagnostics,
-        open: Vec<GraphId>,
-        budget: &'a mut Budget,
-    ) -> Self {
-        Self {
-            texts,
-            catalog,
-            diagnostics,
-            nodes: IdVec::default(),
-            scopes: IdVec::default(),
-            pins: vec![],
-            wires: vec![],
-            suppressed: BTreeSet::new(),
-            arrays: BTreeSet::new(),
-            unknown: BTreeSet::new(),
-            made: BTreeMap::new(),
-            delays: vec![],
-            claims: vec![],
-            open,
-            replaced: BTreeMap::new(),
-            budget,
-            links: None,
-        }
-    }
-
     /// Builds the whole graph, with boundary nodes for its ports.
     pub fn top(mut self, id: GraphId, purpose: Purpose) -> Option<Graph> {
         let item = self.texts.graph(id);
@@ -181,7 +99,7 @@ impl<'a> Builder<'a> {
         if self.budget.exceeded {
             return None;
         }
-        super::wrap::let_activity_into_delays(&self.nodes, &mut self.wires);
+        wrap::let_activity_into_delays(&self.nodes, &mut self.wires);
         let (connections, open_pins) = flatten::wires(&mut self);
         let mut graph = Graph {
             name,
@@ -202,12 +120,12 @@ impl<'a> Builder<'a> {
             record: None,
         };
         generics::infer(&mut graph, self.catalog, self.diagnostics);
-        super::given::fit(&mut graph, self.diagnostics);
-        super::lists::resolve(&mut graph, self.diagnostics);
-        super::wrap::fit_delays(&mut graph, &self.delays, self.diagnostics);
+        given::fit(&mut graph, self.diagnostics);
+        lists::resolve(&mut graph, self.diagnostics);
+        wrap::fit_delays(&mut graph, &self.delays, self.diagnostics);
         // After a syntax error, the nodes that are to be recorded may be missing.
         if is_program && !self.texts.are_broken() {
-            graph.record = super::record::record(&graph, item, self.diagnostics);
+            graph.record = record(&graph, item, self.diagnostics);
         }
         require_function_params(&mut graph, self.catalog);
         Some(graph)
@@ -235,78 +153,6 @@ impl<'a> Builder<'a> {
             let error = Diagnostic::error("type-arguments", generic.span, message);
             self.diagnostics.push(error.note("write a graph around it, with ports that have types"));
         }
-    }
-
-    /// Adds a node; `None` if there are too many.
-    pub fn node(
-        &mut self,
-        name: &Ident,
-        scope: ScopeId,
-        kind: NodeKind,
-        ports: Vec<Port>,
-        docs: &str,
-    ) -> Option<graph::NodeId> {
-        self.spend(name.span)?;
-        let node = Node {
-            name: name.text.clone(),
-            scope,
-            kind,
-            ports,
-            modifiers: Default::default(),
-            span: name.span,
-            docs: docs.to_owned(),
-            starts_active: false,
-        };
-        Some(self.nodes.push(node))
-    }
-
-    pub fn spend(&mut self, span: Span) -> Option<()> {
-        if self.budget.nodes == 0 {
-            self.too_large(span, format!("this program has more than {MAX_NODES} nodes"));
-            return None;
-        }
-        self.budget.nodes -= 1;
-        Some(())
-    }
-
-    /// Charges the budget for a visit to `count` ports or ends of connections.
-    pub fn look(&mut self, count: usize, span: Span) -> Option<()> {
-        if self.budget.looks < count {
-            self.too_large(span, "this program has too many ports and connections".to_owned());
-            return None;
-        }
-        self.budget.looks -= count;
-        Some(())
-    }
-
-    fn too_large(&mut self, span: Span, message: String) {
-        self.budget.exceeded = true;
-        let outermost = self.open.first().map_or(span, |id| self.texts.graph(*id).name.span);
-        self.diagnostics
-            .push(Diagnostic::error("too-large", outermost, message).note("a nested graph counts once for each use"));
-    }
-
-    /// Returns `true` if there is no point in continuing.
-    pub fn is_exhausted(&self) -> bool {
-        self.budget.exceeded || self.diagnostics.is_full()
-    }
-
-    /// Meaning of the names in the expressions of a graph whose parameters have these values.
-    pub fn names<'s>(&self, values: &'s BTreeMap<String, Value>) -> Names<'s>
-    where
-        'a: 's,
-    {
-        Names { params: values, rust: RustNames { texts: self.texts, catalog: self.catalog } }
-    }
-
-    fn param_types(&self, id: GraphId) -> Vec<(&'a crate::syntax::tree::ParamItem, Type)> {
-        self.texts.graph(id).params.iter().map(|p| (p, self.ty(id, &p.ty))).collect()
-    }
-
-    /// A type as written in the source file of graph `id`.
-    pub fn ty(&self, id: GraphId, ty: &TypeExpr) -> Type {
-        let generics: Vec<String> = self.texts.graph(id).generics.iter().map(|g| g.text.clone()).collect();
-        self.catalog.type_in_text(&self.texts.ty(ty), &generics)
     }
 
     /// Expands a graph body: first its nodes, then its connections.
@@ -337,7 +183,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The instance with which a test replaces a node. Names in it belong to the first source file.
-    fn replace(&mut self, body: &Body<'_>, node: &crate::syntax::tree::NodeItem) -> Option<Symbol> {
+    fn replace(&mut self, body: &Body<'_>, node: &NodeItem) -> Option<Symbol> {
         let path = graph::path(&self.scopes, body.scope, Some(&node.name.text));
         let instance = *self.replaced.get(&path)?;
         let fed = body.fed.clone();
@@ -375,12 +221,6 @@ impl<'a> Builder<'a> {
             }
         };
         self.delayed(body, name, symbol, &instance.modifiers)
-    }
-
-    /// The constructor that a path names.
-    pub fn constructor(&mut self, path: &PathExpr) -> Result<Constructor, Option<Box<Diagnostic>>> {
-        let (texts, catalog) = (self.texts, self.catalog);
-        self.made.entry(path.span).or_insert_with(|| texts.made(path, catalog)).clone()
     }
 
     fn graph_args(&mut self, body: &Body<'_>, id: GraphId, instance: &Instance) -> BTreeMap<String, Value> {
@@ -493,10 +333,6 @@ impl<'a> Builder<'a> {
     ) -> Option<Graph> {
         self.may_open(id, span)?;
         self.inner(build)
-    }
-
-    pub fn inner(&mut self, build: impl FnOnce(Builder<'_>) -> Option<Graph>) -> Option<Graph> {
-        build(Builder::new(self.texts, self.catalog, self.diagnostics, self.open.clone(), self.budget))
     }
 }
 

@@ -2,10 +2,12 @@
 //! every state inside that has no transition of its own for the token.
 
 use super::{
-    Known,
     condition::Conditions,
-    everywhere, suggest, unknown,
-    value::{Evaluated, Scope, Wanted, evaluate, time},
+    scope::{Evaluated, Scope},
+    suggest::{Known, everywhere, suggest, unknown},
+    time::time,
+    value::evaluate,
+    wanted::Wanted,
 };
 use crate::{
     catalog::Type,

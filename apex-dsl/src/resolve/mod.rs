@@ -2,32 +2,41 @@
 //! and nested graphs.
 
 mod args;
+mod budget;
+mod builder;
 mod by_name;
 mod claims;
-pub mod condition;
+mod condition;
 mod connect;
+mod ends;
 mod flatten;
 mod generics;
 mod given;
 mod instance;
 mod link;
 mod lists;
+mod load;
 mod machine;
 pub mod mismatch;
 mod names;
 mod nodes;
 mod record;
+mod scope;
 mod standard;
 mod structs;
 mod study;
+mod suggest;
 mod table;
 mod testing;
 mod threads;
+mod time;
 mod types;
 mod unknown;
-pub mod value;
+mod value;
 mod variants;
+mod wanted;
 mod wrap;
+mod writer;
 
 use crate::{
     catalog::{Catalog, PRIMITIVES},
@@ -39,31 +48,12 @@ use crate::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
+use budget::Budget;
+
 pub use link::{Link, Side};
 pub use lists::{check_origins, token_type};
-pub use names::{Constructor, GraphId, Resolution, SourceSet, suggest};
+pub use names::{Constructor, GraphId, Resolution, SourceSet};
 pub use standard::is_own_event;
-pub use unknown::{Known, everywhere, unknown};
-
-/// Largest number of nodes and nested graphs of a program. It has at most four times as many connections.
-pub const MAX_NODES: usize = 50_000;
-/// Largest number of ports and ends of connections that are visited, which limits the time. A nested graph counts as
-/// often as it is used.
-const MAX_LOOKS: usize = 1_000_000;
-/// Largest number of claims of a program.
-const MAX_CLAIMS: usize = 256;
-/// Largest depth of nested graphs.
-pub const MAX_NESTING: usize = 64;
-
-/// Remaining budget for the programs of a source file.
-pub struct Budget {
-    /// Nodes and nested graphs that may be added.
-    pub nodes: usize,
-    /// Visits to ports or ends of connections.
-    pub looks: usize,
-    /// `true` if the budget was exceeded, which has been reported.
-    pub exceeded: bool,
-}
 
 /// Result of the resolution of a source file.
 pub struct Resolved {
@@ -93,7 +83,7 @@ pub fn resolve(
     types::check(&texts, catalog, diagnostics);
     let used = used(&texts.files[0].1);
     let (mut graphs, mut nested, mut links) = (vec![], vec![], vec![]);
-    let mut budget = Budget { nodes: MAX_NODES, looks: MAX_LOOKS, exceeded: false };
+    let mut budget = Budget::new();
     for id in texts.graph_ids(0) {
         let is_nested = is_nested(texts.graph(id), &used);
         if budget.exceeded {

@@ -1,8 +1,9 @@
 //! Instances of catalog nodes: arguments, types, modifiers and ports.
 
 use super::{
-    args, generics,
-    instance::{Body, Builder},
+    args,
+    builder::{Body, Builder},
+    generics,
     names::Constructor,
     table::Symbol,
     types,

@@ -1,6 +1,6 @@
 //! The `record` statement of a program: the ports that it names, as ports of the flat graph.
 
-use super::names::suggest;
+use super::suggest::suggest;
 use crate::{
     graph::{Graph, NodeKind, PortId, Record, WireEnd},
     report::{Diagnostic, Diagnostics},

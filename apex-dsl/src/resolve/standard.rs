@@ -1,7 +1,7 @@
 //! Predefined names (`start`, `reset`, …), and the ports that every node and nested graph has.
 
 use super::{
-    instance::{Body, Builder},
+    builder::{Body, Builder},
     table::{Candidate, Owner},
 };
 use crate::{

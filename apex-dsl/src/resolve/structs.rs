@@ -1,26 +1,29 @@
 //! Structs of Rust that a source file writes as values: `Pose2 { x: 1m, y: 0m, heading: 90deg }`.
 
 use super::{
-    names::suggest,
-    value::{self, Evaluated, Scope, Wanted},
+    scope::{Evaluated, RustNames},
+    suggest::suggest,
 };
 use crate::{
-    catalog::{Field, Struct, Structure, Type},
-    graph::{FieldValue, StructValue, Value},
+    catalog::{Field, Struct, Structure},
     report::Diagnostic,
     source::Span,
-    syntax::tree::{Expr, ExprKind, Ident, PathExpr},
+    syntax::tree::{Expr, Ident, PathExpr},
 };
 
-/// Evaluates a struct with these fields.
-pub fn evaluate(path: &PathExpr, fields: &[(Ident, Expr)], scope: &Scope<'_>) -> Evaluated<Value> {
-    // An import that failed has been reported.
-    if scope.rust.texts.is_unclear(path) {
-        return Ok(Value::RustDefault);
+/// The declaration of a struct that is written with these fields, and its path in generated code; `None` if an import
+/// has failed, which has been reported.
+pub fn declared(
+    path: &PathExpr,
+    fields: &[(Ident, Expr)],
+    rust: RustNames<'_>,
+) -> Evaluated<Option<(Vec<String>, Struct)>> {
+    if rust.texts.is_unclear(path) {
+        return Ok(None);
     }
-    let declared = match scope.rust.catalog.structure(&scope.rust.texts.full_path(path)) {
+    let declared = match rust.catalog.structure(&rust.texts.full_path(path)) {
         Structure::Known(declared) => declared,
-        Structure::Missing(elsewhere) => return Err(Box::new(unknown(path, &elsewhere, scope))),
+        Structure::Missing(elsewhere) => return Err(Box::new(unknown(path, &elsewhere, rust))),
         Structure::Other(ty) => {
             let message = format!("a `{ty}` cannot be written with fields");
             let error = Diagnostic::error("wrong-value", path.span, message)
@@ -34,20 +37,14 @@ pub fn evaluate(path: &PathExpr, fields: &[(Ident, Expr)], scope: &Scope<'_>) ->
         return Err(Box::new(error.note(format!("declared at {}; it needs `pub` and a `pub use`", declared.place))));
     };
     check_names(&declared, fields, path.span)?;
-    let field = |(name, expr): &(Ident, Expr)| {
-        let ty = declared.fields.iter().find(|field| field.name == name.text).map(|field| field.ty.clone());
-        let value = value::evaluate(expr, scope)?;
-        Ok(FieldValue { name: name.text.clone(), ty: ty.unwrap_or_else(Type::unit), value })
-    };
-    let fields = fields.iter().map(field).collect::<Evaluated<_>>()?;
-    Ok(Value::Struct(StructValue { path: spelled, ty: declared.ty, fields }))
+    Ok(Some((spelled, declared)))
 }
 
-fn unknown(path: &PathExpr, elsewhere: &[String], scope: &Scope<'_>) -> Diagnostic {
+fn unknown(path: &PathExpr, elsewhere: &[String], rust: RustNames<'_>) -> Diagnostic {
     let message = format!("there is no type `{}`", path.text());
     let error = Diagnostic::error("unknown-type", path.span, message);
     let error = match path.segments.as_slice() {
-        [name] if elsewhere.is_empty() => suggest(error, name, scope.rust.texts.imported(name.span)),
+        [name] if elsewhere.is_empty() => suggest(error, name, rust.texts.imported(name.span)),
         _ => error,
     };
     elsewhere.iter().take(4).fold(error, |error, path| error.note(format!("import it: `use {path};`")))
@@ -95,32 +92,4 @@ fn check_names(declared: &Struct, given: &[(Ident, Expr)], at: Span) -> Evaluate
         return Ok(());
     }
     Err(Box::new(error(at, format!("`{ty}` needs a value for {}", missing.join(", "))).note(place)))
-}
-
-/// The struct with fields that fit its declaration. The type arguments are those of `ty`, as far as it has any.
-pub fn fit(given: &StructValue, ty: &Type, expr: &Expr) -> Evaluated<Value> {
-    let argument = |name: &str| match (&given.ty, ty) {
-        (Type::Def(_, _, params), Type::Def(_, _, args)) => {
-            let position = params.iter().position(|param| matches!(param, Type::Param(param) if param == name));
-            position.and_then(|position| args.get(position).cloned())
-        }
-        _ => None,
-    };
-    let field = |field: &FieldValue| {
-        let ty = field.ty.substitute(&argument);
-        let declared = format!("`{}: {ty}` is a field of `{}`", field.name, given.ty.name());
-        let wanted = Wanted { name: &field.name, ty: &ty, unit: None, range: None, declared };
-        let value = wanted.fit(field.value.clone(), value_of(expr, &field.name))?;
-        Ok(FieldValue { name: field.name.clone(), ty: ty.clone(), value })
-    };
-    let fields = given.fields.iter().map(field).collect::<Evaluated<_>>()?;
-    Ok(Value::Struct(StructValue { fields, ..given.clone() }))
-}
-
-/// The expression of a field, if it is written here.
-fn value_of<'a>(expr: &'a Expr, name: &str) -> &'a Expr {
-    match &expr.kind {
-        ExprKind::Struct(_, fields) => fields.iter().find(|(field, _)| field.text == name).map_or(expr, |(_, at)| at),
-        _ => expr,
-    }
 }

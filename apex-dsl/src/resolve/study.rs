@@ -3,9 +3,12 @@
 use super::{
     args,
     condition::names_in,
-    names::{Constructor, GraphId, SourceSet, suggest},
-    testing::Writer,
-    value::{Evaluated, Scope, Wanted, evaluate, limits},
+    names::{Constructor, GraphId, SourceSet},
+    scope::{Evaluated, Scope},
+    suggest::suggest,
+    value::{evaluate, limits},
+    wanted::Wanted,
+    writer::Writer,
 };
 use crate::{
     catalog::{Catalog, ParamSig, Signature, Type},

@@ -119,3 +119,12 @@ impl Table {
         self.symbols.insert(name.text.clone(), (symbol, name.span));
     }
 }
+
+/// Ports as text.
+pub fn list(ports: &[&Candidate]) -> String {
+    let word = |p: &&Candidate| match p.ty.to_string().as_str() {
+        "" => format!("{} `{}`", p.kind.word(), p.name),
+        ty => format!("{} `{}: {ty}`", p.kind.word(), p.name),
+    };
+    ports.iter().map(word).collect::<Vec<_>>().join(", ")
+}

@@ -1,10 +1,6 @@
 //! `thread` statements.
 
-use super::{
-    instance::Builder,
-    names::suggest,
-    value::{Evaluated, evaluate},
-};
+use super::{builder::Builder, scope::Evaluated, suggest::suggest, value::evaluate};
 use crate::{
     graph::{MAIN_GROUP, Scope, ThreadSettings, Value},
     report::{Diagnostic, nearest},

@@ -1,9 +1,6 @@
 //! Checks of the types in source files: each is examined once, however often the graph around it is used.
 
-use super::{
-    names::{SourceSet, suggest},
-    value::declared_unit,
-};
+use super::{names::SourceSet, suggest::suggest, value::declared_unit};
 use crate::{
     catalog::{Catalog, DURATION, PRIMITIVES, STD, TIME, Type, is_path, library},
     report::{Diagnostic, Diagnostics},

@@ -1,39 +1,23 @@
-//! Constant expressions, and conversion of values to the types of parameters.
+//! Constant expressions.
 
+use super::{
+    scope::{Evaluated, Scope},
+    structs,
+    suggest::suggest,
+};
 use crate::{
-    catalog::{Catalog, Constant, Match, Type},
+    catalog::{Constant, Type},
     fraction::Fraction,
-    graph::{Number, Value},
+    graph::{FieldValue, Number, StructValue, Value},
     report::Diagnostic,
     source::Span,
     syntax::tree::{Expr, ExprKind, Ident, PathExpr},
-    units::{self, Dimension, Unit},
+    units::{self, Unit},
 };
-use std::{cmp::Ordering, collections::BTreeMap, time::Duration};
+use std::cmp::Ordering;
 
-use super::names::{SourceSet, suggest};
-
-/// Error or value; the error is boxed because it is much larger than most values.
-pub type Evaluated<T> = Result<T, Box<Diagnostic>>;
-
-/// Meaning of the names in an expression.
-pub struct Scope<'a> {
-    /// Parameters of the graph that contains the expression.
-    pub params: &'a BTreeMap<String, Value>,
-    /// Names of Rust.
-    pub rust: RustNames<'a>,
-}
-
-/// Names of Rust in source files.
-#[derive(Clone, Copy)]
-pub struct RustNames<'a> {
-    /// The source files, with their imports.
-    pub texts: &'a SourceSet,
-    /// The types and constants.
-    pub catalog: &'a Catalog,
-}
-
-fn error<T>(code: &'static str, span: Span, message: impl Into<String>) -> Evaluated<T> {
+/// The error with this message, as the result of an evaluation.
+pub fn error<T>(code: &'static str, span: Span, message: impl Into<String>) -> Evaluated<T> {
     Err(Box::new(Diagnostic::error(code, span, message)))
 }
 
@@ -50,13 +34,25 @@ pub fn evaluate(expr: &Expr, scope: &Scope<'_>) -> Evaluated<Value> {
             [name] if scope.params.contains_key(&name.text) => Ok(scope.params[&name.text].clone()),
             _ => constant(path, scope),
         },
-        ExprKind::Struct(path, fields) => super::structs::evaluate(path, fields, scope),
+        ExprKind::Struct(path, fields) => structure(path, fields, scope),
         ExprKind::Unary(operator, inner) => unary(operator, evaluate(inner, scope)?, expr.span),
         ExprKind::Binary(operator, left, right) => {
             let (a, b) = (evaluate(left, scope)?, evaluate(right, scope)?);
             binary(operator, (a, left.span), (b, right.span), expr.span)
         }
     }
+}
+
+/// Evaluates a struct with these fields.
+fn structure(path: &PathExpr, fields: &[(Ident, Expr)], scope: &Scope<'_>) -> Evaluated<Value> {
+    let Some((spelled, declared)) = structs::declared(path, fields, scope.rust)? else { return Ok(Value::RustDefault) };
+    let field = |(name, expr): &(Ident, Expr)| {
+        let ty = declared.fields.iter().find(|field| field.name == name.text).map(|field| field.ty.clone());
+        let value = evaluate(expr, scope)?;
+        Ok(FieldValue { name: name.text.clone(), ty: ty.unwrap_or_else(Type::unit), value })
+    };
+    let fields = fields.iter().map(field).collect::<Evaluated<_>>()?;
+    Ok(Value::Struct(StructValue { path: spelled, ty: declared.ty, fields }))
 }
 
 fn constant(path: &PathExpr, scope: &Scope<'_>) -> Evaluated<Value> {
@@ -221,7 +217,8 @@ fn arithmetic(operator: &str, (x, at_x): (Number, Span), (y, at_y): (Number, Spa
     }
 }
 
-fn kind(n: Number) -> String {
+/// Kind of a quantity, for messages.
+pub fn kind(n: Number) -> String {
     if n.dimension.is_none() {
         n.dimension.noun().to_owned()
     } else {
@@ -230,7 +227,7 @@ fn kind(n: Number) -> String {
 }
 
 /// A number with its unit, as written in a source file.
-fn si(n: Number) -> String {
+pub fn si(n: Number) -> String {
     if n.dimension.is_none() { n.value.to_string() } else { format!("{}{}", n.value, n.dimension) }
 }
 
@@ -246,278 +243,6 @@ pub fn describe(value: &Value) -> String {
         Value::Path(..) => format!("`{}`", value.text()),
         Value::Struct(given) => format!("a `{}`", given.ty.name()),
         Value::RustDefault => "a default".to_owned(),
-    }
-}
-
-/// Requirements of a parameter on its value.
-pub struct Wanted<'a> {
-    /// Name of the parameter, for messages.
-    pub name: &'a str,
-    /// Type of the parameter.
-    pub ty: &'a Type,
-    /// Unit of the parameter.
-    pub unit: Option<&'a str>,
-    /// Smallest and largest value in SI units, and `true` if the largest value is included.
-    pub range: Option<(Option<f64>, Option<f64>, bool)>,
-    /// Place of the declaration, as a sentence.
-    pub declared: String,
-}
-
-impl Wanted<'_> {
-    /// The value as the parameter stores it; an error if it does not fit.
-    pub fn fit(&self, value: Value, expr: &Expr) -> Evaluated<Value> {
-        let fitted = self.check_constant(&value, self.ty, expr).and_then(|()| self.fit_type(value, self.ty, expr));
-        fitted.map_err(|error| Box::new(error.note(self.declared.clone())))
-    }
-
-    /// Reports a constant of Rust whose type is not `ty`, that of the parameter or of its elements.
-    fn check_constant(&self, value: &Value, ty: &Type, expr: &Expr) -> Evaluated<()> {
-        let Value::Path(_, own) = value else { return Ok(()) };
-        if own.compare(ty) != Match::Different {
-            return Ok(());
-        }
-        let subject = if ty == self.ty { "" } else { "an element of " };
-        let message = format!("{subject}`{}` is a `{ty}`, but {} is a `{own}`", self.name, describe(value));
-        error("wrong-value", expr.span, message)
-    }
-
-    fn wrong(&self, value: &Value, ty: &Type, span: Span) -> Evaluated<Value> {
-        let wanted = if ty.name() == "Duration" || ty.is_time() { "time".to_owned() } else { format!("`{ty}`") };
-        let message = format!("`{}` is a {wanted}, but this is {}", self.name, describe(value));
-        error("wrong-value", span, message)
-    }
-
-    fn fit_type(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
-        if let Type::Measured(number, unit) = ty {
-            return self.fit_measured(value, number, unit, expr);
-        }
-        match ty.name() {
-            _ if ty.is_time() => return self.fit_duration(value, ty, expr),
-            "Duration" if !matches!(ty, Type::Def(..)) => return self.fit_duration(value, ty, expr),
-            "f32" | "f64" => return self.fit_number(value, ty, expr),
-            name if limits(name).is_some() => return self.fit_integer(value, ty, expr),
-            _ => {}
-        }
-        match (ty, &value) {
-            (_, Value::Path(..) | Value::RustDefault) => Ok(value),
-            (Type::Ref(inner), _) => self.fit_type(value, inner, expr),
-            (Type::Primitive(name), Value::Bool(_)) if name == "bool" => Ok(value),
-            (Type::Primitive(name), Value::Text(_)) if name == "str" => Ok(value),
-            (Type::Named(name, _), Value::Text(_)) if name == "String" => Ok(value),
-            (Type::Array(element, len), Value::List(items)) => {
-                if let Some(len) = len.as_ref().and_then(|n| n.parse::<usize>().ok())
-                    && len != items.len()
-                {
-                    return error(
-                        "wrong-value",
-                        expr.span,
-                        format!("`{}` takes {len} values, not {}", self.name, items.len()),
-                    );
-                }
-                let fit = |(i, item): (usize, &Value)| {
-                    let expr = element_of(expr, i);
-                    self.check_constant(item, element, expr)?;
-                    self.fit_type(item.clone(), element, expr)
-                };
-                items.iter().enumerate().map(fit).collect::<Evaluated<_>>().map(Value::List)
-            }
-            (_, Value::Struct(given)) if given.ty.compare(ty) != Match::Different => {
-                super::structs::fit(given, ty, expr)
-            }
-            // Only rustc knows the type behind another name, which may be a number.
-            _ if ty.may_be_another() && !matches!(value, Value::List(_)) => Ok(value),
-            _ => self.wrong(&value, ty, expr.span),
-        }
-    }
-
-    /// A value for a token of type `ty` in `unit`. It stays in SI: generated code has it in the unit.
-    fn fit_measured(&self, value: Value, ty: &Type, unit: &str, expr: &Expr) -> Evaluated<Value> {
-        let (Value::Number(n), Ok(measure)) = (&value, units::parse(unit)) else {
-            return self.fit_type(value, ty, expr);
-        };
-        Wanted { unit: Some(unit), declared: String::new(), ..*self }.check_unit(*n, expr)?;
-        self.fit_type(Value::Number(n.in_unit(measure)), ty, expr)?;
-        Ok(value)
-    }
-
-    fn check_unit(&self, n: Number, expr: &Expr) -> Evaluated<()> {
-        let unit = self.unit.and_then(|u| units::parse(u).ok());
-        let wanted = unit.map_or(Dimension::NONE, |u| u.dimension);
-        if n.dimension == wanted {
-            return Ok(());
-        }
-        if n.dimension.is_none() {
-            let unit = self.unit.unwrap_or_default();
-            let message = format!("`{}` is {}: the unit is missing", self.name, wanted.noun());
-            let ty = self.ty.without_unit().to_string().replace("core::time::", "");
-            let declared = if ty.contains("Duration") { ty } else { format!("{ty}[{unit}]") };
-            return Err(Box::new(missing_unit(message, expr, &declared, &[(&format!("`{unit}`"), unit)])));
-        }
-        let message =
-            format!("`{}` is {}, but this is {}", self.name, kind(Number { dimension: wanted, ..n }), kind(n));
-        let error = Diagnostic::error("wrong-unit", expr.span, message);
-        Err(Box::new(if wanted == Dimension::TIME { minutes(error, expr) } else { error }))
-    }
-
-    fn check_range(&self, value: f64, span: Span) -> Evaluated<()> {
-        let Some((low, high, inclusive)) = self.range else { return Ok(()) };
-        let below = low.is_some_and(|low| value < low);
-        let above = high.is_some_and(|high| if inclusive { value > high } else { value >= high });
-        if !below && !above {
-            return Ok(());
-        }
-        let bound = |b: Option<f64>| b.map(|v| v.to_string()).unwrap_or_default();
-        let dimension = self.unit.and_then(|u| units::parse(u).ok()).map_or(Dimension::NONE, |u| u.dimension);
-        let unit = if dimension.is_none() { String::new() } else { format!(" {dimension}") };
-        let dots = if inclusive { "..=" } else { ".." };
-        let message = format!(
-            "{value}{unit} is out of range: `{}` must be in {}{dots}{}{unit}",
-            self.name,
-            bound(low),
-            bound(high)
-        );
-        error("out-of-range", span, message)
-    }
-
-    fn fit_number(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
-        match value {
-            Value::Number(n) => {
-                self.check_unit(n, expr)?;
-                self.check_range(n.value, expr.span)?;
-                if ty.name() == "f32" && n.value.abs() > f32::MAX.into() {
-                    return error("out-of-range", expr.span, format!("{} does not fit into `{ty}`", n.value));
-                }
-                Ok(Value::Number(Number { is_float: true, ..n }))
-            }
-            Value::Path(..) | Value::RustDefault => Ok(value),
-            _ => self.wrong(&value, ty, expr.span),
-        }
-    }
-
-    fn fit_integer(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
-        match value {
-            Value::Number(n) => {
-                self.check_unit(n, expr)?;
-                self.check_range(n.value, expr.span)?;
-                let Some(integer) = n.integer() else {
-                    let message = format!("`{}` must be a whole number (`{ty}`), but this is {}", self.name, si(n));
-                    return error("wrong-value", expr.span, message);
-                };
-                match limits(ty.name()) {
-                    Some((low, high)) if integer < low || integer > high => {
-                        error("out-of-range", expr.span, format!("{integer} does not fit into `{ty}` ({low}..={high})"))
-                    }
-                    _ => Ok(value),
-                }
-            }
-            Value::Path(..) | Value::RustDefault => Ok(value),
-            _ => self.wrong(&value, ty, expr.span),
-        }
-    }
-
-    fn fit_duration(&self, value: Value, ty: &Type, expr: &Expr) -> Evaluated<Value> {
-        match value {
-            Value::Number(n) => {
-                let seconds = Wanted { unit: Some("s"), ..Self { declared: String::new(), ..*self } };
-                seconds.check_unit(n, expr)?;
-                seconds.check_range(n.value, expr.span)?;
-                duration(n, expr).map(Value::Duration)
-            }
-            Value::Duration(_) | Value::Path(..) | Value::RustDefault => Ok(value),
-            _ => self.wrong(&value, ty, expr.span),
-        }
-    }
-}
-
-/// The element of a list, if it is written as one.
-pub fn element_of(list: &Expr, index: usize) -> &Expr {
-    match &list.kind {
-        ExprKind::List(items) => items.get(index).unwrap_or(list),
-        _ => list,
-    }
-}
-
-/// An error about a value without a unit, where one of `units` (name and symbol) is expected. The unit can be suggested
-/// only behind a number; a parameter must be declared as `declared`.
-fn missing_unit(message: impl Into<String>, expr: &Expr, declared: &str, units: &[(&str, &str)]) -> Diagnostic {
-    let error = Diagnostic::error("missing-unit", expr.span, message);
-    let is_number = |expr: &Expr| matches!(expr.kind, ExprKind::Number(..));
-    match &expr.kind {
-        ExprKind::Path(path) => {
-            let name = path.text();
-            error.note(format!("the parameter `{name}` of the graph has no unit: declare it as `{name}: {declared}`"))
-        }
-        ExprKind::Unary("-", inner) if !is_number(inner) => error.note(NO_PART_HAS_A_UNIT),
-        ExprKind::Binary(..) => error.note(NO_PART_HAS_A_UNIT),
-        _ => units
-            .iter()
-            .fold(error, |error, (words, unit)| error.guess(format!("write it in {words}"), expr.span.after(), *unit)),
-    }
-}
-
-const NO_PART_HAS_A_UNIT: &str =
-    "no part of this expression has a unit: write one after a number, or declare a parameter in it with one";
-
-/// Adds a note to an error about metres in place of a time: `5m` may mean minutes.
-fn minutes(error: Diagnostic, expr: &Expr) -> Diagnostic {
-    match &expr.kind {
-        ExprKind::Number(_, Some(unit)) if unit == "m" => {
-            let unit = Span { start: expr.span.end - 1, ..expr.span };
-            error.note("`m` is the unit metre; for minutes, write `min`").guess("write it in minutes", unit, "min")
-        }
-        _ => error,
-    }
-}
-
-/// The value of an expression that gives a time.
-pub fn time(expr: &Expr, scope: &Scope<'_>) -> Evaluated<Duration> {
-    match evaluate(expr, scope)? {
-        Value::Duration(time) => Ok(time),
-        Value::Number(n) => duration(n, expr),
-        _ => error("wrong-value", expr.span, "expected a time, for example `50ms`".to_owned()),
-    }
-}
-
-/// A time as a duration. Reports values with another dimension.
-pub fn duration(n: Number, expr: &Expr) -> Evaluated<Duration> {
-    if n.dimension.is_none() {
-        let message = "expected a time: the unit is missing";
-        let units = [("milliseconds", "ms"), ("seconds", "s")];
-        return Err(Box::new(missing_unit(message, expr, "Duration", &units)));
-    }
-    if n.dimension != Dimension::TIME {
-        let message = format!("expected a time, but this is {}", kind(n));
-        return Err(Box::new(minutes(Diagnostic::error("wrong-unit", expr.span, message), expr)));
-    }
-    seconds(n, expr.span)
-}
-
-/// The period of a source, which may be given as a frequency.
-pub fn period(n: Number, expr: &Expr) -> Evaluated<Duration> {
-    match n.inverse() {
-        Some(period) if period.dimension == Dimension::TIME => seconds(period, expr.span),
-        None if n.dimension == Dimension::FREQUENCY => {
-            error("out-of-range", expr.span, "the frequency must be greater than zero")
-        }
-        _ => duration(n, expr),
-    }
-}
-
-/// A number of seconds as a duration, of which a program counts the nanoseconds.
-pub fn seconds(n: Number, span: Span) -> Evaluated<Duration> {
-    let nanos = n.value * 1e9;
-    if !(0.0..=i64::MAX as f64).contains(&nanos.round()) {
-        return error("out-of-range", span, "this time is negative or longer than 292 years");
-    }
-    let whole = n.exact.and_then(|exact| exact.checked_mul(Fraction::whole(1_000_000_000))).and_then(Fraction::integer);
-    match whole.and_then(|nanos| u64::try_from(nanos).ok()) {
-        Some(nanos) => Ok(Duration::from_nanos(nanos)),
-        None => {
-            let message = format!("this time is {nanos}ns, but a program counts whole nanoseconds");
-            let nearest = format!("{}ns", nanos.round().max(1.0));
-            let error = Diagnostic::error("wrong-value", span, message);
-            Err(Box::new(error.guess(format!("round it to `{nearest}`"), span, nearest)))
-        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Variants: `robot Simulated = Real { … }` has the statements of `Real`, with some nodes exchanged, and its own.
 
 use super::{
-    MAX_NESTING,
-    names::{Constructor, GraphId, SourceSet},
+    budget::MAX_NESTING,
+    names::{Constructor, GraphId, SourceSet, Variant},
 };
 use crate::{
     catalog::Catalog,
@@ -14,18 +14,6 @@ use std::collections::BTreeMap;
 
 /// Largest number of statements of all variants together.
 const MAX_STATEMENTS: usize = 500_000;
-
-/// A variant of a graph.
-#[derive(Debug)]
-pub struct Variant {
-    /// The graph that it is a variant of; `None` if there is none, which has been reported.
-    pub base: Option<GraphId>,
-    /// All of its statements: those of the base, then its own. Each keeps its place, which may be in another source
-    /// file, where its names have their meaning.
-    pub item: GraphItem,
-    /// The nodes of the base that are exchanged, with the places of their names in the variant.
-    pub exchanged: BTreeMap<String, Span>,
-}
 
 /// All variants in the source files.
 pub fn variants(texts: &SourceSet, catalog: &Catalog, diagnostics: &mut Diagnostics) -> BTreeMap<GraphId, Variant> {

@@ -1,11 +1,13 @@
 //! Modifiers that wrap an instance: `each` and `delay`.
 
 use super::{
+    builder::{Body, Builder},
     flatten, generics,
-    instance::{Body, Builder},
     lists::token_type,
+    suggest::suggest,
     table::Symbol,
-    value::{Wanted, element_of, evaluate},
+    value::evaluate,
+    wanted::{Wanted, element_of},
 };
 use crate::{
     catalog::{SignatureId, Type},
@@ -126,11 +128,7 @@ impl Builder<'_> {
                         port.span,
                         format!("`{}` has no input `{}`", inner.name, port.text),
                     );
-                    self.diagnostics.push(super::names::suggest(
-                        error,
-                        port,
-                        inputs.iter().map(|p| ports[*p].name.as_str()),
-                    ));
+                    self.diagnostics.push(suggest(error, port, inputs.iter().map(|p| ports[*p].name.as_str())));
                     return None;
                 }
             },
