@@ -1,8 +1,8 @@
 //! The call of a node of the catalog, with its arguments and its results.
 
 use super::{
-    fire::Emitter,
-    types::{ident, path, to_rust},
+    emitter::Emitter,
+    tokens::{ident, path, to_rust},
 };
 use crate::{
     catalog::Signature,

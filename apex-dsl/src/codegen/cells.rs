@@ -1,6 +1,6 @@
 //! Cells between thread groups: what a part does at its ends of them.
 
-use super::{Generator, activity::ProgramView};
+use super::{generator::Generator, view::ProgramView};
 use crate::{
     graph::{CellEnd, Graph, NodeId, NodeKind, PortId},
     program::{Flag, Receiver, Sender, is_buffer},

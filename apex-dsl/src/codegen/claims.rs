@@ -1,10 +1,10 @@
 //! Claims about activity that a program looks at while it runs. Where all are decided, nothing is generated for them.
 
 use super::{
-    Generator,
-    activity::ProgramView,
-    state::{Kind, StateField},
-    types::ident,
+    field::{Kind, StateField},
+    generator::Generator,
+    tokens::ident,
+    view::ProgramView,
 };
 use crate::{
     claims::Decided,

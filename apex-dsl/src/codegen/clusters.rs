@@ -1,6 +1,6 @@
 //! Clusters: what one does as a function, and how a reaction fires them. Many of them are called by number.
 
-use super::{Generator, activity::ProgramView, fire::Emitter, types::ident};
+use super::{emitter::Emitter, generator::Generator, tokens::ident, view::ProgramView};
 use crate::analyse::{ClusterId, MANY};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};

@@ -2,7 +2,7 @@
 //! computed in a wide one, and where it has no result (a division by zero) the condition does not hold: nothing wraps,
 //! nothing panics.
 
-use super::types::constant;
+use super::tokens::constant;
 use crate::{
     catalog::Type,
     graph::{Condition, Value, is_arithmetic},

@@ -1,10 +1,10 @@
 //! Delivery of slot tokens: from a queue, or in an order that is known at compile time.
 
 use super::{
-    Generator,
-    activity::ProgramView,
+    generator::Generator,
     sets::{set, set_type},
-    types::ident,
+    tokens::ident,
+    view::ProgramView,
 };
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -1,13 +1,13 @@
 //! `react`: which cluster fires and which slot is served, and when.
 
 use super::{
-    Generator,
-    activity::ProgramView,
     cells::receivers,
     clusters::{FiringCode, fire, table},
+    field::{Kind, StateField},
+    generator::Generator,
     sets::{cluster_rows, set, set_type},
-    state::{Kind, StateField},
-    types::ident,
+    tokens::ident,
+    view::ProgramView,
 };
 use crate::{
     analyse::{Delivery, Guard, MANY},

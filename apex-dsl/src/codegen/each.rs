@@ -1,9 +1,9 @@
 //! `each`: the body as a closure over the elements of a list.
 
 use super::{
-    activity::{Lowered, ProgramView},
-    fire::Emitter,
+    emitter::Emitter,
     parallel::Local,
+    view::{Lowered, ProgramView},
 };
 use crate::{
     graph::{Each, Graph, NodeId, NodeKind, PortId},

@@ -1,34 +1,20 @@
 //! One cluster as straight-line code: blocks, firings, and how tokens get from one to the next.
 
-use super::{Generator, activity::ProgramView, call::Calling, ops::Writer, types::ident};
+use super::{
+    call::Calling,
+    emitter::{Emitter, Writer},
+    tokens::ident,
+};
 use crate::{
-    analyse::{Analysis, ClusterId},
-    graph::{Graph, NodeId, NodeKind, PortId},
-    program::{BlockId, Fire, Op, Plan, Storage},
+    graph::{NodeId, NodeKind, PortId},
+    program::{BlockId, Fire, Op, Storage},
     syntax::tree::PortKind,
 };
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::Ident;
 
-/// Writes the code of one cluster.
-pub struct Emitter<'a> {
-    pub generator: &'a Generator<'a>,
-    pub view: ProgramView<'a>,
-    pub graph: &'a Graph,
-    pub analysis: &'a Analysis,
-    pub plan: &'a Plan,
-    pub cluster: ClusterId,
-}
-
 impl<'a> Emitter<'a> {
-    /// An emitter for `cluster`.
-    pub fn new(generator: &'a Generator<'a>, view: ProgramView<'a>, cluster: ClusterId) -> Self {
-        let ProgramView { graph, analysis, .. } = view;
-        let plan = &view.program.plans[cluster];
-        Self { generator, view, graph, analysis, plan, cluster }
-    }
-
     /// Operations in a block.
     fn ops_in(&self, ops: &[Op], block: BlockId) -> TokenStream {
         Writer { generator: self.generator, view: self.view, inside: Some((self, block)) }.ops(ops)

@@ -1,6 +1,6 @@
 //! The table that describes a program.
 
-use super::{Generator, distinct::Distinct, threads::end_if_hung, types::nanos};
+use super::{distinct::Distinct, generator::Generator, groups::end_if_hung, tokens::nanos};
 use crate::{
     analyse::Analysis,
     catalog::{first_sentence, linkless},

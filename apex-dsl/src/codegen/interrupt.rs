@@ -1,6 +1,6 @@
 //! `cancel` and `resume`: activity is taken out of a node or nested graph, and given back.
 
-use super::{Generator, activity::ProgramView, types::ident};
+use super::{generator::Generator, tokens::ident, view::ProgramView};
 use crate::graph::PortId;
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -1,9 +1,8 @@
 //! Names of the rows of a program and of the functions that work on them.
 
 use super::{
-    Generator,
-    names::unused,
-    rows::{constant_name, valid},
+    generator::Generator,
+    names::{constant_name, unused, valid},
 };
 use crate::{
     analyse::{Analysis, ClusterId},

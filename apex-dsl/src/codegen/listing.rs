@@ -1,7 +1,7 @@
 //! The program between analysis and Rust as text: state, conditions, what clusters, slots and timeouts do, and the
 //! reaction.
 
-use super::{Generator, activity::ProgramView, each_part};
+use super::{generator::Generator, programs::each_part, view::ProgramView};
 use crate::{
     catalog::Catalog,
     checked::CheckedProgram,

@@ -2,7 +2,7 @@
 
 use super::{
     condition::holds,
-    types::{constant, ident, to_rust},
+    tokens::{constant, ident, to_rust},
 };
 use crate::{
     catalog::{Catalog, Type},

@@ -1,14 +1,8 @@
 //! Memory of a program, in pieces. Only rustc knows their sizes.
 
 use super::{
-    Generator,
-    activity::ProgramView,
-    cells::cell_name,
-    each_part,
-    program::{Field, boundaries},
-    state::Kind,
-    threads::part_name,
-    types::ident,
+    cells::cell_name, field::Kind, generator::Generator, programs::each_part, structs::Field, threads::part_name,
+    tokens::ident, view::ProgramView,
 };
 use crate::{catalog::Catalog, checked::CheckedProgram, source::Sources, syntax::tree::PortKind};
 use std::collections::BTreeMap;
@@ -61,7 +55,7 @@ impl Generator<'_> {
             (PortKind::Output, "outputs"),
             (PortKind::Event, "events"),
         ] {
-            pieces.extend(boundaries(graph, |k| k == kind).into_iter().map(|node| {
+            pieces.extend(graph.boundaries(|k| k == kind).into_iter().map(|node| {
                 let name = &graph.nodes[node].name;
                 Piece { what: "ports", of: name.clone(), place: format!("{place}.{}", ident(name)) }
             }));

@@ -1,6 +1,6 @@
 //! Names in generated code: those of the text for locals and fields, and those of the items of a program.
 
-use super::{Generator, types::ident};
+use super::tokens::ident;
 use crate::{
     catalog::Catalog,
     graph::{Graph, Node, NodeId, NodeKind, PortId},
@@ -21,11 +21,13 @@ pub struct Names {
     /// The number of the first state of each state machine in the table of all nodes, where its states come behind the
     /// nodes. A machine in the body of an `each` has none: it is in several states at once.
     pub states: BTreeMap<NodeId, usize>,
-    tokens: BTreeMap<PortId, String>,
+    /// Names of tokens.
+    pub tokens: BTreeMap<PortId, String>,
     /// Fields of the tokens that delays hold.
-    held: BTreeMap<NodeId, String>,
+    pub held: BTreeMap<NodeId, String>,
     /// Fields of the activity of these tokens.
-    held_activity: BTreeMap<NodeId, String>,
+    pub held_activity: BTreeMap<NodeId, String>,
+    /// Names in the bodies of `each` nodes.
     pub inner: BTreeMap<NodeId, Names>,
     /// More than any number of a program.
     pub beyond: usize,
@@ -142,35 +144,34 @@ pub fn item(program: &Graph, part: Option<&Part>, kind: &str) -> Ident {
     ident(&if name == program.name { name + "_" } else { name })
 }
 
-impl Generator<'_> {
-    /// Name of an item of the program, or of the part of one, that `graph` is.
-    pub fn item(&self, graph: &Graph, kind: &str) -> Ident {
-        match self.part {
-            Some((program, part)) => item(program, Some(part), kind),
-            None => item(graph, None, kind),
-        }
+/// Name of a constant: `WAITING_SIGNAL` of `waiting.signal`. Its own names are those of the tables.
+pub fn constant_name(name: &str) -> String {
+    const OWN: [&str; 12] = [
+        "CLUSTERS",
+        "CONNECTIONS",
+        "FREE",
+        "INFO",
+        "KINDS",
+        "MISSING",
+        "NEEDS",
+        "NODES",
+        "ORDER",
+        "PARAMS",
+        "SLOTS",
+        "SELF",
+    ];
+    let name = name.trim_start_matches("r#").chars().flat_map(char::to_uppercase);
+    let mut name: String = name.map(valid).collect();
+    if OWN.contains(&name.as_str()) {
+        name.push('_');
     }
+    if name.starts_with(char::is_numeric) {
+        name.insert(0, '_');
+    }
+    name
+}
 
-    /// Name of the struct of the program, or of the part of one, that `graph` is.
-    pub fn program_name(&self, graph: &Graph) -> Ident {
-        match self.part {
-            Some((program, part)) => item(program, Some(part), ""),
-            None => ident(&graph.name),
-        }
-    }
-
-    /// The name of a token.
-    pub fn name(&self, end: PortId) -> Ident {
-        self.names.tokens.get(&end).map_or_else(|| self.nameless("a token"), |name| ident(name))
-    }
-
-    /// The name of the place where a delay keeps the activity of the tokens that it holds.
-    pub fn held_activity(&self, node: NodeId) -> Ident {
-        self.names.held_activity.get(&node).map_or_else(|| self.nameless("the activity of a delay"), |name| ident(name))
-    }
-
-    /// The name of the place where a delay holds tokens back, or where `cancel` remembers nodes.
-    pub fn held(&self, node: NodeId) -> Ident {
-        self.names.held.get(&node).map_or_else(|| self.nameless("a delay or `cancel`"), |name| ident(name))
-    }
+/// Relays, probes and hidden slots have names that are not identifiers.
+pub fn valid(c: char) -> char {
+    if c.is_alphanumeric() { c } else { '_' }
 }

@@ -1,30 +1,21 @@
 //! Operations of a program as Rust.
 
 use super::{
-    Generator,
-    activity::{ProgramView, followed},
-    fire::Emitter,
+    activity::followed,
+    emitter::Writer,
+    generator::Generator,
     stamps,
-    types::ident,
+    tokens::{ident, nanos},
+    view::ProgramView,
 };
 use crate::{
     graph::{NodeId, PortId},
     machine::Move,
-    program::{BlockId, Cancel, Flag, Op, Taken},
+    program::{Cancel, Flag, Op, Taken},
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
-
-/// Writes operations, where the program is taken apart:
-/// `let Self { nodes, state, core, inputs, outputs, events } = self`.
-#[derive(Clone, Copy)]
-pub struct Writer<'a> {
-    pub generator: &'a Generator<'a>,
-    pub view: ProgramView<'a>,
-    /// The cluster whose operations they are, and the block of it.
-    pub inside: Option<(&'a Emitter<'a>, BlockId)>,
-}
 
 impl Generator<'_> {
     /// Operations that do not belong to a cluster.
@@ -150,7 +141,7 @@ impl Writer<'_> {
             Op::TimeStates(node) => self.time_states(*node),
             Op::LeaveState { node, wait, call } => generator.leave_state(view, *node, *wait, call),
             Op::StartTimeout(timeout) => {
-                let after = super::types::nanos(view.wiring.timeouts[*timeout].after);
+                let after = nanos(view.wiring.timeouts[*timeout].after);
                 quote! { core.start_timeout(#timeout, #after, ctx); }
             }
             Op::StopTimeout(timeout) => quote! { core.stop_timeout(#timeout); },
@@ -232,7 +223,7 @@ impl Writer<'_> {
             return generator.bug(view.graph.nodes[node].span, "the states of a machine have no timeouts");
         };
         let (place, first) = (generator.node_place(view.graph, node), Literal::usize_unsuffixed(first));
-        let times = view.program.lower.waits(node).iter().map(|wait| super::types::nanos(wait.after));
+        let times = view.program.lower.waits(node).iter().map(|wait| nanos(wait.after));
         quote! { core.time_states(#first, #place.waits(), [#(#times),*], ctx); }
     }
 

@@ -1,10 +1,10 @@
 //! `each par`: what its body keeps during a firing is made again for each thread, so that elements share nothing.
 
 use super::{
-    Generator,
-    program::{Field, Struct, insert, node_structs},
-    state,
-    types::ident,
+    field::fields,
+    generator::Generator,
+    structs::{Field, Struct, insert, node_structs},
+    tokens::ident,
 };
 use crate::{
     analyse::Analysis,
@@ -25,7 +25,7 @@ pub struct Local {
 impl Generator<'_> {
     /// State of a thread that runs `body`, for which this is the generator.
     pub fn local(&self, body: &Graph, analysis: &Analysis) -> Local {
-        let tokens = state::fields(&self.token_state(body, analysis));
+        let tokens = fields(&self.token_state(body, analysis));
         let state = Struct::new(&ident("LocalState"), "Tokens.", &tokens);
         let (mut nodes, mut params) = (BTreeMap::new(), vec![]);
         self.local_nodes(body, analysis, &mut nodes, &mut params);

@@ -1,6 +1,6 @@
 //! The parameters of a program: a table, and a way to each.
 
-use super::{Generator, distinct::Distinct, rows::constant_name, types::ident};
+use super::{distinct::Distinct, generator::Generator, names::constant_name, tokens::ident};
 use crate::{
     analyse::Analysis,
     graph::{Graph, Library, NodeId, NodeKind, snake},

@@ -1,7 +1,7 @@
 //! Clusters of regions with several rates: in one iteration every node fires as often as the balance equations say. The
 //! tokens of an iteration are in arrays, and the code of a node runs in a loop over its firings, by number `i`.
 
-use super::fire::Emitter;
+use super::emitter::Emitter;
 use crate::{
     analyse::Run,
     graph::{NodeId, NodeKind, PortId},

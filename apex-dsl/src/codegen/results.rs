@@ -1,6 +1,6 @@
 //! Results: names for what a node returns.
 
-use super::fire::Emitter;
+use super::emitter::Emitter;
 use crate::{graph::PortId, program::Storage};
 use proc_macro2::TokenStream;
 use quote::quote;

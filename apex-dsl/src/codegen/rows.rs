@@ -2,9 +2,9 @@
 //! of the state that the functions of `apex_rt::Wired` work on.
 
 use super::{
-    Generator,
-    activity::ProgramView,
-    types::{ident, nanos},
+    generator::Generator,
+    tokens::{ident, nanos},
+    view::ProgramView,
 };
 use crate::{
     analyse::{Delivery, blockers},
@@ -248,36 +248,4 @@ fn add_sends<'a>(row: &mut Row, view: ProgramView<'_>, sends: impl Iterator<Item
     let goes = |send: &&Send| send.queued.is_some() || send.raises.is_some();
     row.list("occupies", sends.clone().filter(goes).filter_map(|send| send.occupies));
     row.list("stamps", sends.filter_map(|send| view.program.lower.stamp(send.connection)));
-}
-
-/// Name of a constant: `WAITING_SIGNAL` of `waiting.signal`. Its own names are those of the tables.
-pub fn constant_name(name: &str) -> String {
-    const OWN: [&str; 12] = [
-        "CLUSTERS",
-        "CONNECTIONS",
-        "FREE",
-        "INFO",
-        "KINDS",
-        "MISSING",
-        "NEEDS",
-        "NODES",
-        "ORDER",
-        "PARAMS",
-        "SLOTS",
-        "SELF",
-    ];
-    let name = name.trim_start_matches("r#").chars().flat_map(char::to_uppercase);
-    let mut name: String = name.map(valid).collect();
-    if OWN.contains(&name.as_str()) {
-        name.push('_');
-    }
-    if name.starts_with(char::is_numeric) {
-        name.insert(0, '_');
-    }
-    name
-}
-
-/// Relays, probes and hidden slots have names that are not identifiers.
-pub fn valid(c: char) -> char {
-    if c.is_alphanumeric() { c } else { '_' }
 }

@@ -1,6 +1,6 @@
 //! Sets of conditions as constants, and the tables over them.
 
-use super::{Generator, activity::ProgramView};
+use super::{generator::Generator, view::ProgramView};
 use crate::program::{Bits, ClusterRow, MissingRow};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};

@@ -1,11 +1,11 @@
 //! Slots: one function for each connection to one, and what is emitted when a firing ends.
 
 use super::{
-    Generator,
-    activity::ProgramView,
     clusters::inlined,
+    generator::Generator,
     numbered::{Arm, Numbered},
-    types::{constant, ident},
+    tokens::{constant, ident},
+    view::ProgramView,
 };
 use crate::{
     analyse::Delivery,

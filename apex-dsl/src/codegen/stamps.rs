@@ -1,10 +1,10 @@
 //! Stamps: the times at which the sources of tokens fired, stored where a node needs them; and nodes that are late.
 
 use super::{
-    Generator,
-    activity::ProgramView,
-    state::{Kind, StateField},
-    types::duration,
+    field::{Kind, StateField},
+    generator::Generator,
+    tokens::duration,
+    view::ProgramView,
 };
 use crate::{
     analyse::ClusterId,

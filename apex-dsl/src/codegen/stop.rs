@@ -1,6 +1,6 @@
 //! The end of a program: the methods of nodes that are called then.
 
-use super::{Generator, types::ident};
+use super::{generator::Generator, tokens::ident};
 use crate::{
     analyse::Analysis,
     graph::{Graph, NodeKind},

@@ -2,11 +2,11 @@
 //! `cargo test` ignores; `apex tune` has it run the script again and again.
 
 use super::{
-    Generator,
     condition::holds,
+    generator::Generator,
     text::module,
     threads::part_name,
-    types::{constant, duration, ident},
+    tokens::{constant, duration, ident},
 };
 use crate::{
     graph::{Graph, NodeId, PortId, Subject},

@@ -1,7 +1,7 @@
 //! The Rust module of a text: each state machine, program and test has a module of its own in it, so that names of the
 //! text meet neither each other nor those of the Rust around the call of `graph!`.
 
-use super::{machine, names::item, program, types::ident};
+use super::{machine, names::item, programs::program, tokens::ident};
 use crate::{
     catalog::Catalog,
     checked::CheckedProgram,

@@ -2,16 +2,18 @@
 //! reacts on one thread or is handed out to several.
 
 use super::{
-    Generator, Names,
-    activity::{Lowered, ProgramView},
     cells::cell_name,
+    generator::Generator,
+    groups::group_info,
+    names::Names,
     params::ParamRows,
-    program::{Field, around_text, node_structs, port_accessors},
-    types::{duration, ident, option},
+    structs::{Field, around_text, node_structs, port_accessors},
+    tokens::ident,
+    view::{Lowered, ProgramView},
 };
 use crate::{
     analyse::Analysis,
-    graph::{Graph, NodeId, NodeKind},
+    graph::{Graph, NodeId},
     threads::{Origin, Part, Split},
 };
 use proc_macro2::TokenStream;
@@ -392,34 +394,6 @@ impl Program<'_> {
         let clusters: Vec<Vec<NodeId>> = clusters.filter(|nodes| !nodes.is_empty()).collect();
         self.generator.info(self.graph, analysis, &clusters, &groups)
     }
-}
-
-/// Settings of a group's thread.
-pub fn group_info(graph: &Graph, group: &str) -> TokenStream {
-    let settings = graph.threads.iter().find(|t| t.group == group).cloned().unwrap_or_default();
-    let (cores, priority) = (&settings.cores, option(settings.priority.map(|p| quote!(#p))));
-    let (round_robin, strict) = (settings.round_robin, settings.strict);
-    let hang = option(settings.hang.map(duration));
-    quote! {
-        ::apex_rt::GroupInfo {
-            name: #group,
-            cores: &[#(#cores),*],
-            priority: #priority,
-            round_robin: #round_robin,
-            strict: #strict,
-            hang: #hang,
-        }
-    }
-}
-
-/// With which code a program ends when a node hangs, if it does.
-pub fn end_if_hung(graph: &Graph) -> TokenStream {
-    let code =
-        graph.connections.iter().find_map(|c| match (&graph.nodes[c.from.node].kind, &graph.nodes[c.to.node].kind) {
-            (NodeKind::Watchdog, NodeKind::Exit(code)) => Some(quote!(#code)),
-            _ => None,
-        });
-    option(code)
 }
 
 /// The nodes of a part as references, in `into`.

@@ -1,12 +1,12 @@
 //! Time: the timers of sources, the timeouts of nodes, and when a program wants to be called because of them.
 
 use super::{
-    Generator,
-    activity::ProgramView,
+    field::{Kind, StateField},
+    generator::Generator,
     numbered::{Arm, Numbered},
     stamps,
-    state::{Kind, StateField},
-    types::nanos,
+    tokens::nanos,
+    view::ProgramView,
 };
 use crate::{
     analyse::silence_parameter,

@@ -1,6 +1,6 @@
 //! Observation of state machines: each state is like a node that is active while the machine is in it.
 
-use super::{Generator, activity::ProgramView};
+use super::{generator::Generator, view::ProgramView};
 use crate::{
     graph::{Graph, NodeId},
     machine::machines,

@@ -3,7 +3,7 @@
 //! Each question is a trait of its own with a message, and an `impl` for all types that have what is asked.
 //! `do_not_recommend` keeps rustc from looking behind that `impl` for another message.
 
-use super::Generator;
+use super::generator::Generator;
 use crate::{
     catalog::{Match, Signature, Trait, Type},
     check::compare_types,

@@ -270,6 +270,11 @@ impl Scope {
 }
 
 impl Graph {
+    /// The ports of the graph itself that are meant, each a node.
+    pub fn boundaries(&self, is_meant: impl Fn(PortKind) -> bool) -> Vec<NodeId> {
+        self.nodes.ids().filter(|n| matches!(self.nodes[*n].kind, NodeKind::Boundary(k) if is_meant(k))).collect()
+    }
+
     /// The port at `end`.
     pub fn port(&self, end: PortId) -> &Port {
         &self.nodes[end.node].ports[end.port]
