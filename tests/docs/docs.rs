@@ -15,6 +15,7 @@ use std::{
 };
 
 mod book;
+mod circles;
 mod embedding;
 mod examples;
 mod from;

@@ -7,9 +7,9 @@
 //! connections are free whenever clusters are tested. If `changed` led to an input, it could be occupied, and so could
 //! `pressed`.
 
-use super::{Delivery, Links, live};
+use super::{firing::by_process, links::Links, live::live};
 use crate::{
-    catalog::{ArgSig, Catalog, Signature},
+    catalog::{ArgSig, Catalog},
     graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId, Standard},
     index::IdVec,
     syntax::tree::PortKind,
@@ -51,7 +51,7 @@ impl Asynchronous {
         // The effect of a token is a firing of the node at the end of its connection, or a call of its slot.
         let mut causes: IdVec<ConnectionId, Vec<ConnectionId>> =
             graph.connections.ids().map(|index| caused(graph, catalog, links, index)).collect();
-        let live = live::live(graph, catalog, links, &causes);
+        let live = live(graph, catalog, links, &causes);
         links.sends.iter_mut().for_each(|sends| sends.retain(|c| live[*c]));
         causes.iter_mut().zip(&live).filter(|(_, live)| !**live).for_each(|(causes, _)| causes.clear());
         let links = &*links;
@@ -277,12 +277,6 @@ fn is_single(
     at_start <= 1 && by_region.values().all(|count| *count <= 1)
 }
 
-/// Returns `true` if `process` may send on a port.
-pub fn by_process(signature: &Signature, graph: &Graph, from: PortId) -> bool {
-    let args = signature.process.as_deref().unwrap_or_default();
-    graph.port(from).kind == PortKind::Output || args.contains(&ArgSig::Port(from.port))
-}
-
 /// Returns `true` if something leads to itself, directly or over others: for tokens and those that they cause, one can
 /// circulate while time does not advance.
 pub fn has_circle<I: From<usize> + Into<usize> + Copy>(next: &IdVec<I, Vec<I>>) -> bool {
@@ -329,4 +323,15 @@ fn caused(graph: &Graph, catalog: &Catalog, links: &Links, connection: Connectio
     };
     let own = links.from(to.node).filter(|c| sends(graph.connections[*c].from.port));
     own.chain(sent_with_activity(graph, to.node)).collect()
+}
+
+/// Storage of the order of slot tokens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Delivery {
+    /// A queue.
+    Queued,
+    /// None: at most one token is in flight. It may circulate.
+    Single,
+    /// None: each step is followed by the slots that its tokens can reach, in an order that is known at compile time.
+    Ordered,
 }

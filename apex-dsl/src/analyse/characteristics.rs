@@ -8,7 +8,7 @@
 //! `apex explain` and the table of nodes in a program show the characteristics. The generated code skips nodes by their
 //! clocks (`clocks.rs`).
 
-use super::Links;
+use super::{firing::handles_absence, links::Links};
 use crate::{
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind},
@@ -38,7 +38,7 @@ pub fn characteristics(
     let mut list = IdVec::from_elem(Characteristics::default(), graph.nodes.len());
     let siblings = siblings(graph, links, order);
     for &node in order.iter().rev() {
-        let essential = graph.nodes[node].modifiers.essential || super::handles_absence(graph, catalog, node);
+        let essential = graph.nodes[node].modifiers.essential || handles_absence(graph, catalog, node);
         let downstream = links.successors(graph, node).map(|next| list[next].essential || list[next].required);
         let required = downstream.fold(false, |any, one| any | one);
         list[node] =

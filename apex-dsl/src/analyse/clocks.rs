@@ -5,7 +5,11 @@
 //! and `g` both have the clock {`gate.out`}: one `if` skips both. If `f` may send ⊥, too, the clock of `g` is
 //! {`f.out`}. It need not contain `gate.out`, because `f` sends a value only if it fired.
 
-use super::{ClusterId, Links, handles_absence, may_be_missing};
+use super::{
+    cluster::ClusterId,
+    firing::{handles_absence, may_be_missing},
+    links::Links,
+};
 use crate::{
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind, PortId},

@@ -17,119 +17,22 @@
 //! is why sources without a period are also grouped by what holds them back (`holding`).
 
 use super::{
-    Analysis, Asynchronous, Block, Links, Step,
+    asynchronous::Asynchronous,
+    cluster::{Block, Cluster, ClusterId, Guard, tokens},
     demand_driven::demand_driven,
-    fires,
+    firing::{fires, is_source},
     holding::{Holding, Ways},
-    is_source,
+    links::Links,
+    view::View,
 };
 use crate::{
     catalog::Catalog,
     graph::{Connection, ConnectionId, Crossing, Flow, Graph, Node, NodeId, NodeKind, ScopeId},
-    index::{IdVec, id},
+    index::IdVec,
     report::{Diagnostic, Diagnostics},
     syntax::tree::PortKind,
 };
 use std::collections::{BTreeMap, BTreeSet};
-
-id! {
-    /// Number of a cluster in [`Analysis::clusters`].
-    ClusterId
-}
-
-/// Condition that a cluster waits for and that the synchronous schedule does not decide.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Guard {
-    /// The timer of a source with `every` or `after`.
-    Timer(NodeId),
-    /// A token at an input of the program.
-    Input(NodeId),
-    /// The next reaction, in which sources without a period fire once. Two of them share this guard if they have the
-    /// same guards upstream and downstream.
-    React,
-    /// The token on an asynchronous connection to an input.
-    Token(ConnectionId),
-    /// The events of this node are enabled, so that it can trigger them (R1).
-    Events(NodeId),
-}
-
-impl Guard {
-    /// The guard as text: `input scan`.
-    pub fn text(self, graph: &Graph) -> String {
-        match self {
-            Self::Timer(node) => {
-                let modifiers = &graph.nodes[node].modifiers;
-                let every = modifiers.every.map(|period| format!("every {period:?}"));
-                let after = modifiers.after.map(|time| format!("after {time:?}"));
-                let times: Vec<String> = every.into_iter().chain(after).collect();
-                format!("timer of {} ({})", graph.path(node), times.join(" "))
-            }
-            Self::Token(connection) => format!("event {}", graph.end_name(graph.connections[connection].from)),
-            Self::Events(node) => format!("events of {} enabled", graph.path(node)),
-            Self::Input(node) => format!("input {}", graph.path(node)),
-            Self::React => "each reaction".to_owned(),
-        }
-    }
-}
-
-/// Nodes that fire together.
-#[derive(Debug)]
-pub struct Cluster {
-    /// Region of its nodes.
-    pub region: usize,
-    /// Its nodes, producers before consumers.
-    pub nodes: Vec<NodeId>,
-    /// `true` if it can fire at all: all tokens that it waits for can arrive.
-    pub fires: bool,
-    /// All guards that its nodes depend on.
-    pub guards: BTreeSet<usize>,
-    /// Guards of its own nodes, which it tests. The clusters upstream have tested the others before they sent their
-    /// tokens.
-    pub own_guards: Vec<usize>,
-    /// Clusters whose tokens it waits for.
-    pub upstream: BTreeSet<ClusterId>,
-    /// Clusters that wait for its tokens.
-    pub downstream: BTreeSet<ClusterId>,
-    /// Asynchronous connections that its nodes send on, in the order in which their tokens are emitted.
-    pub sends: Vec<ConnectionId>,
-    /// Schedule of a firing.
-    pub block: Block,
-}
-
-impl Cluster {
-    /// Nodes in the order in which they fire for the first time.
-    pub fn schedule(&self) -> Vec<NodeId> {
-        let mut order = vec![];
-        let mut blocks: Vec<std::slice::Iter<'_, Step>> = vec![self.block.steps.iter()];
-        while let Some(steps) = blocks.last_mut() {
-            match steps.next() {
-                Some(Step::Fire(node)) => order.push(*node),
-                Some(Step::Block(inner)) => blocks.push(inner.steps.iter()),
-                Some(Step::Repeat(run)) if run.from == 0 => order.push(run.node),
-                Some(Step::Repeat(_)) => {}
-                None => drop(blocks.pop()),
-            }
-        }
-        order
-    }
-
-    /// Returns `true` if the cluster is in a region with several rates.
-    pub fn is_multirate(&self) -> bool {
-        matches!(self.block.steps.first(), Some(Step::Repeat(_)))
-    }
-
-    /// Returns `true` if the cluster needs no dispatcher: it fires once per reaction, exchanges no synchronous
-    /// tokens with other clusters, and nothing that it sends can hold it back.
-    pub fn is_free(&self, graph: &Graph, analysis: &Analysis) -> bool {
-        let holds_back = |c: &ConnectionId| {
-            analysis.asynchronous.may_block[*c] && graph.port(graph.connections[*c].from).kind == PortKind::Output
-        };
-        self.upstream.is_empty()
-            && self.downstream.is_empty()
-            && self.own_guards.iter().all(|g| analysis.guards[*g] == Guard::React)
-            && !self.sends.iter().any(holds_back)
-    }
-}
 
 /// Largest number of timers and inputs of a program. It bounds the time and memory for the sets of guards.
 const MAX_PACES: usize = 1_000;
@@ -297,30 +200,6 @@ fn pass_sides<T: Copy + Ord>(
     tokens
 }
 
-/// Input of the passes that determine guards.
-pub struct View<'a> {
-    pub graph: &'a Graph,
-    catalog: &'a Catalog,
-    pub links: &'a Links,
-    order: &'a [NodeId],
-    regions: &'a IdVec<NodeId, usize>,
-    asynchronous: &'a Asynchronous,
-}
-
-impl View<'_> {
-    /// Returns `true` if a node fires, and so belongs to a cluster.
-    pub fn fires(&self, node: NodeId) -> bool {
-        fires(self.graph, self.catalog, self.links, node)
-    }
-
-    /// Returns `true` if an output of a node leads to a slot that may leave the token there. Until it is taken, the
-    /// nodes upstream are held back (R4).
-    fn sends_what_stays(&self, node: NodeId) -> bool {
-        let is_output = |c: &ConnectionId| self.graph.port(self.graph.connections[*c].from).kind == PortKind::Output;
-        self.links.sends[node].iter().any(|c| is_output(c) && self.asynchronous.may_block[*c])
-    }
-}
-
 /// Adds a [`Guard::React`] to each source without a period that does not fire together with its consumers. Returns the
 /// accumulated guards of each node.
 ///
@@ -400,12 +279,6 @@ fn without_pace(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize
     plain.extend(delays.filter(|n| !reached[*n].iter().any(starts)));
     plain.sort_unstable();
     plain
-}
-
-/// The guards that are tokens of events, by their connections.
-pub fn tokens(guards: &[Guard]) -> impl Iterator<Item = (ConnectionId, usize)> {
-    let guards = guards.iter().enumerate();
-    guards.filter_map(|(g, guard)| if let Guard::Token(c) = guard { Some((*c, g)) } else { None })
 }
 
 /// Guards of each node: its own, and those of all nodes upstream. The guards of all tokens that arrive at a boundary go

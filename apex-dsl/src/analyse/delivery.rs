@@ -6,22 +6,12 @@
 //! presence of a third, the program has a queue.
 
 use super::{
-    Analysis, Asynchronous, Links,
-    asynchronous::{events, moves_activity},
+    analysis::Analysis,
+    asynchronous::{Asynchronous, Delivery, events, moves_activity},
+    links::Links,
 };
 use crate::graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId};
 use std::collections::{BTreeSet, VecDeque};
-
-/// Storage of the order of slot tokens.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Delivery {
-    /// A queue.
-    Queued,
-    /// None: at most one token is in flight. It may circulate.
-    Single,
-    /// None: each step is followed by the slots that its tokens can reach, in an order that is known at compile time.
-    Ordered,
-}
 
 /// Largest number of slots that may follow one step. For more, a queue takes less code.
 const MAX_ORDERED: usize = 64;

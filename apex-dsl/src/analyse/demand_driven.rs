@@ -12,7 +12,7 @@
 //! The tokens at a boundary of a nested graph are taken together, so that the nodes behind it that take other tokens
 //! count as consumers, too: a source that waited for an event which one of them sends would wait forever.
 
-use super::clusters::{Guard, View};
+use super::{cluster::Guard, view::View};
 use crate::{
     graph::{Crossing, NodeId, NodeKind},
     index::IdVec,

@@ -6,8 +6,8 @@
 //! waits for room for its event, `a` is held back at once. `b` may fire once more: its token waits at `z` then.
 
 use super::{
-    Links,
-    clusters::{Guard, tokens},
+    cluster::{Guard, tokens},
+    links::Links,
 };
 use crate::{
     graph::{Connection, ConnectionId, Crossing, Flow, Graph, NodeId},

@@ -5,7 +5,7 @@
 //! single turn. In a loop, a delay with fewer tokens than one iteration takes lets nodes have several turns. If none
 //! can fire before all are done, the loop holds too few tokens.
 
-use super::{Links, schedule::Run};
+use super::{cluster::Run, links::Links};
 use crate::{
     graph::{Graph, NodeId, NodeKind, PortId},
     index::IdVec,

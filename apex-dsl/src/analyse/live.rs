@@ -1,6 +1,10 @@
 //! Connections that can ever carry a token. No code is generated for the others, and for nodes that wait for them.
 
-use super::{Cluster, ClusterId, Links, asynchronous::by_process, fires};
+use super::{
+    cluster::{Cluster, ClusterId},
+    firing::{by_process, fires},
+    links::Links,
+};
 use crate::{
     catalog::Catalog,
     graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId, Standard},

@@ -3,7 +3,11 @@
 //! A source begins its next iteration when all nodes downstream have finished the one before (R4). So a source that is
 //! joined with a slower one fires as often as that one, and so do all sources that such joins connect.
 
-use super::{Analysis, Cluster, ClusterId, Guard, analyse};
+use super::{
+    analyse,
+    analysis::Analysis,
+    cluster::{Cluster, ClusterId, Guard},
+};
 use crate::{
     catalog::Catalog,
     graph::{Graph, NodeId},

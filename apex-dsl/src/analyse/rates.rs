@@ -4,7 +4,7 @@
 //! If `a` sends 2 tokens per firing and `b` takes 3, `a` fires 3 times and `b` twice. On an undirected cycle of
 //! connections the equations can contradict each other. Then there is no solution.
 
-use super::{Analysis, ClusterId, Links};
+use super::{analysis::Analysis, cluster::ClusterId, links::Links};
 use crate::{
     graph::{ConnectionId, Graph, NodeId},
     index::IdVec,

@@ -9,43 +9,17 @@
 //! block whose clock its own implies. Each block first fires the ready nodes with its own clock. Then it opens an inner
 //! block for the first ready node that needs more tokens.
 
-use super::{Analysis, Clock, ClusterId, Links, clocks::implied};
+use super::{
+    analysis::Analysis,
+    clocks::{Clock, implied},
+    cluster::{Block, ClusterId, Step},
+    links::Links,
+};
 use crate::graph::{Graph, NodeId, PortId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Largest number of nested blocks, with the outermost. Deeper ones are opened further out, with more tests.
 const MAX_DEPTH: usize = 12;
-
-/// Steps that are done if certain tokens are present.
-#[derive(Debug, Default, Clone)]
-pub struct Block {
-    /// Tokens that must be present, in addition to those of the blocks around.
-    pub opens: Vec<PortId>,
-    /// Steps in order.
-    pub steps: Vec<Step>,
-}
-
-/// A step of a schedule.
-#[derive(Debug, Clone)]
-pub enum Step {
-    /// A node fires.
-    Fire(NodeId),
-    /// Steps that are done only if more tokens are present.
-    Block(Block),
-    /// A node of a region with several rates fires several times, each time if its tokens are present.
-    Repeat(Run),
-}
-
-/// Consecutive firings of a node in one iteration of a region with several rates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Run {
-    /// The node.
-    pub node: NodeId,
-    /// Number of the first firing.
-    pub from: u64,
-    /// Number after that of the last firing.
-    pub to: u64,
-}
 
 /// An open block.
 struct Level {

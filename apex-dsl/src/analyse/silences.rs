@@ -5,7 +5,7 @@
 //! other thread groups. If such a token does not come for as long as the parameter says, the cluster that waits for it
 //! takes ⊥ in its place.
 
-use super::{Cluster, ClusterId, Guard};
+use super::cluster::{Cluster, ClusterId, Guard};
 use crate::{
     catalog::Catalog,
     graph::{Graph, NodeId, NodeKind},

@@ -6,28 +6,15 @@
 //! `drive.stuck -> log.line`, where `seen` and `stuck` are events, `goal` and `line` slots. If `drive` has a
 //! `deadline`, its token from `find` and the cluster of `camera` and `find` have stamps; the token to `log` has none.
 
-use super::{Analysis, ClusterId, Guard};
+use super::{
+    analysis::{Analysis, Stamps},
+    cluster::{ClusterId, Guard},
+};
 use crate::{
     catalog::{ArgSig, Catalog},
     graph::{ConnectionId, Graph, NodeId, NodeKind},
 };
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Clusters and connections that keep stamps.
-#[derive(Debug, Default)]
-pub struct Stamps {
-    /// Clusters with a node that uses stamps, and all from which its tokens come.
-    pub clusters: BTreeSet<ClusterId>,
-    /// Asynchronous connections whose tokens have stamps, in order.
-    pub connections: Vec<ConnectionId>,
-}
-
-impl Stamps {
-    /// The number of a connection's stamp, if it is kept.
-    pub fn number(&self, connection: ConnectionId) -> Option<usize> {
-        self.connections.binary_search(&connection).ok()
-    }
-}
 
 /// Part of the graph that needs the stamps of its tokens.
 enum Asks {

@@ -1,6 +1,6 @@
 //! Upper bound of the steps that the dispatcher takes until all consequences of a firing have finished.
 
-use super::{Analysis, ClusterId};
+use super::{analysis::Analysis, cluster::ClusterId};
 use crate::graph::{ConnectionId, Flow, Graph};
 use std::collections::{BTreeMap, btree_map::Entry};
 

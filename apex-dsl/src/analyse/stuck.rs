@@ -5,9 +5,10 @@
 //! each event that a slot may trigger. Whether it does trigger it is not known: what is found is possible, not certain.
 
 use super::{
-    Analysis, Delivery, Links,
-    asynchronous::{events, has_circle},
+    analysis::Analysis,
+    asynchronous::{Delivery, events, has_circle},
     delivery::steps,
+    links::Links,
 };
 use crate::{
     catalog::{ArgSig, Catalog},

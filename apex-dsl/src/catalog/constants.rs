@@ -1,6 +1,21 @@
 //! Constants of Rust that a source file names by their path.
 
-use super::{Catalog, DefId, ItemKind, PRIMITIVES, Type, library, tree::Def};
+use super::{
+    catalog::Catalog,
+    items::ItemKind,
+    library::{self, DURATION, PRIMITIVES, RUNTIME},
+    tree::{Def, DefId},
+    types::Type,
+};
+
+/// Constants of `core::f32::consts` and `core::f64::consts`.
+#[rustfmt::skip]
+const OF_FLOATS: [&str; 19] = [
+    "E", "FRAC_1_PI", "FRAC_1_SQRT_2", "FRAC_2_PI", "FRAC_2_SQRT_PI", "FRAC_PI_2", "FRAC_PI_3", "FRAC_PI_4", "FRAC_PI_6",
+    "FRAC_PI_8", "LN_10", "LN_2", "LOG10_2", "LOG10_E", "LOG2_10", "LOG2_E", "PI", "SQRT_2", "TAU",
+];
+
+const OF_DURATION: [&str; 2] = ["MAX", "ZERO"];
 
 /// Result of looking up the path of a constant.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +57,27 @@ fn spelled(path: &[String]) -> Vec<String> {
     (!relative).then(String::new).into_iter().chain(path.iter().cloned()).collect()
 }
 
+/// Looks up the constant that a path names in a crate of which only the names in `library.rs` are known.
+fn of_listed(path: &[String]) -> Constant {
+    let words: Vec<&str> = path.iter().map(String::as_str).collect();
+    let known = |names: &[&str]| Constant::Missing(names.iter().map(|name| (*name).to_owned()).collect());
+    let spelled = || [String::new()].into_iter().chain(path.iter().cloned()).collect();
+    match words.as_slice() {
+        [krate, of @ ("f32" | "f64"), "consts", name] if *krate != RUNTIME => match OF_FLOATS.contains(name) {
+            true => Constant::Known(spelled(), Type::Primitive((*of).to_owned())),
+            false => known(&OF_FLOATS),
+        },
+        [krate, "time", DURATION, name] if *krate != RUNTIME => match OF_DURATION.contains(name) {
+            true => Constant::Known(spelled(), Type::Named("core::time::Duration".to_owned(), vec![])),
+            false => known(&OF_DURATION),
+        },
+        [krate, of, name] | [krate, "primitive", of, name] if *krate != RUNTIME && PRIMITIVES.contains(of) => {
+            of_primitive(of, name)
+        }
+        _ => Constant::Missing(vec![]),
+    }
+}
+
 impl Catalog {
     /// Looks up a constant.
     pub fn constant(&self, path: &[String]) -> Constant {
@@ -50,7 +86,7 @@ impl Catalog {
             return Constant::Missing(vec![]);
         };
         if library::is_listed(path) {
-            return library::constant(path);
+            return of_listed(path);
         }
         if let [of] = parent
             && PRIMITIVES.contains(&of.as_str())

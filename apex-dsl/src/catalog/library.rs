@@ -1,12 +1,21 @@
 //! Types and constants of the standard library and of the runtime that source files may name by their path. These
 //! crates are not scanned. Their other items, and those of other such crates, need a name in Rust first.
 
-use super::{Constant, DURATION, Type, constants::of_primitive};
-
+/// Primitive types of Rust.
+pub const PRIMITIVES: [&str; 17] = [
+    "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize",
+    "f32", "f64",
+];
+/// Types of the standard library that need no import.
+pub const STD: [&str; 4] = ["Vec", "Option", "String", "Box"];
+/// The type of durations, which source files can name without an import.
+pub const DURATION: &str = "Duration";
+/// The type of points in time, which source files can name without an import, too.
+pub const TIME: &str = "Time";
 /// Names of the standard library.
-const STANDARD: [&str; 3] = ["std", "core", "alloc"];
+pub const STANDARD: [&str; 3] = ["std", "core", "alloc"];
 /// The crate of the runtime.
-const RUNTIME: &str = "apex_rt";
+pub const RUNTIME: &str = "apex_rt";
 
 /// Types of the standard library by their path in it, with the smallest and largest number of type arguments.
 const TYPES: [(&str, usize, usize); 44] = [
@@ -57,14 +66,6 @@ const TYPES: [(&str, usize, usize); 44] = [
 ];
 /// Types of the runtime that can be tokens.
 const RUNTIME_TYPES: [&str; 2] = ["Failure", "Time"];
-/// Constants of `core::f32::consts` and `core::f64::consts`.
-#[rustfmt::skip]
-const OF_FLOATS: [&str; 19] = [
-    "E", "FRAC_1_PI", "FRAC_1_SQRT_2", "FRAC_2_PI", "FRAC_2_SQRT_PI", "FRAC_PI_2", "FRAC_PI_3", "FRAC_PI_4", "FRAC_PI_6",
-    "FRAC_PI_8", "LN_10", "LN_2", "LOG10_2", "LOG10_E", "LOG2_10", "LOG2_E", "PI", "SQRT_2", "TAU",
-];
-const OF_DURATION: [&str; 2] = ["MAX", "ZERO"];
-
 /// Returns `true` if a path begins with a crate of which only the names in this file are known.
 pub fn is_listed(path: &[String]) -> bool {
     path.first().is_some_and(|name| STANDARD.contains(&name.as_str()) || name == RUNTIME)
@@ -73,13 +74,13 @@ pub fn is_listed(path: &[String]) -> bool {
 /// Returns `true` if the name of a type that is not scanned is one of the standard library. Such a type is not an alias
 /// of a number or a list.
 pub fn is_standard(name: &str) -> bool {
-    super::STD.contains(&name) || name.split("::").next().is_some_and(|krate| STANDARD.contains(&krate))
+    STD.contains(&name) || name.split("::").next().is_some_and(|krate| STANDARD.contains(&krate))
 }
 
 /// Name of a listed type in its crate, which is the same whichever crate of the standard library it is taken from. Such
 /// a type is an alias of no other one.
 pub fn name_of_listed(path: &str) -> Option<&'static str> {
-    if let Some(name) = super::STD.into_iter().find(|name| *name == path) {
+    if let Some(name) = STD.into_iter().find(|name| *name == path) {
         return Some(name);
     }
     let (krate, name) = path.split_once("::")?;
@@ -99,32 +100,11 @@ fn listed(krate: &str, name: &str) -> Option<(&'static str, usize, usize)> {
 pub fn short(path: &[String]) -> Option<&'static str> {
     let [krate, _, name] = path else { return None };
     let is_standard = STANDARD.contains(&krate.as_str()) && type_arguments(path).is_some();
-    super::STD.into_iter().find(|short| is_standard && short == name)
+    STD.into_iter().find(|short| is_standard && short == name)
 }
 
 /// Smallest and largest number of type arguments of a listed type.
 pub fn type_arguments(path: &[String]) -> Option<(usize, usize)> {
     let (krate, rest) = path.split_first()?;
     listed(krate, &rest.join("::")).map(|(_, fewest, most)| (fewest, most))
-}
-
-/// Looks up the constant that a path names in one of these crates.
-pub fn constant(path: &[String]) -> Constant {
-    let words: Vec<&str> = path.iter().map(String::as_str).collect();
-    let known = |names: &[&str]| Constant::Missing(names.iter().map(|name| (*name).to_owned()).collect());
-    let spelled = || [String::new()].into_iter().chain(path.iter().cloned()).collect();
-    match words.as_slice() {
-        [krate, of @ ("f32" | "f64"), "consts", name] if *krate != RUNTIME => match OF_FLOATS.contains(name) {
-            true => Constant::Known(spelled(), Type::Primitive((*of).to_owned())),
-            false => known(&OF_FLOATS),
-        },
-        [krate, "time", DURATION, name] if *krate != RUNTIME => match OF_DURATION.contains(name) {
-            true => Constant::Known(spelled(), Type::Named("core::time::Duration".to_owned(), vec![])),
-            false => known(&OF_DURATION),
-        },
-        [krate, of, name] | [krate, "primitive", of, name] if *krate != RUNTIME && super::PRIMITIVES.contains(of) => {
-            of_primitive(of, name)
-        }
-        _ => Constant::Missing(vec![]),
-    }
 }

@@ -1,26 +1,13 @@
 //! Place of the generated code, and the items that it can reach from there.
 
-use super::{Catalog, Crates, DefId, ItemKind, ModuleId, SignatureId, Tree};
+use super::{
+    catalog::Catalog,
+    crates::Site,
+    items::ItemKind,
+    signature::SignatureId,
+    tree::{DefId, ModuleId},
+};
 use std::path::{Path, PathBuf};
-
-/// Place of the generated code.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub enum Site {
-    /// The crate that is compiled: its root module, unless [`Catalog::stand_at`] determines a module.
-    #[default]
-    Crate,
-    /// The module in which the package calls `graph!` with the checked source file. Without such a call, a program that
-    /// is made for the source file (`apex run`, `apex test`), which can reach only public items of libraries.
-    Text,
-}
-
-/// Module of the site, if it is known without a source file.
-pub fn site(tree: &Tree, crates: &Crates) -> Option<ModuleId> {
-    match &crates.site {
-        Site::Crate => tree.roots.get(crates.here).copied(),
-        Site::Text => None,
-    }
-}
 
 impl Catalog {
     /// A path of generated code as a source file of the package spells it: with `crate` for its own crates.

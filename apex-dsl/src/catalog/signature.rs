@@ -1,6 +1,6 @@
 //! Signature of a node: what the catalog has read of a function or struct with `#[node]`.
 
-use super::{DefaultValue, Need, Type};
+use super::{items::Default as DefaultValue, tree::Need, types::Type};
 use crate::{index::id, syntax::tree::PortKind, units};
 use std::{collections::BTreeMap, path::PathBuf, time::Duration};
 

@@ -1,6 +1,6 @@
 //! Structs of Rust that a source file writes as values.
 
-use super::{Catalog, ItemKind, Ty, Type};
+use super::{catalog::Catalog, items::ItemKind, ty::Ty, types::Type};
 
 /// Result of looking up the path of a struct.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! Traits of the standard library that types certainly have. Only rustc can decide about all others.
 
-use super::{Catalog, Type, items::ItemKind};
+use super::{catalog::Catalog, items::ItemKind, types::Type};
 
 /// A trait that generated code requires of tokens and nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! The module tree of the scanned crates, and the lookup of paths in it.
 
 use super::{
-    CrateSpec, RustFiles,
     cfg::{Conditions, Truth},
+    crates::{CrateSpec, RustFiles},
     items::{Item, ItemKind, Seen},
     library,
     ty::Ty,

@@ -1,4 +1,7 @@
-use super::{Catalog, DefId, ModuleId, Need, Ty, library};
+use super::{
+    library,
+    tree::{DefId, Need},
+};
 use crate::units;
 use std::fmt;
 
@@ -39,23 +42,9 @@ pub enum Match {
     Unknown,
 }
 
-/// Primitive types of Rust.
-pub const PRIMITIVES: [&str; 17] = [
-    "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize",
-    "f32", "f64",
-];
-/// Types of the standard library that need no import.
-pub const STD: [&str; 4] = ["Vec", "Option", "String", "Box"];
-/// The type of durations, which source files can name without an import.
-pub const DURATION: &str = "Duration";
-/// The type of points in time, which source files can name without an import, too.
-pub const TIME: &str = "Time";
 const LISTS: [&str; 2] = ["Vec", "heapless::Vec"];
 /// Parts of `std` that `core` has under the same name.
 const CORE: [&str; 8] = ["time", "ops", "num", "cmp", "marker", "option", "result", "primitive"];
-/// Largest number of aliases that are followed.
-const MAX_ALIASES: usize = 16;
-
 /// Returns `true` if an item of `std` is also in `core`.
 fn is_in_core(path: &str) -> bool {
     path.split("::").nth(1).is_some_and(|module| CORE.contains(&module)) && !path.ends_with("Instant")
@@ -63,7 +52,7 @@ fn is_in_core(path: &str) -> bool {
 
 impl Type {
     /// The path of [`TIME`].
-    const RUNTIME_TIME: &str = "apex_rt::Time";
+    pub(super) const RUNTIME_TIME: &str = "apex_rt::Time";
 
     /// Returns `true` for points in time.
     pub fn is_time(&self) -> bool {
@@ -317,75 +306,6 @@ impl fmt::Display for Type {
             }
             Self::Ref(inner) => write!(f, "&{inner}"),
             Self::Measured(number, unit) => write!(f, "{number}[{unit}]"),
-        }
-    }
-}
-
-/// Looks up a path: definitions that it names, or the full path of an item that is not scanned.
-type Resolve<'a> = dyn Fn(&[String]) -> (Vec<DefId>, Option<String>) + 'a;
-
-impl Catalog {
-    /// Looks up the names of a type that was written in a scanned module.
-    pub fn type_of(&self, ty: &Ty, module: ModuleId, generics: &[String]) -> Type {
-        self.lookup(ty, generics, 0, &|path| (self.tree.resolve(module, path), self.tree.external(module, path)))
-    }
-
-    /// Looks up the names of a type that was written in a source file.
-    pub fn type_in_text(&self, ty: &Ty, generics: &[String]) -> Type {
-        // In Rust, `Time` may be any type.
-        let runtime = |path: &[String]| matches!(path, [name] if name == TIME).then(|| Type::RUNTIME_TIME.to_owned());
-        self.lookup(ty, generics, 0, &|path| (self.types(path), runtime(path)))
-    }
-
-    fn lookup(&self, ty: &Ty, generics: &[String], aliases: usize, resolve: &Resolve<'_>) -> Type {
-        let inner = |t: &Ty| self.lookup(t, generics, aliases, resolve);
-        match ty {
-            Ty::Array(element, len) => Type::Array(Box::new(inner(element)), len.clone()),
-            Ty::Tuple(parts) => Type::Tuple(parts.iter().map(inner).collect()),
-            Ty::Ref(target) => Type::Ref(Box::new(inner(target))),
-            Ty::Measured(number, unit) => Type::Measured(Box::new(inner(number)), unit.clone()),
-            Ty::Other(text) => Type::Unknown(text.clone()),
-            Ty::Path(path, args) => {
-                let name = path.last().map_or("", String::as_str);
-                if path.len() == 1 && args.is_empty() && generics.iter().any(|g| g == name) {
-                    return Type::Param(name.to_owned());
-                }
-                let args: Vec<Type> = args.iter().map(inner).collect();
-                let (defs, external) = resolve(path);
-                let def = defs
-                    .into_iter()
-                    .find(|d| matches!(self.tree.defs[*d].kind, super::ItemKind::Type(_) | super::ItemKind::Alias(_)));
-                if let Some(def) = def {
-                    return match self.tree.alias(def) {
-                        None => Type::Def(def, name.to_owned(), args),
-                        Some(Some(target)) if aliases < MAX_ALIASES => {
-                            let module = self.tree.defs[def].module;
-                            let target = self.lookup(target, &[], aliases + 1, &|path| {
-                                (self.tree.resolve(module, path), self.tree.external(module, path))
-                            });
-                            if target.is_open() { Type::Alias(def, name.to_owned(), Box::new(target)) } else { target }
-                        }
-                        Some(_) => Type::Unknown(ty.to_string()),
-                    };
-                }
-                let full = external.as_ref().map(|path| path.split("::").map(str::to_owned).collect::<Vec<_>>());
-                if let Some(short) = library::short(full.as_deref().unwrap_or(path)) {
-                    return Type::Named(short.to_owned(), args);
-                }
-                if let Some(external) = external {
-                    return Type::Named(external, args);
-                }
-                if path.len() == 1 && PRIMITIVES.contains(&name) {
-                    return Type::Primitive(name.to_owned());
-                }
-                if path.len() == 1 && name == DURATION && args.is_empty() {
-                    return Type::Named("core::time::Duration".to_owned(), args);
-                }
-                if path.len() > 1 || STD.contains(&name) {
-                    return Type::Named(path.join("::"), args);
-                }
-                Type::Unknown(ty.to_string())
-            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The claim that tokens never wait for one another, and a warning where nothing is claimed.
 
-use super::{Verdict, how_checked};
+use super::verdict::{Verdict, how_checked};
 use crate::{
     analyse::{Analysis, Stuck, find_stuck, is_live},
     catalog::Catalog,

@@ -7,6 +7,7 @@ mod properties;
 mod search;
 mod slices;
 mod trace;
+mod verdict;
 
 use crate::{
     analyse::Analysis,
@@ -19,45 +20,9 @@ pub use model::{Arrival, Delay, Emission, Model, Move, Place, PlaceId, State};
 pub use properties::{Checks, FROM, NEARER, scopes_of};
 pub use search::{MAX_STATES, Outcome, search};
 pub use slices::{Slice, slices};
+pub use verdict::Verdict;
 
-/// Verdict on a claim.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// The claim holds in every run.
-    Holds,
-    /// There is a run in which the claim does not hold.
-    Fails,
-    /// There are too many states: the program checks the claim at run time.
-    Undecided,
-    /// The same in a program on several threads, which does not check it.
-    Unchecked,
-}
-
-impl Verdict {
-    /// The verdict as text.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Fails => "fails",
-            Self::Undecided => "undecided, checked at run time",
-            Self::Unchecked => "undecided, and not checked on several threads",
-        }
-    }
-
-    /// The verdict on a claim of `graph` that is not decided.
-    fn undecided(graph: &Graph) -> Self {
-        if graph.has_several_groups() { Self::Unchecked } else { Self::Undecided }
-    }
-}
-
-/// Note about a claim of `graph` that is not decided: whether the program checks it.
-fn how_checked(graph: &Graph) -> &'static str {
-    if graph.has_several_groups() {
-        "it is not checked at run time either: the program runs on several threads"
-    } else {
-        "the program checks it at run time and reports a violation to `Observer::claim_failed`"
-    }
-}
+use verdict::how_checked;
 
 /// Verdicts on the claims of a graph.
 #[derive(Debug, Clone, Default)]

@@ -2,7 +2,7 @@
 
 use super::{generator::Generator, labels::Labels};
 use crate::{
-    analyse::{Analysis, Links},
+    analyse::Analysis,
     graph::Graph,
     program::{Lower, Program, Wiring},
 };
@@ -12,7 +12,6 @@ use crate::{
 pub struct ProgramView<'a> {
     pub graph: &'a Graph,
     pub analysis: &'a Analysis,
-    pub links: &'a Links,
     /// The asynchronous half; empty in the body of an `each`.
     pub wiring: &'a Wiring,
     /// The program.
@@ -44,6 +43,6 @@ impl<'a> ProgramView<'a> {
     /// The view of a graph, its analysis, and its program.
     pub fn new(graph: &'a Graph, analysis: &'a Analysis, lowered: &'a Lowered<'a>) -> Self {
         let Lowered { program, labels } = lowered;
-        Self { graph, analysis, links: &analysis.links, wiring: &program.wiring, program, labels }
+        Self { graph, analysis, wiring: &program.wiring, program, labels }
     }
 }

@@ -2,13 +2,14 @@
 //! instance that each node belongs to. Only the body of an `each` remains a graph of its own.
 
 mod condition;
+mod ids;
 mod names;
 mod node;
 mod value;
 
 use crate::{
     catalog::Type,
-    index::{IdVec, id},
+    index::IdVec,
     source::Span,
     syntax::tree::{Expr, Ident, PortKind},
 };
@@ -18,24 +19,10 @@ use std::{
 };
 
 pub use condition::{Condition, is_arithmetic};
+pub use ids::{ConnectionId, NodeId, ScopeId};
 pub use names::{camel, snake};
 pub use node::{CellEnd, Each, Library, Modifiers, Node, NodeKind, Port, PortId, Standard, TypeArg};
 pub use value::{Claim, ClaimKind, FieldValue, Number, StructValue, Subject, Value};
-
-id! {
-    /// Number of a node in [`Graph::nodes`].
-    NodeId
-}
-
-id! {
-    /// Number of a connection in [`Graph::connections`].
-    ConnectionId
-}
-
-id! {
-    /// Number of a scope in [`Graph::scopes`].
-    ScopeId
-}
 
 /// Thread group of nodes that are not assigned to another one.
 pub const MAIN_GROUP: &str = "main";
@@ -254,11 +241,6 @@ pub struct ThreadSettings {
     pub strict: bool,
     /// `hang`: a node that runs for longer than this is considered hung.
     pub hang: Option<Duration>,
-}
-
-impl ScopeId {
-    /// The graph itself.
-    pub const TOP: Self = Self(0);
 }
 
 impl Scope {

@@ -1,6 +1,10 @@
 //! Nodes, their ports and their modifiers.
 
-use super::{Graph, NodeId, ScopeId, Subject, Value};
+use super::{
+    Graph,
+    ids::{NodeId, ScopeId},
+    value::{Subject, Value},
+};
 use crate::{
     catalog::{SignatureId, Type},
     source::Span,

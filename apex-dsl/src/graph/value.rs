@@ -1,6 +1,6 @@
 //! Constants, and claims about activity.
 
-use super::{NodeId, ScopeId};
+use super::ids::{NodeId, ScopeId};
 use crate::{
     catalog::Type,
     fraction::Fraction,

@@ -50,7 +50,7 @@ impl Bits {
     /// Numbers the conditions of a program.
     pub fn new(graph: &Graph, analysis: &Analysis) -> Self {
         let clusters = &analysis.clusters;
-        let is_free = |c: &ClusterId| clusters[*c].is_free(graph, analysis);
+        let is_free = |c: &ClusterId| analysis.is_free(graph, &clusters[*c]);
         let mut bits = Self {
             dispatched: clusters.ids().filter(|c| clusters[*c].fires && !is_free(c)).collect(),
             guards: BTreeMap::new(),

@@ -1,23 +1,13 @@
 //! Activity that tokens may carry.
 
-use super::{Flag, Lower};
+use super::{
+    flags::{Carries, Flag},
+    lower::Lower,
+};
 use crate::{
     analyse::takes_activity,
     graph::{ConnectionId, Flow, NodeId, NodeKind},
 };
-
-/// Effect of a token on the activity of the node that takes it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Carries {
-    /// Not at all.
-    Nothing,
-    /// It activates: it is from `start`.
-    Always,
-    /// It activates if its sender was active: there is a flag for it.
-    Sometimes,
-    /// It takes activity away.
-    Away,
-}
 
 impl Lower<'_> {
     /// Activity that the tokens on `connection` may carry.

@@ -1,22 +1,16 @@
 //! Lowering of claims about activity: where the program keeps activity, also that of tokens on their way. Undecided
 //! claims are looked at whenever activity has moved.
 
-use super::{Carries, Flag, Lower};
+use super::{
+    flags::{Carries, Spot},
+    lower::Lower,
+};
 use crate::{
     claims::{Checks, FROM, Model, NEARER, Place, PlaceId, scopes_of},
-    graph::{ClaimKind, Graph, NodeId, ScopeId},
+    graph::{ClaimKind, Graph, ScopeId},
     index::IdVec,
 };
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Place of activity in the state of a program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Spot {
-    /// A flag.
-    Flag(Flag),
-    /// A delay, which keeps the activity of its tokens.
-    Held(NodeId),
-}
 
 /// A claim that the program looks at while it runs.
 #[derive(Debug)]

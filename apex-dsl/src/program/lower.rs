@@ -1,6 +1,6 @@
 //! Input of the lowering.
 
-use super::{Flag, Spot};
+use super::flags::{Flag, Spot};
 use crate::{
     analyse::{Analysis, ClusterId, Delivery, Links, is_source},
     catalog::{Catalog, MachineSig, Signature, WaitSig},

@@ -10,6 +10,7 @@ mod carries;
 mod claims;
 mod clusters;
 mod fire;
+mod flags;
 mod interrupt;
 mod lower;
 mod op;
@@ -29,15 +30,15 @@ use crate::{
 use std::collections::BTreeMap;
 
 pub use bits::{Bits, ClusterRow, MissingRow};
-pub use carries::Carries;
-pub use claims::{ActiveScope, Broken, ClaimCheck, Spot};
+pub use claims::{ActiveScope, Broken, ClaimCheck};
 pub use fire::{Arg, Call, CallResult, Deadline, Failing, Fire, ParamOutput, SlotCall};
+pub use flags::{Carries, Flag, Spot};
 pub use lower::Lower;
 pub use op::{Cancel, Op, Ops, Served, Taken};
 pub use plan::{BlockId, Plan, Storage, is_buffer, storage};
 pub use print::{Lines, numbers};
 pub use reaction::{After, Entering, Firing, Poll, Reaction, Receiver, Sender};
-pub use wiring::{Entry, Flag, Port, Send, Silence, Slot, Timeout, Wiring};
+pub use wiring::{Entry, Port, Send, Silence, Slot, Timeout, Wiring};
 
 /// A program, the part of one that a thread runs, or the body of an `each`.
 pub struct Program<'a> {

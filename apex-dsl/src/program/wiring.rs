@@ -3,7 +3,11 @@
 //!
 //! It is made once from graph and analysis.
 
-use super::{Bits, Carries, Lower};
+use super::{
+    bits::Bits,
+    flags::{Carries, Flag},
+    lower::Lower,
+};
 use crate::{
     analyse::{Analysis, Delivery, Guard, may_get_stuck, takes_activity},
     graph::{ConnectionId, Flow, Graph, NodeId, NodeKind, PortId},
@@ -13,21 +17,6 @@ use std::{
     collections::{BTreeMap, BTreeSet},
     time::Duration,
 };
-
-/// Something that is known about a node or a token besides their state: a bit of a set in the state of the program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Flag {
-    /// The node is active.
-    Active(NodeId),
-    /// A token at an input brings activity.
-    Gains(NodeId),
-    /// A token at an input takes activity away.
-    Loses(NodeId),
-    /// The node is enabled.
-    Enabled(NodeId),
-    /// The token for a slot, by the slot's number, carries activity.
-    Carries(usize),
-}
 
 /// Effects of a token at a port outside its region.
 #[derive(Debug)]

@@ -78,10 +78,3 @@ pub fn read<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostics) -> O
     let tree = build::Builder::new(file, &lexical.text, vec![], diagnostics).file(pair.clone());
     (!tree.broken && !diagnostics.has_errors()).then(|| cst::read(text, &lexical, pair))
 }
-
-/// The span of a pair in `file`, up to the byte `end`.
-fn span_of(file: FileId, pair: &pest::iterators::Pair<'_, Rule>, end: usize) -> Span {
-    let span = pair.as_span();
-    let trimmed = span.as_str().trim_end().len();
-    Span::new(file, span.start().min(end), (span.start() + trimmed).min(end))
-}

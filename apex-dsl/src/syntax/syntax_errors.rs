@@ -1,10 +1,6 @@
 //! Explanations of text that matches no rule of the grammar.
 
-use super::{
-    Grammar, Rule,
-    keywords::{self, KeywordPosition},
-    mistakes::CommonMistake,
-};
+use super::{grammar::{Grammar, Rule}, keywords::{self, KeywordPosition}, mistakes::CommonMistake};
 use crate::{
     report::{Diagnostic, nearest},
     source::{FileId, Span},

@@ -189,3 +189,21 @@ mod tests {
         assert_eq!(tokens(text).map(|token| token.text).collect::<String>(), text);
     }
 }
+
+/// The text that a string literal stands for.
+pub fn unescape(quoted: &str) -> String {
+    let mut text = String::new();
+    let mut chars = quoted[1..quoted.len() - 1].chars();
+    while let Some(char) = chars.next() {
+        match char {
+            '\\' => match chars.next() {
+                Some('n') => text.push('\n'),
+                Some('t') => text.push('\t'),
+                Some(other) => text.push(other),
+                None => {}
+            },
+            _ => text.push(char),
+        }
+    }
+    text
+}

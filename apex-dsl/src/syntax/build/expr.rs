@@ -4,7 +4,7 @@ use super::Builder;
 use crate::{
     report::Diagnostic,
     source::Span,
-    syntax::{Rule, tree::*},
+    syntax::{Rule, tokens::unescape, tree::*},
 };
 use pest::iterators::Pair;
 
@@ -126,21 +126,4 @@ fn operator(pair: &Pair<'_, Rule>) -> Option<(&'static str, u8)> {
         "/" => ("/", 5),
         _ => ("%", 5),
     })
-}
-
-pub fn unescape(quoted: &str) -> String {
-    let mut text = String::new();
-    let mut chars = quoted[1..quoted.len() - 1].chars();
-    while let Some(char) = chars.next() {
-        match char {
-            '\\' => match chars.next() {
-                Some('n') => text.push('\n'),
-                Some('t') => text.push('\t'),
-                Some(other) => text.push(other),
-                None => {}
-            },
-            _ => text.push(char),
-        }
-    }
-    text
 }

@@ -4,7 +4,7 @@ mod expr;
 mod machine;
 mod script;
 
-use super::{Rule, span_of, syntax_errors, tree::*};
+use super::{grammar::Rule, syntax_errors, tokens::unescape, tree::*};
 use crate::{
     report::{Diagnostic, Diagnostics},
     source::{FileId, Span},
@@ -277,7 +277,7 @@ impl<'a> Builder<'a> {
                 _ => {}
             }
         }
-        Some(RecordItem { file: expr::unescape(file.as_str()), options, ports, span })
+        Some(RecordItem { file: unescape(file.as_str()), options, ports, span })
     }
 
     /// A type with the unit behind it.
@@ -314,7 +314,7 @@ impl<'a> Builder<'a> {
     /// The name of a frame, with or without quotes.
     fn frame(&self, pair: &Pair<'_, Rule>) -> Ident {
         match pair.as_rule() {
-            Rule::string => Ident { text: expr::unescape(pair.as_str()), span: self.span(pair) },
+            Rule::string => Ident { text: unescape(pair.as_str()), span: self.span(pair) },
             _ => self.ident(pair),
         }
     }
@@ -482,4 +482,11 @@ fn push_doc(docs: &mut String, pair: &Pair<'_, Rule>) {
     // Indentation matters in Markdown, except for the first blank of each line.
     let line = &pair.as_str()[3..];
     docs.push_str(line.strip_prefix(' ').unwrap_or(line).trim_end());
+}
+
+/// The span of a pair in `file`, up to the byte `end`.
+fn span_of(file: FileId, pair: &Pair<'_, Rule>, end: usize) -> Span {
+    let span = pair.as_span();
+    let trimmed = span.as_str().trim_end().len();
+    Span::new(file, span.start().min(end), (span.start() + trimmed).min(end))
 }

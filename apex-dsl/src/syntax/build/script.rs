@@ -1,9 +1,9 @@
 //! `test` and `tune` items.
 
-use super::{Builder, expr::unescape, push_doc};
+use super::{Builder, push_doc};
 use crate::{
     report::Diagnostic,
-    syntax::{Rule, syntax_errors, tree::*},
+    syntax::{Rule, syntax_errors, tokens::unescape, tree::*},
 };
 use pest::iterators::Pair;
 
