@@ -1,6 +1,6 @@
 //! Calls of nodes, with their arguments and results.
 
-use crate::{Args, Value, cluster::Local, ops::Run};
+use crate::{Args, Value, local::Local, run::Run};
 use apex_dsl::{
     analyse::silence_parameter,
     graph::{NodeId, PortId},

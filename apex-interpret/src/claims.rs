@@ -1,6 +1,6 @@
 //! Claims about activity that a program looks at while it runs.
 
-use crate::ops::Run;
+use crate::run::Run;
 use apex_dsl::program::{Broken, ClaimCheck, Spot};
 use apex_rt::Observer;
 

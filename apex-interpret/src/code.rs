@@ -1,12 +1,10 @@
 //! A program that is interpreted: its operations, and its state.
 
-use crate::{Library, cells::Cells, state::State};
 use apex_dsl::{
     catalog::Catalog,
-    checked::CheckedProgram,
     graph::{ConnectionId, Graph, NodeId, NodeKind},
     index::IdVec,
-    machine::{Machines, machines},
+    machine::machines,
     program::{Lower, Program},
     threads::{Origin, Part},
 };
@@ -27,7 +25,7 @@ pub struct Numbers {
 
 impl Numbers {
     /// The numbers in a graph. `count` is the number of nodes before it.
-    fn new(graph: &Graph, count: &mut usize) -> Self {
+    pub fn new(graph: &Graph, count: &mut usize) -> Self {
         let own = (*count..*count + graph.nodes.len()).collect();
         *count += graph.nodes.len();
         let connections = graph.connections.ids().map(|connection| Some(connection.index())).collect();
@@ -41,7 +39,7 @@ impl Numbers {
     }
 
     /// The numbers in a program, and the first number beyond them.
-    fn of_program(graph: &Graph, catalog: &Catalog) -> (Self, usize) {
+    pub fn of_program(graph: &Graph, catalog: &Catalog) -> (Self, usize) {
         let mut count = 0;
         let mut numbers = Self::new(graph, &mut count);
         for (node, machine) in machines(graph, catalog) {
@@ -52,7 +50,7 @@ impl Numbers {
     }
 
     /// The numbers in the part of a thread group. Nodes that only pass tokens on come behind all others.
-    fn of_part(&self, part: &Part, beyond: usize) -> Self {
+    pub fn of_part(&self, part: &Part, beyond: usize) -> Self {
         let mut numbers = Self::default();
         for (node, origin) in part.origins.iter_enumerated() {
             match origin {
@@ -82,7 +80,7 @@ pub struct Code<'a> {
 }
 
 impl<'a> Code<'a> {
-    fn new(lower: Lower<'a>, numbers: Numbers, is_part: bool) -> Self {
+    pub fn new(lower: Lower<'a>, numbers: Numbers, is_part: bool) -> Self {
         let Lower { graph, analysis, catalog, .. } = lower;
         let mut bodies = BTreeMap::new();
         for (node, n) in graph.nodes.iter_enumerated() {
@@ -95,7 +93,7 @@ impl<'a> Code<'a> {
     }
 
     /// Faults of the compiler that show in the program, also in the bodies of its `each`.
-    fn faults(&self) -> Vec<String> {
+    pub fn faults(&self) -> Vec<String> {
         let inner = self.bodies.values().flat_map(Self::faults);
         self.program.faults().into_iter().chain(inner).collect()
     }
@@ -103,54 +101,5 @@ impl<'a> Code<'a> {
     /// The graph.
     pub fn graph(&self) -> &'a Graph {
         self.program.lower.graph
-    }
-}
-
-/// A program with its state.
-pub struct Interpreter<'a> {
-    /// The program, or its parts: the main group is the first.
-    pub(crate) parts: Vec<(Code<'a>, State<'a>)>,
-    pub(crate) cells: Cells<'a>,
-    pub(crate) library: &'a dyn Library,
-}
-
-impl<'a> Interpreter<'a> {
-    /// The program before its first reaction.
-    ///
-    /// # Errors
-    /// Returns what the library does not know.
-    pub fn new(
-        program: &'a CheckedProgram,
-        machines: &'a Machines,
-        catalog: &'a Catalog,
-        library: &'a dyn Library,
-    ) -> Result<Self, String> {
-        let (numbers, count) = Numbers::of_program(&program.graph, catalog);
-        let (codes, cells): (Vec<Code<'a>>, _) = match &program.split {
-            None => {
-                let lower = Lower::new(&program.graph, &program.analysis, catalog, Some(&program.claims));
-                (vec![Code::new(lower, numbers, false)], &[][..])
-            }
-            Some(split) => {
-                let part = |part: &'a Part| {
-                    Code::new(
-                        Lower::new(&part.graph, &part.analysis, catalog, None),
-                        numbers.of_part(part, count),
-                        true,
-                    )
-                };
-                (split.parts.iter().map(part).collect(), &split.cells[..])
-            }
-        };
-        let mut parts = vec![];
-        for code in codes {
-            if let Some(fault) = code.faults().into_iter().next() {
-                return Err(format!("internal error of the compiler: {fault}"));
-            }
-            let state = State::new(&code, machines, library)?;
-            parts.push((code, state));
-        }
-        let cells = Cells::new(cells, parts.len());
-        Ok(Self { parts, cells, library })
     }
 }

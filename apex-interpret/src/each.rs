@@ -2,8 +2,8 @@
 
 use crate::{
     Value,
-    cluster::Local,
-    ops::{Place, Run},
+    local::Local,
+    run::{Place, Run},
 };
 use apex_dsl::{
     graph::{NodeId, NodeKind, PortId},

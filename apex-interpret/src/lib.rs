@@ -12,11 +12,16 @@ mod condition;
 mod conditions;
 mod delay;
 mod each;
+mod exchange;
+mod interpreter;
+mod local;
 mod machine;
 mod node;
 mod ops;
 mod react;
+mod run;
 mod state;
+mod states;
 
-pub use code::Interpreter;
+pub use interpreter::Interpreter;
 pub use node::{Args, Library, Node, Outcome, Value};

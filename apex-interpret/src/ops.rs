@@ -1,30 +1,15 @@
 //! Execution of operations: activity, events, slots and time.
 
-use crate::{Library, Value, cells::Cells, cluster::Local, code::Code, state::State};
+use crate::{
+    Value,
+    run::{Place, Run},
+};
 use apex_dsl::{
     graph::{NodeId, PortId},
     program::{Cancel, Carries, Flag, Op, Taken},
     syntax::tree::PortKind,
 };
 use apex_rt::{Ctx, Observer, Time};
-
-/// Execution of a program, or of the body of an `each`.
-pub struct Run<'r, 'a, O> {
-    pub code: &'r Code<'a>,
-    pub state: &'r mut State<'a>,
-    pub cells: &'r mut Cells<'a>,
-    pub library: &'r dyn Library,
-    pub observer: &'r mut O,
-}
-
-/// Place of operations: the cluster that they belong to, and the token that a slot has taken away.
-#[derive(Default)]
-pub struct Place<'l, 'a> {
-    /// Tokens of the cluster.
-    pub local: Option<&'l mut Local<'a>>,
-    /// Token of the slot.
-    pub taken: Option<Value>,
-}
 
 impl<'r, O: Observer> Run<'r, '_, O> {
     /// Executes operations in sequence.

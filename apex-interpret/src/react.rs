@@ -1,6 +1,6 @@
 //! Reactions: which cluster fires and which slot is served, and when.
 
-use crate::{Interpreter, Value, ops::Run};
+use crate::{Interpreter, Value, run::Run};
 use apex_dsl::{
     analyse::Guard,
     graph::{NodeId, NodeKind, PortId},

@@ -3,7 +3,7 @@
 //!
 //! Nothing is reserved for what a length in a message promises: bytes are there before a list of them is made.
 
-use crate::{Reason, builtin_interfaces::Time, std_msgs::Header};
+use crate::{builtin_interfaces::Time, std_msgs::Header};
 use alloc::{
     borrow::{Cow, ToOwned as _},
     format,
@@ -12,6 +12,9 @@ use alloc::{
     vec::Vec,
 };
 use core::mem::{size_of, size_of_val};
+
+/// Reason why bytes are not a value, for example "its encoding is `bayer_rggb8`".
+pub type Reason = Cow<'static, str>;
 
 /// Order of the bytes of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -20,5 +20,6 @@ mod numbers;
 #[allow(missing_docs, clippy::all, clippy::pedantic)]
 mod packages;
 
-pub use message::{Action, Foreign, Known, Message, Others, Reason, Service};
+pub use cdr::Reason;
+pub use message::{Action, Foreign, Known, Message, Others, Service};
 pub use packages::*;

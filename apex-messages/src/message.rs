@@ -1,10 +1,7 @@
 //! Messages, services and actions.
 
-use crate::cdr::{Reader, Writer};
-use alloc::{borrow::Cow, vec, vec::Vec};
-
-/// Reason why bytes are not a value, for example "its encoding is `bayer_rggb8`".
-pub type Reason = Cow<'static, str>;
+use crate::cdr::{Reader, Reason, Writer};
+use alloc::{vec, vec::Vec};
 
 /// A type that is encoded as a message of ROS 2: one of the messages themselves, or one that is converted to a message
 /// and back.

@@ -6,7 +6,7 @@
 use super::{
     Net, PlaceId, TransitionId, TransitionKind, free_for,
     route::{Loop, Segment, SegmentEnd, Side, echoes},
-    state::{Marking, Token},
+    token::{Marking, Token},
     token_on,
 };
 use std::collections::{BTreeMap, BTreeSet};

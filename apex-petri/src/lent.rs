@@ -3,7 +3,7 @@
 use super::{
     PlaceId, free_for,
     route::{Loop, Segment, echoes},
-    state::{Marking, Token},
+    token::{Marking, Token},
 };
 use std::collections::BTreeMap;
 

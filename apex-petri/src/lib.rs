@@ -18,6 +18,7 @@ mod pnml;
 mod replay;
 mod route;
 mod state;
+mod token;
 
 use apex_dsl::{
     graph::{self, ConnectionId, Crossing, Graph, NodeId, PortId},
@@ -29,7 +30,8 @@ pub use build::net;
 pub use pnml::pnml;
 pub use replay::{Replay, Wrong, undecided};
 pub use route::Side;
-pub use state::{Call, Origin, Preview, Script, State, Token, unsupported};
+pub use state::{Call, Preview, Script, State, unsupported};
+pub use token::{Origin, Token};
 
 id! {
     /// Number of a place in [`Net::places`].

@@ -1,6 +1,6 @@
 //! Parameters of nodes: `#[param(…)]` before an argument or a field.
 
-use crate::{is_named, units};
+use crate::{types::is_named, units};
 use syn::{Attribute, Expr, ExprLit, ExprRange, ExprUnary, Lit, RangeLimits, Type, UnOp, spanned::Spanned as _};
 
 /// `#[param(…)]` with the type of its argument or field.
