@@ -2,7 +2,6 @@
 
 use crate::{Library, Value, condition};
 use apex_dsl::machine::{Arm, Machine, Move, Sending, Slot, Token};
-use apex_rt::Observer;
 use std::rc::Rc;
 
 /// Tokens of events, by the numbers of their ports.

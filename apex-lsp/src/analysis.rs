@@ -1,7 +1,6 @@
 //! Results of the checks of one source file.
 
 use crate::{
-    features::actions::Certain,
     places::Places,
     position::{Encoding, Lines},
     project::Project,
@@ -10,7 +9,7 @@ use apex_dsl::{
     catalog::Catalog,
     claims,
     passes::{self, Checked},
-    report::Diagnostics,
+    report::{Diagnostics, Fix},
     resolve::{Link, SourceSet},
     source::{Sources, World},
     syntax,
@@ -18,6 +17,15 @@ use apex_dsl::{
 use apex_ide::{Occurrence, View, fix};
 use lsp_types::Position;
 use std::{path::Path, sync::Arc};
+
+/// A fix that its diagnostic marks as unambiguous.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Certain {
+    /// The fix.
+    pub fix: Fix,
+    /// Message of the error that it should remove.
+    pub message: String,
+}
 
 /// Maximum number of states to visit for claims while the user types.
 const QUICK_STATES: usize = 1000;

@@ -1,16 +1,11 @@
 //! The worker: stores the open source files and their analyses, and answers requests.
 
 use crate::{
-    analysis::Analysis,
+    analysis::{Analysis, Certain},
     capabilities::Client,
     documents::Document,
-    features::{
-        Ready,
-        actions::{self, Certain},
-        completion, definition, diagnostics, formatting, hints, hover,
-        references::{self, Target},
-        rename, symbols,
-    },
+    features::references::{self, Target},
+    features::{Ready, actions, completion, definition, diagnostics, formatting, hints, hover, rename, symbols},
     project::{Overlay, Project, package_of},
     queue::{Queue, Task},
     uri,

@@ -20,20 +20,6 @@ struct Description<S> {
     study: S,
 }
 
-/// A bound that is negative infinity if it is missing.
-pub(crate) mod bound {
-    use super::*;
-    use serde::{Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(bound: &f64, to: S) -> Result<S::Ok, S::Error> {
-        Some(*bound).filter(|bound| bound.is_finite()).serialize(to)
-    }
-
-    pub fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<f64, D::Error> {
-        Ok(Option::deserialize(from)?.unwrap_or(f64::NEG_INFINITY))
-    }
-}
-
 impl Study {
     /// Description in one line: equal for equal studies.
     pub fn description(&self) -> String {

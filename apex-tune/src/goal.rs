@@ -1,4 +1,4 @@
-use crate::{Summary, description};
+use crate::summary::Summary;
 use serde::{Deserialize, Serialize};
 
 /// Value that a run shall make small or great.
@@ -13,7 +13,7 @@ pub struct Goal {
     /// Value of a candidate from the values of its runs; the costs of a goal to be maximised are the negative values.
     pub summary: Summary,
     /// Least cost that a run can have; negative infinity if there is none. A run with less has failed.
-    #[serde(with = "description::bound")]
+    #[serde(with = "crate::bound")]
     pub least: f64,
 }
 

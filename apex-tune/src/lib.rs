@@ -6,6 +6,7 @@
 //! merged. The [`Report`] scores the result on seeds that the study has not seen. A [`Follower`] reads a journal while
 //! it grows, and shows the candidates of the study.
 
+mod bound;
 mod changes;
 mod course;
 mod description;
@@ -16,6 +17,7 @@ mod picture;
 mod race;
 mod report;
 mod sample;
+mod searching;
 mod seen;
 mod study;
 mod summary;
@@ -26,7 +28,8 @@ pub use follow::Follower;
 pub use goal::{Goal, Point};
 pub use journal::{Journal, JournalError, Lock, Run};
 pub use report::{Report, Score};
+pub use searching::{Known, Objective, Progress, StudyError, on_threads};
 pub use seen::{Candidate, Fate, Seen, Trail};
-pub use study::{Found, Known, Method, Objective, Parameter, Progress, Shown, Study, StudyError, on_threads};
+pub use study::{Found, Method, Parameter, Shown, Study};
 pub use summary::Summary;
 pub use timed::Timed;

@@ -4,8 +4,8 @@ use crate::{
     Found, Journal, Known, Report, Run, Study,
     course::Course,
     goal::{Fitness, Runs, costs},
+    journal::SCORES,
     sample::Sample,
-    study::SCORES,
 };
 use std::collections::{BTreeMap, BTreeSet};
 

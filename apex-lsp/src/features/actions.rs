@@ -1,7 +1,7 @@
 //! Code actions: fixes of errors, and connections by name written out.
 
 use super::{Ready, diagnostics::diagnostic};
-use apex_dsl::report::Fix;
+use crate::analysis::Certain;
 use apex_ide::fix;
 use lsp_types::{CodeAction, CodeActionKind, Range, TextEdit, WorkspaceEdit};
 use std::collections::HashMap;
@@ -12,15 +12,6 @@ pub struct Offered {
     pub action: CodeAction,
     /// For an unambiguous fix: the expected effect of a trial.
     pub certain: Option<Certain>,
-}
-
-/// A fix that its diagnostic marks as unambiguous.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Certain {
-    /// The fix.
-    pub fix: Fix,
-    /// Message of the error that it should remove.
-    pub message: String,
 }
 
 /// Code actions for the diagnostics in `range`.
