@@ -2,13 +2,13 @@
 //! again.
 
 mod trim;
+mod wanted;
 
 use crate::project::print_error;
 use apex_host::{Workspace, cargo, no_cargo};
 use serde_json::Value;
 use std::{
     env,
-    ffi::OsString,
     fs::{self, File, TryLockError},
     io::{self, BufRead as _, BufReader, IsTerminal as _, Read},
     path::{Path, PathBuf},
@@ -18,17 +18,7 @@ use std::{
 };
 use trim::Trimmed;
 
-/// A crate that cargo builds.
-pub struct Wanted {
-    /// Arguments of cargo that select the crate.
-    pub select: Vec<OsString>,
-    /// Folder of its package.
-    pub package: PathBuf,
-    /// Root of the workspace in which the command works; its cargo configuration applies.
-    pub root: PathBuf,
-    /// Target folder.
-    pub target: PathBuf,
-}
+pub use wanted::Wanted;
 
 /// Settings of a build.
 #[derive(Clone, Copy, Default)]

@@ -1,10 +1,10 @@
 //! `apex studio`: builds and starts a robot, and opens the page on which it can be seen; or opens the page of a study.
 
+mod launch;
 mod launched;
 mod text;
 
 use crate::{
-    build::How,
     project::{self, print_error},
     run, tune,
 };
@@ -21,18 +21,7 @@ use std::{
 };
 use text::Text;
 
-/// A robot that is built and started.
-pub struct Launch {
-    pub file: PathBuf,
-    pub robot: Option<String>,
-    pub replay: Option<PathBuf>,
-    pub simulated: bool,
-    /// `true` for a second robot that gets the inputs of the first one.
-    pub shadow: bool,
-    pub params: Option<PathBuf>,
-    pub args: Vec<String>,
-    pub how: How,
-}
+pub use launch::Launch;
 
 /// The page.
 pub struct Page {

@@ -8,9 +8,10 @@ use std::{
 };
 
 /// Folders with the sources of crates.
-const CRATES: [&str; 17] = [
+const CRATES: [&str; 18] = [
     "apex-attributes/src",
     "apex-bag/src",
+    "apex-cli/src",
     "apex-dsl/src",
     "apex-host/src",
     "apex-ide/src",

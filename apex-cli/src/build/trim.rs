@@ -1,6 +1,6 @@
 //! Programs without the paths of the machine that has built them, for those that are handed on.
 
-use super::Wanted;
+use super::wanted::Wanted;
 use crate::project::print_error;
 use apex_host::cargo;
 use serde_json::Value;

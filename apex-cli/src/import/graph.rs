@@ -1,10 +1,11 @@
 //! Contents of a graph file.
 
 use super::{
-    Wrong, known,
+    known,
+    known::MESSAGE,
     names::{self, Taken},
     ports::{Kind, Port, PortId},
-    text::MESSAGE,
+    wrong::Wrong,
     yaml::{Value, Yaml},
 };
 use std::collections::{BTreeMap, BTreeSet};

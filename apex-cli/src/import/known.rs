@@ -33,3 +33,9 @@ const KNOWN: [Known; 3] = [
 pub fn find(ty: &str) -> Option<&'static Known> {
     KNOWN.iter().find(|known| known.theirs == ty)
 }
+
+/// Type of ports whose type the graph file does not specify.
+pub const MESSAGE: &str = "Message";
+
+/// Type of the notes on the canvas, which do nothing.
+pub const NOTE: &str = "csapex::Note";

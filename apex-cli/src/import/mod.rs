@@ -7,29 +7,16 @@ mod names;
 mod ports;
 mod skeletons;
 mod text;
+mod wrong;
 mod yaml;
 
 use crate::{project, replace};
 use apex_host::read_text;
 use std::{path::Path, process::ExitCode};
+use wrong::Wrong;
 
 /// Maximum size of a graph file in bytes.
 const MAX_BYTES: usize = 16 << 20;
-
-/// An error in a graph file.
-#[derive(Debug, PartialEq)]
-pub struct Wrong {
-    /// Line, counted from 1.
-    pub line: usize,
-    /// Message.
-    pub message: String,
-}
-
-impl Wrong {
-    fn new(line: usize, message: impl Into<String>) -> Self {
-        Self { line, message: message.into() }
-    }
-}
 
 /// Writes the graph of `file` as a source file to `output`, or prints it. Skeletons of the nodes that the library lacks
 /// are written to `nodes`. If `file` has an error, nothing is written.

@@ -1,6 +1,6 @@
 //! The ends of connections.
 
-use super::Wrong;
+use super::wrong::Wrong;
 
 /// Kind of a port, as seen from its own graph or node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

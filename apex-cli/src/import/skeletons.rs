@@ -2,9 +2,11 @@
 
 use super::{
     graph::{Graph, Param},
-    known, names,
+    known,
+    known::{MESSAGE, NOTE},
+    names,
     ports::{Kind, Port},
-    text::{self, MESSAGE, NOTE},
+    text,
 };
 use std::{
     collections::{BTreeMap, BTreeSet},

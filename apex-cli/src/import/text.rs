@@ -2,13 +2,11 @@
 
 use super::{
     graph::{Connection, Graph, Node, Param},
-    known, names,
+    known::{self, MESSAGE, NOTE},
+    names,
     ports::{Kind, Port, PortId},
 };
 use std::{collections::BTreeSet, fmt::Write as _};
-
-/// Type of ports whose type the graph file does not specify.
-pub const MESSAGE: &str = "Message";
 
 /// The source file; `module` is the module of the type of messages.
 pub fn write(top: &Graph, module: &str) -> String {
@@ -64,9 +62,6 @@ fn write_connection(graph: &Graph, connection: &Connection, text: &mut String) {
     let signal = if connection.needs_signal() { format!("Signal() {arrow} ") } else { String::new() };
     let _ = writeln!(text, "{} {arrow} {signal}{};", end(graph, from), end(graph, to));
 }
-
-/// Type of the notes on the canvas, which do nothing.
-pub const NOTE: &str = "csapex::Note";
 
 fn write_node(node: &Node, connected: &BTreeSet<&Port>, text: &mut String) {
     if node.ty == NOTE {

@@ -1,6 +1,6 @@
 //! The part of YAML that graph files need: scalars, lists and maps, with lines.
 
-use super::Wrong;
+use super::wrong::Wrong;
 use saphyr_parser::{Event, Parser};
 use std::collections::BTreeSet;
 

@@ -1,6 +1,6 @@
 //! A robot that this program builds and starts.
 
-use super::{Launch, Text};
+use super::{launch::Launch, text::Text};
 use crate::{
     project::{self, print_error},
     run::{Found, KEPT, LOAD, Limits, Params, Recording, Stream, Wanted},

@@ -1,6 +1,10 @@
 //! Explanations of text that matches no rule of the grammar.
 
-use super::{grammar::{Grammar, Rule}, keywords::{self, KeywordPosition}, mistakes::CommonMistake};
+use super::{
+    grammar::{Grammar, Rule},
+    keywords::{self, KeywordPosition},
+    mistakes::CommonMistake,
+};
 use crate::{
     report::{Diagnostic, nearest},
     source::{FileId, Span},

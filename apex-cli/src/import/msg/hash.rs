@@ -1,8 +1,8 @@
 //! Hash of a type (RIHS01, REP 2016): the checksum SHA-256 of its description in JSON, with those of its parts.
 
 use super::{
-    Types,
     parse::{Element, Field, Many, Plain, Type},
+    types::Types,
 };
 use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;

@@ -1,23 +1,25 @@
 //! `apex import --msg`: reads definitions of messages, services and actions of ROS 2 (`.msg`, `.srv`, `.action`), and
 //! writes Rust structs that are encoded as these messages.
 //!
-//! A definition file becomes [`Type`]s ([`parse`]): a service is two messages, an action eight. [`Types`] are all of
+//! A definition file becomes [`Type`]s ([`parse`]): a service is two messages, an action eight. [`types::Types`] are all of
 //! them, with those of the crate `apex-messages`, to which they may refer. They give the complete definition of a type
 //! and its hash ([`hash`]). Each package becomes a Rust module ([`rust`]).
 
 mod hash;
 mod parse;
 mod rust;
+mod types;
 
 use crate::{project, replace};
 use apex_host::read_text;
-use parse::{Kind, Type};
+use parse::Kind;
 use std::{
-    collections::{BTreeMap, BTreeSet},
+    collections::BTreeSet,
     fs,
     path::{Path, PathBuf},
     process::ExitCode,
 };
+use types::Types;
 
 /// Maximum size of a definition file in bytes.
 const MAX_BYTES: usize = 1 << 20;
@@ -41,7 +43,7 @@ pub fn run(paths: &[PathBuf], output: Option<&Path>) -> Result<ExitCode, String>
             has_errors = true;
         }
     }
-    let rust = if has_errors { None } else { report(types.rust()) };
+    let rust = if has_errors { None } else { report(rust::write(&types)) };
     let Some(rust) = rust else { return Ok(ExitCode::from(1)) };
     match output {
         Some(path) => replace::write(path, &rust)?,
@@ -101,83 +103,4 @@ fn add(file: &Path, types: &mut Types) -> Result<(), String> {
         types.add(ty).map_err(|message| at(format!(" {message}")))?;
     }
     Ok(())
-}
-
-/// Types by their names: `sensor_msgs/msg/LaserScan`.
-#[derive(Default)]
-pub struct Types {
-    /// Types that are written.
-    own: BTreeMap<String, Type>,
-    /// Types of `apex-messages`.
-    common: BTreeMap<String, Type>,
-}
-
-impl Types {
-    /// The types of `apex-messages`.
-    fn common() -> Self {
-        let mut types = Self::default();
-        for known in apex_messages::ALL {
-            let Some((package, ty)) = known.name.split_once("/msg/") else { continue };
-            // The definitions of the messages in it follow.
-            let own = known.definition.split("\n===").next().unwrap_or_default();
-            let read = parse::read(own, package, ty, Kind::Message).unwrap_or_default();
-            types.common.extend(read.into_iter().map(|ty| (ty.name.clone(), ty)));
-        }
-        types
-    }
-
-    fn add(&mut self, ty: Type) -> Result<(), String> {
-        let same = |other: &&Type| other.package() == ty.package() && other.rust_name() == ty.rust_name();
-        if let Some(other) = self.own.values().find(same) {
-            return Err(format!("`{}` and `{}` would be the same struct: rename one", ty.name, other.name));
-        }
-        self.own.insert(ty.name.clone(), ty);
-        Ok(())
-    }
-
-    /// Type of this name.
-    fn get(&self, name: &str) -> Result<&Type, String> {
-        self.own.get(name).or_else(|| self.common.get(name)).ok_or_else(|| {
-            let package = name.split('/').next().unwrap_or_default();
-            format!("unknown type `{name}`: name the folder of `{package}`, too")
-        })
-    }
-
-    /// Types in a type, in the order in which they are used, each once.
-    fn parts<'a>(&'a self, ty: &'a Type) -> Result<Vec<&'a Type>, String> {
-        let (mut parts, mut path) = (vec![], vec![&*ty.name]);
-        self.add_parts(ty, &mut parts, &mut path)?;
-        Ok(parts)
-    }
-
-    fn add_parts<'a>(&'a self, ty: &'a Type, parts: &mut Vec<&'a Type>, path: &mut Vec<&'a str>) -> Result<(), String> {
-        for name in ty.fields.iter().filter_map(|field| field.message()) {
-            if path.contains(&name) {
-                return Err(format!("`{}` contains itself", ty.name));
-            }
-            let part = self.get(name).map_err(|message| format!("`{}` has a field of an {message}", ty.name))?;
-            if !parts.iter().any(|known| known.name == part.name) {
-                parts.push(part);
-                path.push(&part.name);
-                self.add_parts(part, parts, path)?;
-                path.pop();
-            }
-        }
-        Ok(())
-    }
-
-    /// Definition of a type with those of its parts.
-    fn definition(&self, ty: &Type) -> Result<String, String> {
-        let mut text = ty.text();
-        for part in self.parts(ty)? {
-            let name = part.name.replacen("/msg/", "/", 1);
-            text.push_str(&format!("\n{}\nMSG: {name}\n{}", "=".repeat(80), part.text()));
-        }
-        Ok(text)
-    }
-
-    /// Rust code of all own types.
-    fn rust(&self) -> Result<String, String> {
-        rust::write(self)
-    }
 }

@@ -1,8 +1,9 @@
 //! Rust code of types: a module for each package, a struct for each message.
 
 use super::{
-    Types, hash,
+    hash,
     parse::{Element, Field, Many, Role, Type},
+    types::Types,
 };
 use crate::import::names;
 use std::{collections::BTreeMap, fmt::Write as _};

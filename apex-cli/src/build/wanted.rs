@@ -1,0 +1,15 @@
+//! What cargo builds.
+
+use std::{ffi::OsString, path::PathBuf};
+
+/// A crate that cargo builds.
+pub struct Wanted {
+    /// Arguments of cargo that select the crate.
+    pub select: Vec<OsString>,
+    /// Folder of its package.
+    pub package: PathBuf,
+    /// Root of the workspace in which the command works; its cargo configuration applies.
+    pub root: PathBuf,
+    /// Target folder.
+    pub target: PathBuf,
+}
