@@ -8,7 +8,7 @@ use std::{
 };
 
 /// Folders with the sources of crates.
-const CRATES: [&str; 18] = [
+const CRATES: [&str; 17] = [
     "apex-attributes/src",
     "apex-bag/src",
     "apex-cli/src",
@@ -26,7 +26,6 @@ const CRATES: [&str; 18] = [
     "apex-tune/src",
     "robots/explorer/src",
     "robots/follow/src",
-    "robots/sick-robot-day/src",
 ];
 
 /// Files that use each other because their types contain one another.

@@ -1,4 +1,4 @@
-//! What cargo builds.
+//! The crates that cargo builds.
 
 use std::{ffi::OsString, path::PathBuf};
 

@@ -1,4 +1,4 @@
-//! What is started for a page.
+//! The robot that is started for a page.
 
 use crate::build::How;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! What all that is generated for a program depends on.
+//! The generator: all that the code of a program depends on.
 
 use super::{
     bugs::Bugs,

@@ -1,4 +1,4 @@
-//! What a program keeps of activity: flags, and the places that they stand for.
+//! Flags of activity, and the places that they stand for.
 
 use crate::graph::NodeId;
 

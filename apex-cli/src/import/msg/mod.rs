@@ -1,9 +1,9 @@
 //! `apex import --msg`: reads definitions of messages, services and actions of ROS 2 (`.msg`, `.srv`, `.action`), and
 //! writes Rust structs that are encoded as these messages.
 //!
-//! A definition file becomes [`Type`]s ([`parse`]): a service is two messages, an action eight. [`types::Types`] are all of
-//! them, with those of the crate `apex-messages`, to which they may refer. They give the complete definition of a type
-//! and its hash ([`hash`]). Each package becomes a Rust module ([`rust`]).
+//! A definition file becomes [`Type`](parse::Type)s ([`parse`]): a service is two messages, an action eight. [`Types`]
+//! are all of them, with those of the crate `apex-messages`, to which they may refer. They give the complete definition
+//! of a type and its hash ([`hash`]). Each package becomes a Rust module ([`rust`]).
 
 mod hash;
 mod parse;
