@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub struct Local<'a> {
     /// The program.
     pub lower: Lower<'a>,
-    /// Where its tokens are kept.
+    /// Places of its tokens.
     pub plan: &'a Plan,
     /// Tokens that only this firing has.
     pub tokens: BTreeMap<PortId, Value>,

@@ -39,7 +39,7 @@ const RECURSIVE: [[&str; 2]; 2] = [
 /// A module by its path in the crate. It has a file.
 type Module = Vec<String>;
 
-/// What a file declares and uses.
+/// Names that a file declares, and paths that it uses.
 #[derive(Default)]
 struct File {
     /// Its path in the repository.
