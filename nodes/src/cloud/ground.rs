@@ -19,9 +19,10 @@ const MOST: usize = 128;
 /// - the point before it in its column is on an obstacle, and it is straight above that.
 ///
 /// A slope is steeper than the angle `steep` if one point is straight above another one. Obstacles are overhanging
-/// beyond `overhang` above the line. A point is below the ground, in a ditch, if it is below the line by more than
-/// `ditch`, and by half of `bend` for each metre, and the ground before it is nearer than `brink`: beyond that, a hill
-/// may lie in between.
+/// beyond `overhang` above the line. A point is below the ground, in a ditch, if the ground goes on behind it: if there
+/// is a point behind it, at most as high as the ground may be there, and it is below the line from the ground before it
+/// to that point by more than `ditch`, and by half of `bend` for each metre. Both ends of the line are nearer than
+/// `brink`. Behind a bump or a crest, where the ground falls and stays low, there is no ditch.
 ///
 /// `columns` are in the level frame of the robot, whose origin is on the ground, as `CompensateTurn` sends them.
 /// Columns that are not whole give ⊥.
@@ -48,13 +49,15 @@ pub struct RingClassifier {
     /// Depth below the line of the ground from which on a point is in a ditch.
     #[param(unit = "m", default = 0.1, range = 0.01..=10.0)]
     ditch: f32,
-    /// Distance of the ground before a ditch.
+    /// Distance of the ground before a point in a ditch, and of that behind it.
     #[param(unit = "m", default = 2.5, range = 0.0..=100.0)]
     brink: f32,
 }
 
 /// Height above the line of the ground beyond which a point is on an obstacle, in m, and per metre from the ground.
 const HIGH: [f32; 2] = [0.4, 0.12];
+/// Part of `bend` by which the slope may change at a ditch.
+const UNSURE: f32 = 0.5;
 /// Least distance over which the slope of the ground is measured, in m.
 const LEAST: f32 = 1.5;
 
@@ -110,7 +113,8 @@ impl RingClassifier {
             let (r, z) = (column.distances[row], column.heights[row]);
             let [from, height] = ground.points[ground.count - 1];
             let ahead = (r - from).max(0.0);
-            let off = z - height - ground.slope(ahead) * ahead;
+            let slope = ground.slope(ahead);
+            let off = z - height - slope * ahead;
             let tolerance = self.bend * ahead;
             let is_steep = z - height > column.limits[0] * ahead || off > HIGH[0] + HIGH[1] * ahead;
             let goes_on = last.is_some_and(|below: usize| {
@@ -121,7 +125,7 @@ impl RingClassifier {
                 || off > 0.3 * self.step && column.next(row).is_some_and(|i| column.is_above(i, row, self.step));
             labels[row] = if goes_on || stands || is_foot() {
                 if off > self.overhang { Label::Overhanging } else { Label::Obstacle }
-            } else if off < -self.ditch - 0.5 * tolerance && ahead < self.brink {
+            } else if ahead < self.brink && self.is_in_ditch(column, row, [from, height], slope) {
                 Label::Below
             } else {
                 ground.add([r, z]);
@@ -129,6 +133,26 @@ impl RingClassifier {
             };
             last = Some(row);
         }
+    }
+}
+
+impl RingClassifier {
+    /// Returns `true` for a point below the ground, which goes on behind it. The ground before the point is at `from`,
+    /// with this slope.
+    fn is_in_ditch(&self, column: &Column<'_>, row: usize, from: [f32; 2], slope: f32) -> bool {
+        let [ahead, rise] = [column.distances[row] - from[0], column.heights[row] - from[1]];
+        let is_below = |slope: f32| slope * ahead - rise > self.ditch + UNSURE * self.bend * ahead;
+        // What is higher than this behind the point stands on the ground.
+        let most = slope + UNSURE * self.bend;
+        if !is_below(most) {
+            return false;
+        }
+        let behind = (0..row).rev().filter(|i| column.is_measured(*i));
+        let mut near = behind.take_while(|i| column.distances[*i] - column.distances[row] < self.brink);
+        near.any(|i| {
+            let way = column.distances[i] - from[0];
+            way > ahead && is_below(((column.heights[i] - from[1]) / way).min(most))
+        })
     }
 }
 
@@ -241,6 +265,30 @@ mod tests {
         let seen = labels(&ditch, 4.2, 5.99);
         assert!(seen.contains(&Label::Below), "{seen:?}");
         assert!(all(&labels(&ditch, 6.0, 80.0), Label::Floor));
+    }
+
+    #[test]
+    fn bumps_and_crests_are_no_ditches() {
+        // A bump that the lowest rings meet, and two crests behind which the ground falls.
+        let bump = [[0.0, 0.0], [2.2, 0.0], [2.6, 0.16], [3.0, 0.0], [80.0, 0.0]];
+        let crest = |fall: f32| [[0.0, 0.0], [3.0, 0.3], [6.0, 0.3 - 3.0 * fall], [80.0, 0.3 - 3.0 * fall]];
+        for profile in [&bump[..], &crest(0.05), &crest(0.1), &crest(0.2)] {
+            let seen = labels(profile, 0.0, 80.0);
+            assert!(!seen.contains(&Label::Below), "{profile:?}: {seen:?}");
+        }
+    }
+
+    #[test]
+    fn a_ditch_on_a_slope_is_seen() {
+        let on = |slope: f32, profile: &[[f32; 2]]| -> Vec<[f32; 2]> {
+            profile.iter().map(|[r, z]| [*r, z + slope * r]).collect()
+        };
+        let ditch = [[0.0, 0.0], [3.3, 0.0], [3.6, -0.6], [4.4, -0.6], [4.7, 0.0], [80.0, 0.0]];
+        for slope in [-0.05, 0.1] {
+            // A ring that meets the far wall sees something upright.
+            let seen = labels(&on(slope, &ditch), 3.3, 4.7);
+            assert!(seen.iter().any(|label| *label != Label::Floor), "{slope}: {seen:?}");
+        }
     }
 
     #[test]

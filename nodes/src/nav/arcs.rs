@@ -2,7 +2,7 @@ use super::{Path, open::Open};
 use crate::{
     map::{Cell, DistanceTransform, Grid, Occupancy},
     persons::{Person, Persons},
-    scan::{Point2, Pose2, wrap_angle},
+    scan::{BeamDirections, Point2, Pose2, Scan, wrap_angle},
 };
 use apex_rt::{Event, node};
 use core::f32::consts::TAU;
@@ -32,6 +32,8 @@ const STRAY: f32 = 0.5;
 const ASTRAY: [f32; 2] = [0.3, 2.3];
 /// Distance of the place on the border of the map at which it is reached, in m.
 const BEYOND: f32 = 1.5;
+/// Distance from the place of the followed person up to which the scanner sees that person, in m.
+const PERSON: f32 = 0.6;
 /// Radius of a person with room to walk, in m, and time for which persons are predicted, in s.
 const BODY: f32 = 0.45;
 const PREDICTED: f32 = 2.0;
@@ -51,10 +53,11 @@ const NONE: u32 = u32::MAX;
 /// ground carries.
 ///
 /// `map`, `pose` and `trail` are in the frame of the person; the last ones count when a goal comes. What is occupied
-/// where the vehicle stands is taken to be wrong. A person outside of the map is approached up to its border, along the
-/// trail if there is one. `path` is a path forward, `back` one backward, which are to be followed by different
-/// inputs of a follower: of a path that changes its direction only the first piece is sent. `no_path` says that there
-/// is none to this person, or that no map or pose has come yet.
+/// where the vehicle stands is taken to be wrong, unless the last `scan`, which is in the frame of the vehicle, sees it
+/// there: from what really stands that close the vehicle can only get away. A person outside of the map is approached
+/// up to its border, along the trail if there is one. `path` is a path forward, `back` one backward, which are to be
+/// followed by different inputs of a follower: of a path that changes its direction only the first piece is sent.
+/// `no_path` says that there is none to this person, or that no map or pose has come yet.
 #[node]
 #[derive(Debug, Clone)]
 pub struct ArcPlanner {
@@ -89,6 +92,9 @@ pub struct ArcPlanner {
     pose: Option<Pose2>,
     persons: Persons,
     trail: Path,
+    /// Points of the last scan near the vehicle, in the frame of the map.
+    seen: Vec<Point2>,
+    directions: BeamDirections,
     search: Search,
 }
 
@@ -125,6 +131,7 @@ impl ArcPlanner {
         pose: Option<&Pose2>,
         persons: Option<&Persons>,
         trail: Option<&Path>,
+        scan: Option<&Scan>,
     ) {
         if let Some(map) = map {
             match &mut self.map {
@@ -138,6 +145,12 @@ impl ArcPlanner {
         }
         if let Some(trail) = trail {
             self.trail.clone_from(trail);
+        }
+        if let (Some(scan), Some(pose)) = (scan, self.pose) {
+            let reach = self.length + 2.0 * self.radius_of_discs();
+            let near = self.directions.points(scan).filter(|(_, point)| point.norm() <= reach);
+            self.seen.clear();
+            self.seen.extend(near.map(|(_, point)| pose.to_outer(point)));
         }
     }
 
@@ -154,7 +167,7 @@ impl ArcPlanner {
     fn plan(&mut self, person: &Person) -> Option<(Path, bool)> {
         let (mut map, start) = (self.map.take()?, self.pose?);
         let mut search = core::mem::take(&mut self.search);
-        self.free_discs(&mut map, &start);
+        self.free_discs(&mut map, &start, person);
         search.transform.run(&map, |cell| cell.is_obstacle(), &mut search.distances);
         self.map = Some(map);
         let (goal, reach) = self.target(&search.distances, &start, person);
@@ -164,11 +177,22 @@ impl ArcPlanner {
         planned
     }
 
-    /// Frees the cells in the discs that cover the vehicle, which stands there: obstacles in them are false, or it
-    /// touches them already. It could not leave them otherwise.
-    fn free_discs(&self, map: &mut Grid<Occupancy>, start: &Pose2) {
-        let radius = self.radius_of_discs() + map.raster().resolution;
-        self.discs(start).into_iter().for_each(|middle| free(map, middle, radius));
+    /// Frees the cells in the discs that cover the vehicle, which stands there: obstacles in them are false, unless they
+    /// are seen. It could not leave them otherwise.
+    fn free_discs(&self, map: &mut Grid<Occupancy>, start: &Pose2, followed: &Person) {
+        let raster = *map.raster();
+        let radius = self.radius_of_discs() + raster.resolution;
+        let discs = self.discs(start);
+        discs.into_iter().for_each(|middle| free(map, middle, radius));
+        let is_there = |point: &&Point2| {
+            let is_freed = discs.into_iter().any(|middle| (**point - middle).norm() <= radius + raster.resolution);
+            is_freed && (**point - followed.position).norm() > PERSON
+        };
+        for point in self.seen.iter().filter(is_there) {
+            if let Some(cell) = raster.cell(*point).and_then(|cell| map.get_mut(cell)) {
+                *cell = Occupancy::Occupied;
+            }
+        }
     }
 
     /// Middles of the two discs that cover the vehicle.
@@ -408,7 +432,7 @@ mod tests {
     }
 
     fn plan(walls: &[(f32, f32, f32, f32)], backward: bool, person: Point2, others: &[Person]) -> Option<(Path, bool)> {
-        plan_with(walls, backward, person, others, None)
+        plan_with(walls, backward, person, others, None, None)
     }
 
     fn plan_with(
@@ -417,10 +441,11 @@ mod tests {
         person: Point2,
         others: &[Person],
         trail: Option<&Path>,
+        scan: Option<&Scan>,
     ) -> Option<(Path, bool)> {
         let mut node = ArcPlanner::construct((0.72, 0.61, 0.1, 0.5, 1.2, 2.0, 0.0, backward, 2.0));
         let persons: Persons = others.iter().copied().collect();
-        node.process(Some(&map(walls)), Some(&Pose2::default()), Some(&persons), trail);
+        node.process(Some(&map(walls)), Some(&Pose2::default()), Some(&persons), trail, scan);
         let (mut path, mut back, mut none) = (None, None, None);
         let goal = Person { id: 7, position: person, ..Person::default() };
         node.goal(&goal, event(&mut path), event(&mut back), event(&mut none));
@@ -478,6 +503,21 @@ mod tests {
     }
 
     #[test]
+    fn a_vehicle_backs_away_from_what_it_sees_close_by() {
+        let person = Point2::new(8.0, 0.0);
+        // A pole 0.55 m ahead of the middle, which the map takes for a part of the vehicle's place.
+        let mut scan = Scan { angle_min: -PI, angle_increment: PI / 180.0, range_max: 20.0, ..Scan::default() };
+        scan.ranges.extend((0..360_i32).map(|i| if (i - 180).abs() <= 12 { 0.55 } else { f32::INFINITY }));
+        let ask = |backward, person| plan_with(&[], backward, person, &[], None, Some(&scan));
+        assert!(ask(false, person).is_none());
+        let (path, is_back) = ask(true, person).expect("a path");
+        assert!(is_back && path.goal().expect("an end").x < -0.2, "{path:?}");
+        // Not if it is the person.
+        let gap = Point2::new(0.7, 0.0);
+        assert!(ask(false, gap).is_some());
+    }
+
+    #[test]
     fn it_goes_where_the_person_went() {
         // Round a corner to the left: the straight way is free, too.
         let corner = [Point2::new(0.0, 0.0), Point2::new(7.0, 0.0), Point2::new(7.0, 7.0)];
@@ -489,11 +529,11 @@ mod tests {
             path.points.iter().map(off).fold(0.0, f32::max)
         };
         let straight = plan(&[], false, corner[2], &[]).expect("a path").0;
-        let along = plan_with(&[], false, corner[2], &[], Some(&trail)).expect("a path").0;
+        let along = plan_with(&[], false, corner[2], &[], Some(&trail), None).expect("a path").0;
         assert!(off(&straight) > 2.2 && off(&along) < 1.6, "{} m, {} m", off(&straight), off(&along));
         // Beyond the map it leads towards the end of the trail on it.
         let far = Point2::new(-20.0, 30.0);
-        let along = plan_with(&[], false, far, &[], Some(&trail)).expect("a path").0;
+        let along = plan_with(&[], false, far, &[], Some(&trail), None).expect("a path").0;
         assert!(way(along.goal().expect("an end"), corner[2]) < 2.0, "{:?}", along.goal());
     }
 
