@@ -16,16 +16,13 @@ use apex_rt::Out;
 use std::{env, fs, process::ExitCode};
 
 mod check;
-mod clutter;
 mod forms;
 mod pen;
 mod reliability;
 
-const EPOCHS: u32 = 24;
-const DIGITS_PER_EPOCH: usize = 12_000;
-const HIDDEN: usize = 120;
-/// Share of examples without a whole digit.
-const REJECTED: f32 = 0.3;
+const EPOCHS: u32 = 20;
+const DIGITS_PER_EPOCH: usize = 6000;
+const HIDDEN: usize = 80;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -52,7 +49,7 @@ fn write(path: &str, seed: u64) -> Result<(), String> {
 /// Trains a network on new digits in each epoch, with a decreasing learning rate.
 fn train(seed: u64) -> Model {
     let mut random = Random::new(seed);
-    let mut network = Mlp::new(&[GLYPH_SIDE * GLYPH_SIDE, HIDDEN, clutter::NO_DIGIT + 1], &mut random);
+    let mut network = Mlp::new(&[GLYPH_SIDE * GLYPH_SIDE, HIDDEN, 10], &mut random);
     let mut trainer = Trainer::new(&network, seed);
     trainer.decay = 0.01;
     println!("{:>6} {:>8} {:>8}", "epoch", "loss", "right");
@@ -64,40 +61,16 @@ fn train(seed: u64) -> Model {
         let loss = trainer.epoch(&mut network, &examples);
         println!("{:>6} {loss:>8.4} {:>7.2}%", epoch + 1, 100.0 * right);
     }
-    let heat = calibrate(&mut network, &examples(4 * DIGITS_PER_EPOCH, &mut random));
-    println!("temperature {heat:.3}");
     let provenance = format!("drawn by the example train_digits: {EPOCHS} epochs of {DIGITS_PER_EPOCH} digits");
     Model { provenance, seed, network }
 }
 
 fn examples(count: usize, random: &mut Random) -> Vec<Example> {
     let example = |i: usize| {
-        let class = if random.chance(REJECTED) { clutter::NO_DIGIT } else { i % 10 };
-        let input = features(&clutter::draw(class, random))?;
-        Some(Example { input: input.to_vec(), class })
+        let input = features(&pen::draw(i % 10, random))?;
+        Some(Example { input: input.to_vec(), class: i % 10 })
     };
     (0..count).filter_map(example).collect()
-}
-
-/// Makes the outputs of a network probabilities that are as right as often as they say, on examples that it was not
-/// trained on: divides the inputs of the softmax by the temperature of the least loss (Guo et al. 2017), and returns it.
-fn calibrate(network: &mut Mlp, examples: &[Example]) -> f32 {
-    let mut activity = Activity::default();
-    let outputs: Vec<(Vec<f32>, usize)> =
-        examples.iter().map(|e| (network.run(&e.input, &mut activity).to_vec(), e.class)).collect();
-    let loss = |heat: f32| -> f64 {
-        let of = |(outputs, class): &(Vec<f32>, usize)| {
-            let warm = |p: f32| f64::from(p.max(f32::MIN_POSITIVE)).powf(f64::from(1.0 / heat));
-            -(warm(outputs[*class]) / outputs.iter().map(|p| warm(*p)).sum::<f64>()).ln()
-        };
-        outputs.iter().map(of).sum()
-    };
-    let heats = (0..80).map(|i| 0.5 * 1.03_f32.powi(i));
-    let best = heats.min_by(|a, b| loss(*a).total_cmp(&loss(*b))).unwrap_or(1.0);
-    if let Some(last) = network.layers_mut().last_mut() {
-        last.bias.iter_mut().chain(&mut last.weights).for_each(|weight| *weight /= best);
-    }
-    best
 }
 
 /// Glyph of a whole image.

@@ -18,39 +18,6 @@ pub fn draw(digit: usize, random: &mut Random) -> GrayImage {
     render(&strokes, &hand, random)
 }
 
-/// Paper without a digit.
-pub fn paper(random: &mut Random) -> GrayImage {
-    let hand = Hand::random(random);
-    render(&vec![], &hand, random)
-}
-
-/// Strokes that are not a digit: lines and arcs in random places.
-pub fn scribble(random: &mut Random) -> GrayImage {
-    let hand = Hand::random(random);
-    let count = 2 + random.bits() % 3;
-    let point = |random: &mut Random| [random.uniform(0.0, 1.0), random.uniform(0.0, 1.0)];
-    let stroke = |random: &mut Random| {
-        if random.chance(0.5) {
-            let from = random.uniform(0.0, 360.0);
-            let radii = [random.uniform(0.1, 0.5), random.uniform(0.1, 0.5)];
-            arc(point(random), radii, from, from + random.uniform(60.0, 360.0))
-        } else {
-            // Level and upright lines, as in letters and forms, and others.
-            let [x, y] = point(random);
-            let [u, v] = point(random);
-            match random.bits() % 4 {
-                0 => vec![[x, y], [u, y]],
-                1 => vec![[x, y], [x, v]],
-                2 => vec![[x, y], [x, v], [u, v]],
-                _ => vec![[x, y], [u, v], point(random)],
-            }
-        }
-    };
-    let strokes: Vec<Vec<[f32; 2]>> = (0..count).map(|_| stroke(random)).collect();
-    let strokes = strokes.iter().map(|stroke| stroke.iter().map(|p| hand.place(*p)).collect()).collect();
-    render(&strokes, &hand, random)
-}
-
 /// Handwriting: properties shared by all strokes of a digit.
 struct Hand {
     /// Width and height of the digit, in pixels.
