@@ -1,8 +1,11 @@
 //! Trains the digit classifier of the library on digits that it draws itself, and writes the model:
 //!
 //! ```text
-//! cargo run --release -p apex-nodes --features image,learn --example train_digits -- FILE [SEED]
+//! cargo run --release -p apex-nodes --features gzip,image,learn --example train_digits -- FILE [SEED]
 //! ```
+//!
+//! With `--check MODEL IMAGES LABELS SVG`, it measures a model on packed files of printed digits in the format of MNIST,
+//! and draws a reliability diagram.
 
 use apex_nodes::{
     image::{GrayImage, Region},
@@ -12,7 +15,10 @@ use apex_nodes::{
 use apex_rt::Out;
 use std::{env, fs, process::ExitCode};
 
+mod check;
+mod forms;
 mod pen;
+mod reliability;
 
 const EPOCHS: u32 = 20;
 const DIGITS_PER_EPOCH: usize = 6000;
@@ -20,24 +26,24 @@ const HIDDEN: usize = 80;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
-    let (path, seed) = match &arguments[..] {
-        [path] => (path, Ok(1)),
-        [path, seed] => (path, seed.parse()),
-        _ => {
-            eprintln!("usage: train_digits FILE [SEED]");
-            return ExitCode::from(2);
-        }
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let done = match &arguments[..] {
+        ["--check", model, images, labels, diagram] => check::check(model, images, labels, diagram),
+        [path] if !path.starts_with('-') => write(path, 1),
+        [path, seed] => match seed.parse() {
+            Ok(seed) => write(path, seed),
+            Err(_) => Err(format!("the seed is a whole number, not `{seed}`")),
+        },
+        _ => Err("usage: train_digits FILE [SEED]\n       train_digits --check MODEL IMAGES LABELS SVG".to_owned()),
     };
-    let Ok(seed) = seed else {
-        eprintln!("the seed is a whole number, not `{}`", arguments[1]);
-        return ExitCode::from(2);
-    };
-    let model = train(seed);
-    if let Err(e) = fs::write(path, model.to_bytes()) {
-        eprintln!("{path} cannot be written: {e}");
-        return ExitCode::from(2);
-    }
-    ExitCode::SUCCESS
+    let Err(why) = done else { return ExitCode::SUCCESS };
+    eprintln!("{why}");
+    ExitCode::from(2)
+}
+
+/// Trains a model and writes it to a file.
+fn write(path: &str, seed: u64) -> Result<(), String> {
+    fs::write(path, train(seed).to_bytes()).map_err(|e| format!("{path} cannot be written: {e}"))
 }
 
 /// Trains a network on new digits in each epoch, with a decreasing learning rate.

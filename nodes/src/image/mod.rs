@@ -45,4 +45,4 @@ pub use morphology::{Close, Dilate, Erode, Open};
 pub use picture::{ColorImage, GrayImage, Image};
 pub use region::{Normalize, Region, largest};
 pub use standing::StandingBlob;
-pub use target::{Target, TargetLines, TargetPose, region_target};
+pub use target::{Target, TargetLines, TargetPose, fits_height, region_target};

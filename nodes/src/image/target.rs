@@ -143,6 +143,31 @@ impl TargetPose {
     }
 }
 
+/// Passes the pose of a thing on a wall if its region is as high as the thing would be there. ⊥ otherwise: what is
+/// partly hidden, or something else, has another height for its distance.
+///
+/// The height is the one between the upper edge of the region's first row and the lower edge of its last row, in the
+/// column of the centre, in the plane of the pose.
+#[node]
+pub fn fits_height(
+    target: &Target,
+    camera: &Camera,
+    pose: &Pose2,
+    #[param(unit = "m", range = 0.0..=100.0)] low: f32,
+    #[param(unit = "m", range = 0.0..=100.0)] high: f32,
+) -> Option<Pose2> {
+    let Region { top, height, .. } = target.region;
+    let far = (pose.position() - Point2::new(camera.position[0], camera.position[1])).norm();
+    let level = |v: f32| {
+        let [x, y, z] = camera.ray(target.centre[0], v);
+        far * z / Point2::new(x, y).norm()
+    };
+    let first = top as f32 - 0.5;
+    let height = level(first) - level(first + height as f32);
+    // False for NaN.
+    (low..=high).contains(&height).then_some(*pose)
+}
+
 /// Straight line fitted to points.
 struct Wall {
     middle: Point2,
@@ -205,6 +230,27 @@ mod tests {
             assert_eq!(node.process(&target, &camera(), &Scan::default()), None);
             assert_eq!(node.process(&target, &Camera::default(), &Scan::default()), None);
         }
+    }
+
+    #[test]
+    fn a_height_fits_its_distance() {
+        let pose = Pose2::new(2.1, 0.3, PI);
+        let fits = |low: f32, high: f32, pose: &Pose2| {
+            let at = |z: f32| camera().project([2.1, 0.3, z]).expect("ahead");
+            let [top, bottom] = [at(0.8)[1], at(0.6)[1]].map(|v| libm::roundf(v + 0.5) as u32);
+            let region = Region { left: 1, top, width: 9, height: bottom - top, area: 9 };
+            fits_height(&Target { centre: at(0.7), region }, &camera(), pose, low, high)
+        };
+        assert_eq!(fits(0.195, 0.205, &pose), Some(pose));
+        assert_eq!((fits(0.21, 0.3, &pose), fits(0.1, 0.19, &pose)), (None, None));
+        // Something lower that hides it, at half the distance, and no distance at all.
+        assert_eq!(fits(0.195, 0.205, &Pose2::new(1.1, 0.15, PI)), None);
+        assert_eq!(fits(0.0, 1.0, &Pose2::new(f32::NAN, 0.0, 0.0)), None);
+        assert_eq!(fits_height(&target_of(Region::default()), &Camera::default(), &pose, 0.1, 1.0), None);
+    }
+
+    fn target_of(region: Region) -> Target {
+        Target { centre: region.middle(), region }
     }
 
     /// A target in a region of 100 by 100 pixels, with these lines.

@@ -9,8 +9,8 @@ mod sensors;
 pub mod world;
 
 pub use nodes::{
-    CUBE, NUMBERS, NumberSign, NumberSigns, clearest, cube_number, is_cube, number_sign, on_paper, sign_number,
-    sign_target,
+    CUBE, NUMBERS, NumberSign, NumberSigns, clearest, cube_number, is_cube, number_sign, on_paper, placed, sign_number,
+    sign_pose, sign_target,
 };
 pub use places::{BorderTour, ChooseStation, is_word, origin};
 pub use sensors::{LASER, camera};

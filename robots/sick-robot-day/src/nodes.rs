@@ -1,6 +1,7 @@
 use apex_nodes::{
     image::{BarCode, GrayImage, MAX_REGIONS, Region, Symbology, Target},
     learn::Class,
+    scan::Pose2,
 };
 use apex_rt::node;
 
@@ -20,13 +21,15 @@ pub struct NumberSign {
     pub confidence: f32,
     /// Region of the digit.
     pub region: Region,
+    /// Pose of the sign in the frame of the robot.
+    pub pose: Pose2,
 }
 
 /// Number signs of one image.
 pub type NumberSigns = heapless::Vec<NumberSign, MAX_REGIONS>;
 
 /// Passes a region with a dark object that has light paper all around, like the digit of a sign. ⊥ for objects that
-/// touch others, like most objects in images.
+/// touch others, like most objects in images, and for those at the edge of the image, which may be cut off.
 #[node]
 pub fn on_paper(image: &GrayImage, region: &Region) -> Option<Region> {
     /// Width of the examined margin as a fraction of the object's height: narrower than the margin of a sign.
@@ -36,12 +39,13 @@ pub fn on_paper(image: &GrayImage, region: &Region) -> Option<Region> {
     let thing = light_of(image, region, |_, _| true);
     let edge = region.grown((MARGIN * region.height as f32).ceil() as u32, image.size());
     let (right, bottom) = (edge.left + edge.width, edge.top + edge.height);
+    let is_whole = edge.left > 0 && edge.top > 0 && right < image.size().0 && bottom < image.size().1;
     let on_edge = |x: u32, y: u32| x == edge.left || x + 1 == right || y == edge.top || y + 1 == bottom;
     let paper = light_of(image, &edge, on_edge);
     let at = |part: usize| paper.get(paper.len() * part / 10).copied().map(f32::from);
     // In an oblique view, the corners of the rectangle may be beside the paper.
     let (ink, dark, light) = (f32::from(*thing.first()?), at(2)?, at(9)?);
-    (light > ink && light - dark <= SHADE * (light - ink)).then_some(*region)
+    (is_whole && light > ink && light - dark <= SHADE * (light - ink)).then_some(*region)
 }
 
 /// Intensities of some pixels in a region, in ascending order.
@@ -59,7 +63,19 @@ fn light_of(image: &GrayImage, region: &Region, which: impl Fn(u32, u32) -> bool
 pub fn number_sign(class: &Class, region: &Region) -> Option<NumberSign> {
     let Class { number, confidence } = *class;
     let is_sign = NUMBERS.contains(&number) && region.width <= region.height;
-    is_sign.then_some(NumberSign { number, confidence, region: *region })
+    is_sign.then_some(NumberSign { number, confidence, region: *region, pose: Pose2::default() })
+}
+
+/// Number sign at its pose in the frame of the robot.
+#[node]
+pub fn placed(sign: &NumberSign, pose: &Pose2) -> NumberSign {
+    NumberSign { pose: *pose, ..*sign }
+}
+
+/// Pose of the sign in the frame of the robot.
+#[node]
+pub fn sign_pose(sign: &NumberSign) -> Pose2 {
+    sign.pose
 }
 
 /// Number sign with the greatest confidence; ⊥ without signs.
@@ -113,6 +129,9 @@ mod tests {
         for other in [touching, light, picture(&|_, _| 90), GrayImage::default()] {
             assert_eq!(on_paper(&other, &digit), None);
         }
+        // A digit that the image cuts off.
+        let cut = picture(&|x, y| if inside(x + 20, y) { 30 } else { 200 });
+        assert_eq!(on_paper(&cut, &Region { left: 0, ..digit }), None);
         assert_eq!(on_paper(&sign, &Region { left: 70, width: u32::MAX, ..digit }), None);
         assert_eq!(on_paper(&sign, &Region::default()), None);
     }

@@ -144,7 +144,7 @@ mod tests {
             knowledge_log.image(&GrayImage { stamp: ctx.now(), ..GrayImage::default() });
             knowledge_log.cross(&Target { centre: [1.0, 2.0], region }, &ctx);
             if second > 300 {
-                knowledge_log.sign(&NumberSign { number: 3, confidence: 1.0, region }, &ctx);
+                knowledge_log.sign(&NumberSign { number: 3, confidence: 1.0, region, ..NumberSign::default() }, &ctx);
             }
         }
         let frames = knowledge_log.frames();
