@@ -153,6 +153,24 @@ fn number(text: &str) -> usize {
     at
 }
 
+/// The text that a string literal stands for.
+pub fn unescape(quoted: &str) -> String {
+    let mut text = String::new();
+    let mut chars = quoted[1..quoted.len() - 1].chars();
+    while let Some(char) = chars.next() {
+        match char {
+            '\\' => match chars.next() {
+                Some('n') => text.push('\n'),
+                Some('t') => text.push('\t'),
+                Some(other) => text.push(other),
+                None => {}
+            },
+            _ => text.push(char),
+        }
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -188,22 +206,4 @@ mod tests {
         let text = "graph Ä { x -> B(\"\\\\\", 1.5m) /* c */ ~ } // d";
         assert_eq!(tokens(text).map(|token| token.text).collect::<String>(), text);
     }
-}
-
-/// The text that a string literal stands for.
-pub fn unescape(quoted: &str) -> String {
-    let mut text = String::new();
-    let mut chars = quoted[1..quoted.len() - 1].chars();
-    while let Some(char) = chars.next() {
-        match char {
-            '\\' => match chars.next() {
-                Some('n') => text.push('\n'),
-                Some('t') => text.push('\t'),
-                Some(other) => text.push(other),
-                None => {}
-            },
-            _ => text.push(char),
-        }
-    }
-    text
 }

@@ -23,6 +23,9 @@ const NO_DIGIT: usize = 10;
 /// Thresholds that are compared.
 const THRESHOLDS: [f32; 5] = [0.5, 0.9, 0.97, 0.99, 0.995];
 
+/// Images with their classes.
+type Examples = Vec<(GrayImage, usize)>;
+
 /// Prints how a model does on drawn digits and on printed digits: alone, on forms, and cut off. Writes the diagram.
 ///
 /// # Errors
@@ -36,7 +39,7 @@ pub fn check(model: &str, images: &str, labels: &str, path: &str) -> Result<(), 
     // A part of a 1 is a 1.
     let parts = printed.iter().filter(|(_, class)| *class != 1);
     let drawn = (0..DRAWN).map(|i| (pen::draw(i % 10, &mut random), i % 10)).collect();
-    let sets: [(&str, &str, Vec<(GrayImage, usize)>); 4] = [
+    let sets: [(&str, &str, Examples); 4] = [
         ("drawn like the training", "#888", drawn),
         ("printed", "#06c", printed.iter().map(|(digit, class)| ((*digit).clone().into(), *class)).collect()),
         ("on forms", "#c60", printed.iter().map(|(d, class)| (forms::framed(d, &mut random), *class)).collect()),
