@@ -4,8 +4,8 @@
 //! cargo run --release -p apex-nodes --features gzip,image,learn --example train_digits -- FILE [SEED]
 //! ```
 //!
-//! With `--check MODEL IMAGES LABELS SVG`, it measures a model on packed files of printed digits in the format of MNIST,
-//! and draws a reliability diagram.
+//! With `--check MODEL IMAGES LABELS SVG`, it measures a model on packed files of printed digits in the format of
+//! MNIST, and draws a reliability diagram.
 
 use apex_nodes::{
     image::{GrayImage, Region},

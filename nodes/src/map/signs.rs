@@ -293,8 +293,8 @@ mod tests {
         assert!(signs.iter().all(|s| s.mean.x.is_finite()));
     }
 
-    /// Map with the default parameters after sightings of a class from places of the robot, of a sign at the origin that
-    /// faces along x.
+    /// Map with the default parameters after sightings of a class from places of the robot, of a sign at the origin
+    /// that faces along x.
     fn seen(sightings: &[(u32, Point2)]) -> Signs {
         let (mut map, mut out) = (SignMap::construct((0.75, 0.8, 0.2, 0.2)), Out::new());
         for (class, from) in sightings {

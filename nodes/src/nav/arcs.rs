@@ -177,8 +177,8 @@ impl ArcPlanner {
         planned
     }
 
-    /// Frees the cells in the discs that cover the vehicle, which stands there: obstacles in them are false, unless they
-    /// are seen. It could not leave them otherwise.
+    /// Frees the cells in the discs that cover the vehicle, which stands there: obstacles in them are false, unless
+    /// they are seen. It could not leave them otherwise.
     fn free_discs(&self, map: &mut Grid<Occupancy>, start: &Pose2, followed: &Person) {
         let raster = *map.raster();
         let radius = self.radius_of_discs() + raster.resolution;
