@@ -24,11 +24,11 @@ pub struct StateField {
 pub enum Kind {
     /// Tokens that outlive a firing, or that a node writes in place.
     Token,
-    /// When a source fires, and how long a node has been active.
+    /// Timers of sources, and the times for which nodes have been active.
     Timer,
     /// Activity of nodes and tokens, and enabled nodes.
     Activity,
-    /// When the sources of tokens fired.
+    /// Times at which the sources of tokens fired.
     Stamp,
     /// Broken claims.
     Claim,

@@ -42,6 +42,18 @@ pub struct Generator<'a> {
 }
 
 impl<'a> Generator<'a> {
+    /// The generator of a program on one thread, which does not look at claims and cannot be recorded.
+    pub fn new(
+        catalog: &'a Catalog,
+        sources: &'a Sources,
+        names: &'a Names,
+        bugs: &'a Bugs,
+        place: &'a dyn Fn(Span) -> proc_macro2::Span,
+    ) -> Self {
+        let (outer, part, parts, cells, claims, channels) = (None, None, &[][..], &[][..], None, None);
+        Self { catalog, sources, names, bugs, place, outer, part, parts, cells, claims, channels }
+    }
+
     /// The generator for the body of the `each` node `node` of `graph`.
     pub fn inside(&'a self, graph: &'a Graph, node: NodeId) -> Generator<'a> {
         let names = self.names.inner.get(&node).unwrap_or(self.names);

@@ -37,19 +37,8 @@ pub fn program(
     let channels = Channels::new(graph, &program.analysis, catalog, parts);
     let channels = recordable.then_some(&channels);
     let claims = program.split.is_none().then_some(&program.claims);
-    let generator = Generator {
-        catalog,
-        sources,
-        names: &names,
-        bugs: &bugs,
-        place,
-        outer: None,
-        part: None,
-        parts,
-        cells,
-        claims,
-        channels,
-    };
+    let plain = Generator::new(catalog, sources, &names, &bugs, place);
+    let generator = Generator { parts, cells, claims, channels, ..plain };
     let code = match &program.split {
         Some(split) => generator.threads(graph, &program.analysis, split, &mut used),
         None => generator.program(graph, &program.analysis),
@@ -77,19 +66,8 @@ pub fn each_part(
     let names = Names::new(graph, catalog, &mut used);
     let bugs = Bugs::new(graph.span);
     let place = |_| proc_macro2::Span::call_site();
-    let generator = Generator {
-        catalog,
-        sources,
-        names: &names,
-        bugs: &bugs,
-        place: &place,
-        outer: None,
-        part: None,
-        parts: &[],
-        cells: &[],
-        claims: program.split.is_none().then_some(&program.claims),
-        channels: None,
-    };
+    let claims = program.split.is_none().then_some(&program.claims);
+    let generator = Generator { claims, ..Generator::new(catalog, sources, &names, &bugs, &place) };
     let Some(split) = &program.split else {
         let lowered = Lowered::new(&generator, graph, &program.analysis);
         return visit(&generator, ProgramView::new(graph, &program.analysis, &lowered), None);

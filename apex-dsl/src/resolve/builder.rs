@@ -127,7 +127,7 @@ impl<'a> Builder<'a> {
             .push(Diagnostic::error("too-large", outermost, message).note("a nested graph counts once for each use"));
     }
 
-    /// Returns `true` if there is no point in continuing.
+    /// Returns `true` if the budget is used up, or no more messages are kept: whatever follows would be lost.
     pub fn is_exhausted(&self) -> bool {
         self.budget.exceeded || self.diagnostics.is_full()
     }

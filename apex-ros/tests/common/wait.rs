@@ -58,14 +58,17 @@ impl<T: Clone + Send + 'static> Collected<T> {
         T: PartialEq<U> + Debug,
     {
         let at_end = |all: &[T]| all.len() >= expected.len() && all[all.len() - expected.len()..] == *expected;
-        self.wait(LONG, at_end);
-        assert!(at_end(&self.all()), "{:?} does not end with {expected:?}", self.all());
+        assert!(self.wait(LONG, at_end), "{:?} does not end with {expected:?}", self.all());
     }
 
-    /// Waits until this is so of all that were collected, at most for some time.
-    pub fn wait(&self, longest: Duration, is_so: impl Fn(&[T]) -> bool) {
+    /// Waits until this is so of all that were collected, at most for some time. Returns `true` if it is.
+    pub fn wait(&self, longest: Duration, is_so: impl Fn(&[T]) -> bool) -> bool {
         let start = Instant::now();
-        while !is_so(&self.0.lock().expect("no panic")) && start.elapsed() < longest {
+        loop {
+            let is_it = is_so(&self.0.lock().expect("no panic"));
+            if is_it || start.elapsed() >= longest {
+                return is_it;
+            }
             thread::sleep(Duration::from_millis(2));
         }
     }

@@ -22,7 +22,7 @@ const MOST: usize = 128;
 /// beyond `overhang` above the line. A point is below the ground, in a ditch, if the ground goes on behind it: if there
 /// is a point behind it, at most as high as the ground may be there, and it is below the line from the ground before it
 /// to that point by more than `ditch`, and by half of `bend` for each metre. Both ends of the line are nearer than
-/// `brink`. Behind a bump or a crest, where the ground falls and stays low, there is no ditch.
+/// `brink`. Ground that falls behind a bump or a crest, and stays low, is not a ditch.
 ///
 /// `columns` are in the level frame of the robot, whose origin is on the ground, as `CompensateTurn` sends them.
 /// Columns that are not whole give ⊥.

@@ -119,13 +119,8 @@ fn explore(options: &mut Options) -> Result<ExitCode, String> {
 }
 
 fn missions(options: &mut Options) -> Result<ExitCode, String> {
-    let (mut seeds, mut setup) = (Seeds::new(10), Setup::new());
-    while let Some(name) = options.next_name()? {
-        match name.as_str() {
-            "first-seed" | "seeds" | "jobs" => seeds.read(&name, options)?,
-            _ => setup.read(&name, options)?,
-        }
-    }
+    let mut setup = Setup::new();
+    let seeds = Seeds::new(10).read_beside(options, |name, options| setup.read(name, options))?;
     say(&format!("{HEAD}\n"))?;
     let runs = rows("runs", &seeds.all(), seeds.jobs, |seed| setup.run(*seed), |_, run| Some(Row(run).to_string()))?;
     say(&format!("\n{}", summary(&runs)))?;
@@ -135,14 +130,11 @@ fn missions(options: &mut Options) -> Result<ExitCode, String> {
 
 /// Prints what the robot does in outages, and those in which it moved longer than it promises.
 fn measure_outages(options: &mut Options) -> Result<ExitCode, String> {
-    let (mut seeds, mut setup) = (Seeds::new(10), Setup::new());
-    while let Some(name) = options.next_name()? {
-        match name.as_str() {
-            "first-seed" | "seeds" | "jobs" => seeds.read(&name, options)?,
-            "minutes" | "battery" => setup.read(&name, options)?,
-            _ => return Err(Options::unknown(&name)),
-        }
-    }
+    let mut setup = Setup::new();
+    let seeds = Seeds::new(10).read_beside(options, |name, options| match name {
+        "minutes" | "battery" => setup.read(name, options),
+        _ => Err(Options::unknown(name)),
+    })?;
     say(&format!("{HEAD}\n"))?;
     let all = seeds.all();
     let work = |seed: &u64| run_with_outages(&setup.of(*seed), setup.longest);

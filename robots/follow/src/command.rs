@@ -108,13 +108,8 @@ fn follow_one(options: &mut Options) -> Result<ExitCode, String> {
 }
 
 fn missions(options: &mut Options) -> Result<ExitCode, String> {
-    let (mut seeds, mut world) = (Seeds::new(1), World::new());
-    while let Some(name) = options.next_name()? {
-        match name.as_str() {
-            "first-seed" | "seeds" | "jobs" => seeds.read(&name, options)?,
-            _ => world.read(&name, options)?,
-        }
-    }
+    let mut world = World::new();
+    let seeds = Seeds::new(1).read_beside(options, |name, options| world.read(name, options))?;
     say(&format!("{HEAD}\n"))?;
     let runs =
         rows("runs", &seeds.all(), seeds.jobs, |seed| run(&world.of(*seed)), |_, run| Some(Row(run).to_string()))?;

@@ -40,6 +40,16 @@ impl<K: FromStr<Err = String>> FromStr for Fault<K> {
     }
 }
 
+/// The kind of fault with this name, among `all` kinds.
+///
+/// # Errors
+/// None of them has this name: a message with all names.
+pub fn fault_named<K: Copy>(text: &str, all: &[K], name: fn(K) -> &'static str) -> Result<K, String> {
+    let known = all.iter().copied().find(|known| name(*known) == text);
+    let names = || all.iter().map(|known| name(*known)).collect::<Vec<_>>().join(", ");
+    known.ok_or_else(|| format!("`{text}` is no kind of fault; there are {}", names()))
+}
+
 /// Parses a time such as `1.5s`.
 fn read_time(text: &str) -> Option<Time> {
     let seconds: f64 = text.strip_suffix('s')?.parse().ok()?;

@@ -60,7 +60,7 @@ pub use camera::{CameraSim, Light, NotLevel, expose};
 #[cfg(feature = "camera")]
 pub use color::{ColorCamera, ColorScene, Paint, Post};
 pub use drive::{Differential, Limits, Omnidirectional, Tractor};
-pub use fault::Fault;
+pub use fault::{Fault, fault_named};
 pub use held_twist::HeldTwist;
 pub use jobs::in_order;
 pub use laser::Laser;

@@ -1,4 +1,4 @@
-use apex_sim::{Promise, Stops};
+use apex_sim::{Promise, Stops, fault_named};
 use std::{fmt, str::FromStr, time::Duration};
 
 /// Temporary fault of a device of the robot.
@@ -81,9 +81,7 @@ impl FromStr for FaultKind {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let names = || Self::ALL.map(Self::name).join(", ");
-        let known = Self::ALL.into_iter().find(|known| known.name() == text);
-        known.ok_or_else(|| format!("`{text}` is not a kind of fault; there are {}", names()))
+        fault_named(text, &Self::ALL, Self::name)
     }
 }
 

@@ -19,17 +19,16 @@ use std::{
 /// Plays competitions with many seeds.
 pub fn bench(options: &mut Options) -> Result<ExitCode, String> {
     let mut setup = Setup { duration: Duration::from_secs(600), ..Setup::default() };
-    let mut seeds = Seeds::new(20);
     let (mut faults, mut outages, mut times) = (false, false, false);
-    while let Some(name) = options.next_name()? {
-        match name.as_str() {
-            "first-seed" | "seeds" | "jobs" => seeds.read(&name, options)?,
+    let seeds = Seeds::new(20).read_beside(options, |name, options| {
+        match name {
             "faults" => faults = true,
             "outages" => outages = true,
             "times" => times = true,
-            _ => read_setup(&mut setup, &name, options)?,
+            _ => read_setup(&mut setup, name, options)?,
         }
-    }
+        Ok(())
+    })?;
     if times && seeds.jobs.is_some() {
         return Err("`--times` measures one competition at a time: without `--jobs`".to_owned());
     }

@@ -141,10 +141,25 @@ impl Seeds {
     /// Reads the options of a command that has no others.
     ///
     /// # Errors
-    /// The errors of [`read`](Self::read).
-    pub fn read_all(mut self, options: &mut Options) -> Result<Self, String> {
+    /// The errors of [`read_beside`](Self::read_beside).
+    pub fn read_all(self, options: &mut Options) -> Result<Self, String> {
+        self.read_beside(options, |name, _| Err(Options::unknown(name)))
+    }
+
+    /// Reads the options of a command. `other` reads the value of an option that is not one of seeds.
+    ///
+    /// # Errors
+    /// The errors of `other`, and values of the options of seeds that are wrong.
+    pub fn read_beside(
+        mut self,
+        options: &mut Options,
+        mut other: impl FnMut(&str, &mut Options) -> Result<(), String>,
+    ) -> Result<Self, String> {
         while let Some(name) = options.next_name()? {
-            self.read(&name, options)?;
+            match name.as_str() {
+                "first-seed" | "seeds" | "jobs" => self.read(&name, options)?,
+                _ => other(&name, options)?,
+            }
         }
         Ok(self)
     }

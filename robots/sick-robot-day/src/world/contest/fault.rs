@@ -1,5 +1,5 @@
 use apex_nodes::scan::Scan;
-use apex_sim::{Promise, Random, Stops};
+use apex_sim::{Promise, Random, Stops, fault_named};
 use std::{fmt, str::FromStr, time::Duration};
 
 /// Temporary fault of a device of our robot.
@@ -38,9 +38,7 @@ impl FromStr for FaultKind {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let names = || Self::ALL.map(Self::name).join(", ");
-        let known = Self::ALL.into_iter().find(|known| known.name() == text);
-        known.ok_or_else(|| format!("`{text}` is no kind of fault; there are {}", names()))
+        fault_named(text, &Self::ALL, Self::name)
     }
 }
 
