@@ -46,7 +46,7 @@ impl Drawer {
             return Err(diagnostics.sorted().into_iter().map(|d| render(d, &sources, false)).collect());
         }
         self.1 = checked.texts.machines;
-        Ok(checked.programs.into_iter().filter(|p| p.script.is_none()).map(|p| p.graph).collect())
+        Ok(checked.programs.into_iter().filter(|p| !p.is_test()).map(|p| p.graph).collect())
     }
 
     /// Diagram of the only graph of a source file.

@@ -1,10 +1,10 @@
 //! Assigns items to layers. A line that skips layers or goes backwards has a bend in each layer between its ends.
 
 use super::{
-    Placed, SMALL, cycles,
+    cycles,
     labels::{Bend, Labels, Way, labels},
     leaf::{self, Sides},
-    place, wide,
+    placed::{Placed, SMALL, wide},
 };
 use crate::model::{Anchor, Flow, Frame, Item, Line, Side};
 use std::collections::{BTreeMap, BTreeSet};
@@ -86,7 +86,8 @@ pub struct Cells {
 }
 
 impl Cells {
-    pub fn new(around: &Item, frame: &Frame) -> Self {
+    /// Returns the cells of a frame. Each item with a frame of its own has been `placed`.
+    pub fn new(around: &Item, frame: &Frame, placed: Vec<Option<Placed>>) -> Self {
         let (layer_of, last) = cycles::layers(frame);
         let mut cells = Self {
             cells: vec![],
@@ -100,8 +101,8 @@ impl Cells {
             bends: BTreeMap::new(),
         };
         let lined: BTreeSet<Anchor> = frame.lines.iter().flat_map(|l| [l.from, l.to]).collect();
-        for (i, item) in frame.items.iter().enumerate() {
-            cells.item(i, item, layer_of[i], &lined);
+        for ((i, item), placed) in frame.items.iter().enumerate().zip(placed) {
+            cells.item((i, item), placed, layer_of[i], &lined);
         }
         for port in 0..around.ports.len() {
             cells.pin(port, &around.ports[port].name, around.ports[port].side, last);
@@ -125,10 +126,10 @@ impl Cells {
         self.terms.len() - 1
     }
 
-    fn item(&mut self, index: usize, item: &Item, layer: usize, lined: &BTreeSet<Anchor>) {
+    fn item(&mut self, (index, item): (usize, &Item), placed: Option<Placed>, layer: usize, lined: &BTreeSet<Anchor>) {
         let lined = |port: &usize| lined.contains(&Anchor::Of(index, *port));
         let mut sides = Sides::of(item).first(&lined);
-        let placed = if item.inside.is_some() { place(item) } else { leaf::place(item, &sides) };
+        let placed = placed.unwrap_or_else(|| leaf::place(item, &sides));
         if item.inside.is_some() {
             sides.slots.sort_by_key(|p| -placed.ports[*p].0);
             sides.events.sort_by_key(|p| -placed.ports[*p].0);

@@ -1,9 +1,9 @@
 //! Layout of an item with a frame: orders its cells, assigns positions and sizes, and routes lines.
 
 use super::{
-    Align, NAME, Placed, Point, SMALL, TYPE, Text,
-    cells::{Cells, Role},
+    cells::{CLEAR, Cells, ROW, Role},
     coordinates, leaf, order,
+    placed::{Align, NAME, Placed, Point, SMALL, TYPE, Text},
     route::{self, Gap},
 };
 use crate::model::{Frame, Item, Side};
@@ -15,9 +15,15 @@ const ROUNDS: usize = 6;
 /// Distance between lines that lead from the top or to the bottom of a frame.
 const STAIR: i64 = 9;
 
+/// Lays out an item and all items in it.
+pub fn place(item: &Item) -> Placed {
+    item.inside.as_ref().map_or_else(|| leaf::place(item, &leaf::Sides::of(item)), |frame| framed(item, frame))
+}
+
 /// Layout of an item that contains `frame`.
-pub fn place(item: &Item, frame: &Frame) -> Placed {
-    let mut cells = Cells::new(item, frame);
+fn framed(item: &Item, frame: &Frame) -> Placed {
+    let inner = frame.items.iter().map(|item| Some(framed(item, item.inside.as_ref()?))).collect();
+    let mut cells = Cells::new(item, frame, inner);
     order::order(&mut cells, &|port| item.ports[port].side);
     let (y, gaps) = heights(&cells, title_height(item) + PAD);
     let mut layout = Layout { item, frame, cells: &cells, y, gaps, layers: vec![], placed: empty(item) };
@@ -183,8 +189,7 @@ impl Layout<'_> {
                 leaf::place(item, &sides)
             };
             let (left, right) = self.layers[cell.layer];
-            let above =
-                if cell.slots == 0 { 0 } else { (cell.slots as i64 - 1) * super::cells::ROW + super::cells::CLEAR };
+            let above = if cell.slots == 0 { 0 } else { (cell.slots as i64 - 1) * ROW + CLEAR };
             placed.at = ((left + right - placed.size.0) / 2, self.y[index] + above);
             self.placed.items.push(placed);
         }

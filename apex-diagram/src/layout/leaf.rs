@@ -1,6 +1,6 @@
 //! Layout of a box without contents: size, texts and ports.
 
-use super::{Align, NAME, Placed, Point, SMALL, TYPE, Text, wide};
+use super::placed::{Align, NAME, Placed, Point, SMALL, TYPE, Text, wide};
 use crate::{
     model::{Item, Shape, Side},
     text,

@@ -1,7 +1,7 @@
 //! Routes lines between layers: horizontal pieces at the height of their ends, and one vertical piece for each net, on
 //! a track of its own.
 
-use super::{Point, cells::Cells};
+use super::{cells::Cells, placed::Point};
 use std::collections::BTreeMap;
 
 /// Distance between tracks.

@@ -1,6 +1,6 @@
 //! Lines as drawn: a common part of several lines is drawn once, with one of them.
 
-use super::{Placed, Point};
+use super::placed::{Placed, Point};
 use crate::model::{Frame, Line};
 
 /// The drawn part of a line.
