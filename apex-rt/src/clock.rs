@@ -1,3 +1,5 @@
+#[cfg(feature = "std")]
+use crate::Switch;
 use crate::Time;
 
 /// Source of a program's time.
@@ -54,7 +56,7 @@ pub trait Clock {
 
     /// Returns the timing of the program's threads if this is the machine's clock.
     #[cfg(feature = "std")]
-    fn pace(&self) -> Option<crate::threads::Pace> {
+    fn pace(&self) -> Option<Pace> {
         None
     }
 }
@@ -170,7 +172,25 @@ impl Clock for WallClock {
         true
     }
 
-    fn pace(&self) -> Option<crate::threads::Pace> {
-        Some(crate::threads::Pace { clock: *self, stopped: None })
+    fn pace(&self) -> Option<Pace> {
+        Some(Pace { clock: *self, stopped: None })
     }
+}
+
+/// Timing of threads: the machine's clock, and a switch that ends the program.
+///
+/// ```
+/// use apex_rt::{Switch, prelude::*, threads::Pace};
+///
+/// static STOP: Switch = Switch::new();
+/// let pace = Pace { stopped: Some(&STOP), ..WallClock::new().pace().expect("it is the machine's clock") };
+/// assert!(pace.stopped.is_some_and(|stop| !stop.is_set()));
+/// ```
+#[cfg(feature = "std")]
+#[derive(Debug, Clone, Copy)]
+pub struct Pace {
+    /// Clock of all threads.
+    pub clock: WallClock,
+    /// Switch that ends the program.
+    pub stopped: Option<&'static Switch>,
 }

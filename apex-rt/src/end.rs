@@ -6,7 +6,7 @@
 
 use crate::{
     Next, Observer, Program, Switch, Time,
-    run::react,
+    react::react,
     switch::Listens,
     watchdog::{self, Health},
 };

@@ -3,10 +3,10 @@
 //! them.
 
 #[cfg(feature = "profile")]
-use crate::profile::{self, Measures};
+use crate::profile::Measures;
 #[cfg(feature = "record")]
-use crate::record::{self, RunMode, Tap};
-use crate::{Clock, Ports, Program, StdErr, run::drive_groups};
+use crate::record::Tap;
+use crate::{Ports, Program, StdErr};
 
 /// The observers of a run, or of a thread group in it.
 pub type Instruments<'a> = (StdErr, (Measured<'a>, (Tapped, Streamed)));
@@ -41,9 +41,10 @@ pub struct Streams {
 
 impl Streams {
     /// Opens a socket for viewers if the environment asks for it.
-    fn of<P: Program>(simulated: bool, ports: &Ports<P>) -> std::io::Result<Self> {
+    pub fn of<P: Program>(simulated: bool, ports: &Ports<P>) -> std::io::Result<Self> {
         #[cfg(feature = "studio")]
         {
+            use crate::record::RunMode;
             // A replay has the times of its recording.
             let simulated = simulated || matches!(RunMode::of::<P>(), Some(RunMode::Replay(_)));
             Ok(Self { studio: crate::studio::Studio::wanted::<P>(simulated, ports.requests())? })
@@ -62,26 +63,4 @@ impl Streams {
         #[cfg(not(feature = "studio"))]
         let _ = group;
     }
-}
-
-/// Drives a program as the environment variables ask: see [`drive`](crate::drive).
-pub fn drive<P: Program, C: Clock>(program: P, clock: C, ports: Ports<P>) -> u8 {
-    let streams = match Streams::of(C::SIMULATED, &ports) {
-        Ok(streams) => streams,
-        Err(error) => {
-            eprintln!("error: cannot open the socket in `APEX_STUDIO`: {error}");
-            return 2;
-        }
-    };
-    #[cfg(feature = "profile")]
-    if let Some(path) = std::env::var_os("APEX_PROFILE") {
-        return profile::drive(program, clock, ports, path.as_ref(), &streams);
-    }
-    #[cfg(feature = "record")]
-    if let Some(mode) = RunMode::of::<P>() {
-        return record::drive(program, clock, ports, &mode, &streams);
-    }
-    drive_groups(program, clock, ports, |group| -> Instruments<'_> {
-        (StdErr(const { &P::INFO }), (Measured::default(), (Tapped::default(), streams.of_group(group))))
-    })
 }

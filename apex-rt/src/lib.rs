@@ -35,9 +35,11 @@ extern crate alloc;
 
 pub mod bytes;
 mod cell;
+mod cell_message;
 mod clock;
 mod ctx;
 mod dispatch;
+mod drive;
 #[cfg(feature = "std")]
 mod end;
 mod event;
@@ -47,16 +49,20 @@ mod info;
 mod instruments;
 mod list;
 mod mailbox;
+mod next;
 mod node;
 mod observer;
 mod out;
+mod outside;
 mod parallel;
 pub mod params;
 #[cfg(feature = "std")]
 mod ports;
 #[cfg(feature = "profile")]
 pub mod profile;
+mod program;
 mod queue;
+mod react;
 #[cfg(feature = "record")]
 pub mod record;
 #[cfg(feature = "std")]
@@ -66,6 +72,9 @@ mod requests;
 mod run;
 #[cfg(feature = "std")]
 mod shadow;
+#[cfg(feature = "std")]
+#[doc(hidden)]
+pub mod shown;
 #[cfg(feature = "std")]
 mod stop;
 #[cfg(feature = "viewer")]
@@ -162,11 +171,13 @@ pub use apex_attributes::node;
 pub use clock::WallClock;
 pub use clock::{Clock, SimClock};
 pub use ctx::Ctx;
+pub use drive::drive_with;
 pub use event::{Event, event};
 pub use failure::Failure;
 pub use info::{ConnectionInfo, GroupInfo, Info, KindInfo, NodeInfo, Place, PortInfo, PortKind};
 pub use list::List;
 pub use mailbox::Mailbox;
+pub use next::Next;
 pub use observer::Observer;
 #[cfg(feature = "std")]
 pub use observer::{StdErr, listen_to_problems, tell_viewers};
@@ -174,11 +185,12 @@ pub use out::Out;
 pub use params::Parameters;
 #[cfg(feature = "std")]
 pub use ports::{PortReceiver, PortSender, Ports};
+pub use program::Program;
 #[cfg(feature = "std")]
 pub use remote::RemoteParams;
 #[cfg(feature = "std")]
 pub use run::drive_from;
-pub use run::{Next, Program, drive, drive_with, run};
+pub use run::{drive, run};
 #[cfg(feature = "std")]
 pub use shadow::is_shadow;
 #[cfg(feature = "std")]

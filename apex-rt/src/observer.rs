@@ -287,24 +287,7 @@ macro_rules! pass_on_others {
 }
 
 #[cfg(feature = "std")]
-impl<O: Observer> Observer for crate::threads::WatchdogObserver<'_, O> {
-    #[inline(always)]
-    fn fired(&mut self, node: usize) {
-        self.runs(node + 1);
-        self.observer.fired(node);
-    }
-    #[inline(always)]
-    fn handled(&mut self, connection: usize) {
-        self.runs(self.info.connections[connection].to + 1);
-        self.observer.handled(connection);
-    }
-    #[inline(always)]
-    fn finished(&mut self, node: usize) {
-        self.runs(0);
-        self.observer.finished(node);
-    }
-    pass_on_others!(self, self.observer);
-}
+pub(crate) use pass_on_others;
 
 impl<O: Observer> Observer for &mut O {
     pass_on!(self, (**self));

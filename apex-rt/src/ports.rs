@@ -3,8 +3,8 @@
 use crate::{
     Clock, Mailbox, Program, RemoteParams, Time,
     end::is_asked,
+    outside::Outside,
     requests::{Requests, ServedRequests},
-    run::Outside,
     switch::{Bell, Listens},
 };
 use std::sync::{

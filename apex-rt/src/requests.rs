@@ -4,7 +4,7 @@
 
 use crate::{
     Parameters,
-    params::{Access, MAX_VALUE, ParamInfo, ParamVisitor},
+    params::{Access, AnyParams, MAX_VALUE, ParamInfo, ParamVisitor},
     switch::{Bell, Listens},
 };
 use std::sync::{
@@ -157,9 +157,12 @@ impl ServedRequests {
     /// Serves some of the requests for the parameters of `part`: those of the program, or of one of its thread groups.
     /// It waits for no other thread, and takes a limited time.
     pub fn serve<P: Parameters>(&mut self, part: &mut P) {
-        if !self.are_new() {
-            return;
+        if self.are_new() {
+            self.serve_now(part);
         }
+    }
+
+    fn serve_now(&mut self, part: &mut dyn AnyParams) {
         self.seen = self.shared.count.load(Ordering::Acquire);
         if self.own.is_empty() {
             self.own = own(self.shared.params, part);
@@ -174,7 +177,7 @@ impl ServedRequests {
         }
         let mut server = Server { requests: &self.shared, due: &mut due, moved: 0 };
         if server.due.next.iter().any(Option::is_some) {
-            part.visit_params(&mut server);
+            part.visit(&mut server);
         }
         self.has_more = due.has_more;
     }
@@ -189,7 +192,7 @@ impl ServedRequests {
 }
 
 /// Returns `true` for each of the parameters that `part` has.
-fn own<P: Parameters>(params: &'static [ParamInfo], part: &mut P) -> Box<[bool]> {
+fn own(params: &'static [ParamInfo], part: &mut dyn AnyParams) -> Box<[bool]> {
     struct Own {
         params: &'static [ParamInfo],
         own: Box<[bool]>,
@@ -206,7 +209,7 @@ fn own<P: Parameters>(params: &'static [ParamInfo], part: &mut P) -> Box<[bool]>
         }
     }
     let mut visitor = Own { params, own: vec![false; params.len()].into(), next: 0 };
-    part.visit_params(&mut visitor);
+    part.visit(&mut visitor);
     visitor.own
 }
 

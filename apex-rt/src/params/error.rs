@@ -1,6 +1,6 @@
 //! Errors of values for parameters.
 
-use super::ParamInfo;
+use super::info::ParamInfo;
 use core::fmt;
 
 /// Reason for the refusal of a value.

@@ -3,11 +3,13 @@
 //! The table has the parameters of struct nodes, with the name of the node: `fast.planner.speed`. Function nodes have
 //! no state: their parameters are part of the code.
 
+mod any;
 mod error;
 #[cfg(feature = "params")]
 mod file;
 #[cfg(feature = "std")]
 mod given;
+mod info;
 #[cfg(feature = "params")]
 mod keep;
 mod probe;
@@ -19,11 +21,15 @@ mod run;
 mod text;
 mod value;
 
+pub(crate) use any::AnyParams;
 pub use error::{ParamError, Rejection};
 #[cfg(feature = "params")]
 pub use file::{load_file, save_file};
 #[cfg(feature = "std")]
 pub(crate) use given::{Given, MAX_VALUE};
+#[doc(hidden)]
+pub use info::Declared;
+pub use info::{ParamInfo, ParamRange};
 #[doc(hidden)]
 pub use probe::{Known, Opaque, Probe};
 #[cfg(feature = "studio")]
@@ -36,94 +42,6 @@ pub(crate) use text::parsed;
 #[cfg(feature = "params")]
 pub use text::{LoadError, Problem, load, not_saved, save, set_text};
 pub use value::{GivenList, IntoParam, ParamRef, ParamValue};
-
-use core::fmt;
-
-/// A parameter of a program.
-///
-/// ```
-/// use apex_rt::prelude::*;
-///
-/// apex_macros::graph!("examples/smooth.afg");
-///
-/// # fn main() {
-/// let weight = &Smooth::PARAMS[0];
-/// assert_eq!((weight.name, weight.ty, weight.unit), ("filter.weight", "f64", None));
-/// assert_eq!(weight.range.to_string(), "0..=1");
-/// # }
-/// ```
-#[derive(Debug, PartialEq)]
-pub struct ParamInfo {
-    /// Full name: `fast.planner.speed`.
-    pub name: &'static str,
-    /// Type, as written in its declaration.
-    pub ty: &'static str,
-    /// SI unit of its numbers.
-    pub unit: Option<&'static str>,
-    /// Range of its values, as far as it is known.
-    pub range: ParamRange,
-}
-
-/// Range of a parameter, as far as the compiler knows it. A bound that is not a plain number is missing.
-///
-/// ```
-/// use apex_rt::params::ParamRange;
-///
-/// let range = ParamRange { min: Some(0.0), max: None, inclusive: false };
-/// assert!(range.is_known());
-/// assert_eq!(range.to_string(), "0..");
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ParamRange {
-    /// The smallest value.
-    pub min: Option<f64>,
-    /// The largest value.
-    pub max: Option<f64>,
-    /// `true` if the largest value is part of the range.
-    pub inclusive: bool,
-}
-
-/// A parameter in the declaration of its node type.
-#[doc(hidden)]
-#[derive(Debug)]
-pub struct Declared {
-    unit: Option<&'static str>,
-    range: ParamRange,
-}
-
-impl Declared {
-    /// Returns a parameter with the SI unit of its numbers, and its range.
-    pub const fn new(unit: Option<&'static str>, range: ParamRange) -> Self {
-        Self { unit, range }
-    }
-
-    /// Returns the row of such a parameter of a program.
-    pub const fn of(&self, name: &'static str, ty: &'static str) -> ParamInfo {
-        ParamInfo { name, ty, unit: self.unit, range: self.range }
-    }
-}
-
-impl ParamRange {
-    /// Returns the range with these bounds.
-    pub const fn new(min: Option<f64>, max: Option<f64>, inclusive: bool) -> Self {
-        Self { min, max, inclusive }
-    }
-
-    /// Returns `true` if at least one bound is known.
-    pub const fn is_known(&self) -> bool {
-        self.min.is_some() || self.max.is_some()
-    }
-}
-
-impl fmt::Display for ParamRange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(min) = self.min {
-            write!(f, "{min}")?;
-        }
-        f.write_str(if self.inclusive && self.max.is_some() { "..=" } else { ".." })?;
-        self.max.map_or(Ok(()), |max| write!(f, "{max}"))
-    }
-}
 
 /// Access to the value of one parameter.
 ///
@@ -241,7 +159,8 @@ pub trait Parameters {
     /// # Errors
     /// A parameter that does not exist or is of another type.
     fn param<T: ParamValue>(&mut self, name: &str) -> Result<T, ParamError> {
-        at::<Self, T>(self, name, &mut |access| T::take(access.get()))
+        let mut program = self;
+        at(&mut program, name, &mut |access| T::take(access.get()))
     }
 
     /// Sets the parameter `name` to `value` from the next firing on. The value is in SI units; a time is a
@@ -251,11 +170,12 @@ pub trait Parameters {
     /// A parameter that does not exist or is of another type, or a value out of its range. Tokens at the port of the
     /// parameter are checked in the same way. The parameter keeps its value.
     fn set_param(&mut self, name: &str, value: impl IntoParam) -> Result<(), ParamError> {
-        at::<Self, ()>(self, name, &mut |access| access.set(value.give()))
+        let mut program = self;
+        at(&mut program, name, &mut |access| access.set(value.give()))
     }
 }
 
-impl<P: Parameters> Parameters for &mut P {
+impl<P: Parameters + ?Sized> Parameters for &mut P {
     const PARAMS: &'static [ParamInfo] = P::PARAMS;
 
     fn visit_params(&mut self, visitor: &mut dyn ParamVisitor) {
@@ -270,6 +190,12 @@ impl<P: Parameters> Parameters for &mut P {
 pub(crate) fn find(params: &'static [ParamInfo], name: &str) -> Result<&'static ParamInfo, ParamError> {
     let unknown = || ParamError::Unknown { nearest: error::nearest(name, params.iter().map(|p| p.name)) };
     params.iter().find(|param| param.name == name).ok_or_else(unknown)
+}
+
+/// Sets the parameter `name` as [`Parameters::set_param`] does.
+#[cfg(feature = "record")]
+pub(crate) fn set(program: &mut dyn AnyParams, name: &str, value: &Given) -> Result<(), ParamError> {
+    at(program, name, &mut |access| access.set(value.give()))
 }
 
 /// Operation on a parameter.
@@ -291,9 +217,9 @@ impl<T> ParamVisitor for At<'_, T> {
     }
 }
 
-fn at<P: Parameters + ?Sized, T>(program: &mut P, name: &str, act: Act<'_, T>) -> Result<T, ParamError> {
-    let param = find(P::PARAMS, name)?;
+fn at<T>(program: &mut dyn AnyParams, name: &str, act: Act<'_, T>) -> Result<T, ParamError> {
+    let param = find(program.list(), name)?;
     let mut at = At { name, act, result: None };
-    program.visit_params(&mut at);
+    program.visit(&mut at);
     at.result.unwrap_or(Err(ParamError::Refused { param, refusal: Rejection::Opaque }))
 }

@@ -133,7 +133,7 @@ impl Files {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let names: Vec<_> = fs::read_dir(folder).into_iter().flatten().flatten().map(|file| file.file_name()).collect();
         let taken = |base: &Path| names.iter().any(|name| number_of(base, name).is_some());
-        Self { base: super::sink::first_free(path, taken), options, number: 1, ended: VecDeque::new() }
+        Self { base: first_free(path, taken), options, number: 1, ended: VecDeque::new() }
     }
 
     /// Path of the file that is being written.
@@ -205,6 +205,23 @@ fn number_of(base: &Path, name: &OsStr) -> Option<u64> {
     let rest = name.to_str()?.strip_prefix(stem)?.strip_prefix('.')?;
     let digits = if end.is_empty() { rest } else { rest.strip_suffix(end)?.strip_suffix('.')? };
     (digits.len() >= DIGITS && digits.bytes().all(|byte| byte.is_ascii_digit())).then(|| digits.parse().ok())?
+}
+
+/// Returns `path`, or the first of `run-2.mcap`, `run-3.mcap`, … that is not `taken`.
+pub fn first_free(path: &Path, taken: impl Fn(&Path) -> bool) -> PathBuf {
+    let (stem, end) = (path.file_stem().unwrap_or_default(), path.extension().unwrap_or_default());
+    let numbered = |n: u32| {
+        let mut name = stem.to_owned();
+        name.push(format!("-{n}"));
+        let mut file = path.with_file_name(name);
+        if !end.is_empty() {
+            // `with_extension` would replace the last part of a name with dots.
+            file.as_mut_os_string().push(".");
+            file.as_mut_os_string().push(end);
+        }
+        file
+    };
+    std::iter::once(path.to_owned()).chain((2..).map(numbered)).find(|p| !taken(p)).unwrap_or_else(|| path.to_owned())
 }
 
 #[cfg(test)]

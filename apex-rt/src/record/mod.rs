@@ -9,7 +9,9 @@ mod definition;
 mod file;
 mod limits;
 mod message;
+mod mode;
 mod recorder;
+mod repeat;
 mod replay;
 mod report;
 mod run;
@@ -26,11 +28,12 @@ pub use limits::RecordOptions;
 #[doc(hidden)]
 pub use message::{ByMessage, ByNothing, ByReference, BySerde, Kind, NotRecordable, Recordable};
 pub use message::{Codec, Schema};
+pub(crate) use mode::RunMode;
 pub use recorder::{Finished, Recorder, WhenFull};
 pub use replay::{Replay, ReplayError};
 pub use report::{Compared, Difference, Report};
+pub(crate) use run::drive;
 pub use run::replay;
-pub(crate) use run::{RunMode, drive};
 pub use tap::Tap;
 #[doc(hidden)]
 pub use tap::{looked, sent};
@@ -128,9 +131,9 @@ macro_rules! __format {
                 schema: $codec().map(|codec| codec.schema),
                 shape: || $codec().map(|codec| (codec.shape)()).unwrap_or_default(),
                 show: |bytes| {
-                    use $crate::testing::{ByDebug as _, ByType as _};
+                    use $crate::shown::{ByDebug as _, ByType as _};
                     let token = ($codec()?.read)(bytes).ok()?;
-                    Some((&$crate::testing::Shown(&token)).shown())
+                    Some((&$crate::shown::Shown(&token)).shown())
                 },
             }
         }

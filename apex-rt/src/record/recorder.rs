@@ -4,8 +4,8 @@ use super::{
     sink::{ELAPSED, ENDED, FIRST, Frame, LOOKED, Near, OWN, PARAMETER, REACTION, ROOM, Sink, TAKEN},
 };
 use crate::{
-    GroupInfo, Mailbox, Parameters, Program, Time,
-    params::{Access, ParamInfo, ParamRef, ParamVisitor},
+    GroupInfo, Mailbox, Program, Time,
+    params::{Access, AnyParams, ParamInfo, ParamRef, ParamVisitor},
 };
 use apex_bag::format::THREADS;
 use core::time::Duration;
@@ -366,28 +366,28 @@ impl Recorder {
     }
 
     /// Records the parameters that have changed since the last reaction; before the first reaction in a file, all.
-    pub(super) fn changed_params<P: Parameters>(&mut self, program: &mut P) {
+    pub(super) fn changed_params(&mut self, program: &mut dyn AnyParams) {
         let mut now = core::mem::take(&mut self.params_now);
         now.clear();
-        program.visit_params(&mut Bits(&mut now));
+        program.visit(&mut Bits(&mut now));
         if self.params.is_empty() {
             self.first_params.clone_from(&now);
-            program.visit_params(&mut Changes { recorder: self, before: &now, all: true });
+            program.visit(&mut Changes { recorder: self, before: &now, all: true });
         } else if self.begins_file {
             let before = core::mem::take(&mut self.first_params);
-            program.visit_params(&mut Changes { recorder: self, before: &before, all: true });
+            program.visit(&mut Changes { recorder: self, before: &before, all: true });
             self.first_params = before;
         } else if now != self.params {
             let before = core::mem::take(&mut self.params);
-            program.visit_params(&mut Changes { recorder: self, before: &before, all: false });
+            program.visit(&mut Changes { recorder: self, before: &before, all: false });
             self.params = before;
         }
         self.params_now = now;
     }
 
-    pub(super) fn keep_params<P: Parameters>(&mut self, program: &mut P) {
+    pub(super) fn keep_params(&mut self, program: &mut dyn AnyParams) {
         self.params.clear();
-        program.visit_params(&mut Bits(&mut self.params));
+        program.visit(&mut Bits(&mut self.params));
     }
 
     /// Sends a message on one of the channels that every recording has.

@@ -7,8 +7,8 @@ use super::{
     waits::{ReplayBarrier, WaitOutcome},
 };
 use crate::{
-    Info, Parameters, Program, Time,
-    params::{Access, ParamInfo, ParamVisitor, set_text},
+    Info, Program, Time,
+    params::{Access, AnyParams, ParamInfo, ParamVisitor, parsed, set},
 };
 use apex_bag::{CUT, Mcap, Message, Recording};
 use core::{fmt, time::Duration};
@@ -512,10 +512,10 @@ impl Replay {
         }
     }
 
-    pub(super) fn set_params<P: Parameters>(&mut self, program: &mut P) {
+    pub(super) fn set_params(&mut self, program: &mut dyn AnyParams) {
         for (name, value, changed) in mem::take(&mut self.reaction.params) {
             if changed {
-                if let Err(error) = set_text(program, &name, &value) {
+                if let Err(error) = set(program, &name, &parsed(&value)) {
                     self.report.params.push(format!("`{name}` cannot be set to {value}: {error}"));
                 }
                 continue;
@@ -610,7 +610,7 @@ impl Replay {
 }
 
 /// Returns the value of a parameter in TOML.
-fn now<P: Parameters>(program: &mut P, name: &str) -> Option<String> {
+fn now(program: &mut dyn AnyParams, name: &str) -> Option<String> {
     struct Find<'a>(&'a str, Option<String>);
     impl ParamVisitor for Find<'_> {
         fn param(&mut self, info: &'static ParamInfo, access: Option<&mut dyn Access>) {
@@ -620,6 +620,6 @@ fn now<P: Parameters>(program: &mut P, name: &str) -> Option<String> {
         }
     }
     let mut find = Find(name, None);
-    program.visit_params(&mut find);
+    program.visit(&mut find);
     find.1
 }

@@ -1,51 +1,22 @@
 //! Recording and replay by [`drive`](crate::drive) and the `apex` command.
 
 use super::{
-    Finished, RecordOptions, Recorder, Replay, ReplayError, Report, Tap, WhenFull,
+    Finished, RecordOptions, Recorder, Replay, ReplayError, Report, RunMode, Tap, WhenFull,
+    repeat::{repeat, something},
     threads::{record_from_threads, recorded_threads, replay_on_threads},
 };
 use crate::{
-    Clock, Next, Observer, Ports, Program, StdErr, Time,
+    Clock, Observer, Ports, Program, StdErr,
+    drive::{drive_ports, pace_of_threads},
     instruments::{Instruments, Measured, Streams},
-    run::{drive_ports, pace_of_threads, react, react_again},
 };
-use core::time::Duration;
 use std::{
     env, fs, io,
     path::{Path, PathBuf},
 };
 
-/// Environment variable with the file to replay.
-const REPLAY: &str = "APEX_REPLAY";
 /// Environment variable with the file for the report on a replay.
 const REPORT: &str = "APEX_REPLAY_REPORT";
-/// Environment variable with the file to record to.
-const RECORD: &str = "APEX_RECORD";
-
-/// Time between two reactions of a program that has sources without a period.
-const STEP: Duration = Duration::from_millis(1);
-
-/// Request to record a run or to replay a recording.
-pub enum RunMode {
-    Record(PathBuf, RecordOptions),
-    Replay(PathBuf),
-}
-
-impl RunMode {
-    /// Returns the request in the environment variables, or that of the program's `record` statement.
-    pub fn of<P: Program>() -> Option<Self> {
-        let file = |name| env::var_os(name).map(PathBuf::from);
-        match (file(REPLAY), file(RECORD)) {
-            (Some(path), _) => Some(Self::Replay(path)),
-            // The options of the statement are those of its file.
-            (None, Some(path)) => Some(Self::Record(path, RecordOptions::default())),
-            (None, None) => {
-                P::RECORD.map(RecordOptions::stated).map(|(path, options)| Self::Record(path.into(), options))
-            }
-        }
-    }
-}
-
 /// Drives a program and records it, or replays a recording of it. Returns the exit code.
 pub(crate) fn drive<P: Program, C: Clock>(
     mut program: P,
@@ -185,50 +156,4 @@ fn replay_with<P: Program, O: Observer + Send>(
     }
     let report = repeat(program, &mut observer(0, Tap::Replay(Replay::open::<P>(path)?)), || {});
     something(report.map_err(|error| ReplayError::File(path.to_owned(), error))?, path)
-}
-
-/// Repeats all reactions of a program or of a thread group, and calls `before` before each. The tap of the observer has
-/// their recording.
-pub(super) fn repeat<P: Program, O: Observer>(
-    program: &mut P,
-    observer: &mut O,
-    mut before: impl FnMut(),
-) -> io::Result<Report> {
-    lead_in(program, observer);
-    while let Some(Tap::Replay(replay)) = observer.tap()
-        && let Some((now, ends_early)) = replay.next_reaction()?
-    {
-        before();
-        react_again(program, now, observer, ends_early);
-    }
-    Ok(observer.tap().map(Tap::report).unwrap_or_default())
-}
-
-/// Leads a program to the first recorded reaction, if that is in the middle of a run: its timers go on as they would
-/// have, while its sources send what they send first in the recording.
-fn lead_in<P: Program, O: Observer>(program: &mut P, observer: &mut O) {
-    let Some(Tap::Replay(replay)) = observer.tap() else { return };
-    let Some(end) = replay.leads_in() else { return };
-    let mut now = Time::ZERO;
-    while now < end {
-        now = match react(program, now, observer, &mut || Duration::ZERO).0 {
-            Next::Now => now + STEP,
-            Next::At(time) if time > now => time,
-            Next::At(_) | Next::Input | Next::Exit(_) => break,
-        };
-    }
-    if let Some(Tap::Replay(replay)) = observer.tap() {
-        replay.end_lead_in();
-    }
-}
-
-/// Returns the report if it has at least one reaction.
-///
-/// # Errors
-/// No reaction was repeated, so that the replay proves nothing.
-pub(super) fn something(report: Report, path: &Path) -> Result<Report, ReplayError> {
-    match report.reactions {
-        0 => Err(ReplayError::Nothing { path: path.to_owned(), why: report.cut }),
-        _ => Ok(report),
-    }
 }

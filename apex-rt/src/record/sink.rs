@@ -3,7 +3,7 @@
 use super::{
     Channel, Schema,
     file::{Head, Out},
-    limits::{Files, RecordOptions},
+    limits::{Files, RecordOptions, first_free},
 };
 use apex_bag::format::{CHANNEL_NAME, DROPPED, GOES_ON, MESSAGES, NEXT, NUMBER, PROGRAM, SHAPE};
 use rtrb::{Consumer, Producer, RingBuffer};
@@ -490,23 +490,6 @@ impl Far {
 /// Returns `path`, or the first of `run-2.mcap`, `run-3.mcap`, … that does not exist: nothing is overwritten.
 pub fn free(path: &Path) -> PathBuf {
     first_free(path, |path| path.symlink_metadata().is_ok())
-}
-
-/// Returns `path`, or the first of `run-2.mcap`, `run-3.mcap`, … that is not `taken`.
-pub fn first_free(path: &Path, taken: impl Fn(&Path) -> bool) -> PathBuf {
-    let (stem, end) = (path.file_stem().unwrap_or_default(), path.extension().unwrap_or_default());
-    let numbered = |n: u32| {
-        let mut name = stem.to_owned();
-        name.push(format!("-{n}"));
-        let mut file = path.with_file_name(name);
-        if !end.is_empty() {
-            // `with_extension` would replace the last part of a name with dots.
-            file.as_mut_os_string().push(".");
-            file.as_mut_os_string().push(end);
-        }
-        file
-    };
-    std::iter::once(path.to_owned()).chain((2..).map(numbered)).find(|p| !taken(p)).unwrap_or_else(|| path.to_owned())
 }
 
 #[cfg(test)]

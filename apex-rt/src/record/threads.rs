@@ -5,7 +5,10 @@
 //! check found something waits until it is there.
 
 use super::{
-    Finished, RecordOptions, Recorder, Replay, ReplayError, Report, Tap, recorder, replay, run, waits::ReplayBarrier,
+    Finished, RecordOptions, Recorder, Replay, ReplayError, Report, Tap, recorder,
+    repeat::{repeat, something},
+    replay,
+    waits::ReplayBarrier,
 };
 use crate::{
     CellSender, Observer, Ports, Program,
@@ -113,7 +116,7 @@ pub(super) fn replay_on_threads<P: Program, O: Observer + Send>(
         repeat.main.into_iter().chain(others).collect::<io::Result<Vec<Report>>>()
     });
     let reports = reports.map_err(|error| ReplayError::File(path.to_owned(), error))?;
-    run::something(Report::of_groups(reports, &P::channels()), path)
+    something(Report::of_groups(reports, &P::channels()), path)
 }
 
 /// Wake that does nothing: in a replay, groups check for themselves if something has come.
@@ -183,7 +186,7 @@ impl<G: Group, O: Observer> Part<'_, G, O> {
                 hung.put(|parcel| parcel.token = Some(()));
             }
         };
-        let report = run::repeat(&mut self.part, &mut self.observer, report_hung)?;
+        let report = repeat(&mut self.part, &mut self.observer, report_hung)?;
         ends.cut = report.cut.is_some();
         Ok(report)
     }

@@ -2,9 +2,8 @@
 //! everything that waits for it.
 
 use super::{
-    message::Report,
-    shared::{Pace, Shared},
-    stream::shortened,
+    message::{Report, shortened},
+    shared::{MAX_VIEWERS, Pace, Shared},
 };
 use crate::{
     RemoteParams,
@@ -23,7 +22,7 @@ use std::{
 
 /// Number of values of a viewer that may wait for the program. There is room for those of all viewers.
 const SHARE: usize = 64;
-const _: () = assert!(SHARE * super::server::MAX_VIEWERS < crate::requests::ROOM);
+const _: () = assert!(SHARE * MAX_VIEWERS < crate::requests::ROOM);
 /// Interval of the notes about what was set.
 const NOTES: Duration = Duration::from_secs(1);
 /// Maximum length of a value in a note, in bytes.
@@ -220,7 +219,7 @@ impl Notes {
             *noted = *count;
         }
         // Viewers come and go; what was noted of so many is not needed any more.
-        if self.dropped.len() > super::server::MAX_VIEWERS {
+        if self.dropped.len() > MAX_VIEWERS {
             self.dropped.clear();
         }
         self.names.retain(|viewer, _| waiting.iter().any(|set| set.viewer == *viewer));

@@ -436,3 +436,13 @@ impl From<PortKind> for PortRole {
         }
     }
 }
+
+/// Returns a text of at most `length` bytes.
+pub fn shortened(mut text: String, length: usize) -> String {
+    if text.len() > length {
+        let end = (0..=length).rev().find(|end| text.is_char_boundary(*end)).unwrap_or(0);
+        text.truncate(end);
+        text.push('…');
+    }
+    text
+}

@@ -20,9 +20,13 @@ mod fork;
 #[doc(hidden)]
 pub mod message;
 #[cfg(feature = "studio")]
+mod robot;
+#[cfg(feature = "studio")]
 mod run;
 #[cfg(feature = "studio")]
 mod server;
+#[cfg(feature = "studio")]
+mod serving;
 #[cfg(feature = "studio")]
 mod shared;
 mod socket;

@@ -1,9 +1,12 @@
 use super::{
     Stream,
     access::Access,
+    asking::Asking,
     checkpoint::Checkpoints,
     message::{self, About},
+    robot::Robot,
     server::Server,
+    serving::Serving,
     shared::{Pace, Shared},
     socket::Listener,
     times::Times,
@@ -51,6 +54,7 @@ const ROOM: usize = 1 << 20;
 pub struct Studio {
     info: &'static Info,
     shared: Arc<Shared>,
+    serving: Arc<Serving>,
     requests: Arc<Requests>,
     /// Rings of the groups that have no stream yet.
     rings: Mutex<Vec<Producer<u8>>>,
@@ -110,8 +114,10 @@ impl Studio {
         let description = About::new(info, &channels, P::PARAMS, time != StreamedTime::Real);
         message::write(&message::Report::About(description), &mut about);
         let (address, params) = (listener.address(), RemoteParams::new(Arc::clone(&requests), P::PARAMS));
-        shared.start(Server::new((listener, access), far, Arc::clone(&shared), channels, about, params))?;
-        Ok(Self { info, shared, requests, rings: Mutex::new(near), address })
+        let asking = Asking::new(params, Arc::clone(&shared));
+        let robot = Robot { access, shared: Arc::clone(&shared), asking, about };
+        let serving = Serving::of(Arc::clone(&shared), Server::new(listener, robot, far, channels))?;
+        Ok(Self { info, shared, serving: Arc::new(serving), requests, rings: Mutex::new(near), address })
     }
 
     /// Address of the socket, with the port that the system has chosen if the given one was 0.
@@ -128,6 +134,7 @@ impl Studio {
             ring,
             info,
             shared: Arc::clone(&self.shared),
+            serving: Arc::clone(&self.serving),
             group: group as u32,
             requests,
             frame: vec![],
@@ -142,6 +149,6 @@ impl Drop for Studio {
     fn drop(&mut self) {
         self.requests.end();
         self.shared.over.store(true, Ordering::Release);
-        drop(self.shared.stop());
+        drop(self.serving.stop());
     }
 }

@@ -1,22 +1,21 @@
 //! The thread that talks to viewers.
 
 use super::{
-    access::Access,
-    asking::{Asking, Told},
+    asking::Told,
     fork::Lifeline,
-    message::{self, Report},
-    shared::{Pace, Shared},
+    message::{self, Report, shortened},
+    robot::Robot,
+    shared::{MAX_VIEWERS, Pace},
     socket::Listener,
-    stream::shortened,
     viewer::Viewer,
 };
-use crate::{RemoteParams, observer::told_viewers, record::Channel};
+use crate::{observer::told_viewers, record::Channel};
 use core::time::Duration;
 use rtrb::Consumer;
 use std::{
     format,
     sync::{
-        Arc, PoisonError,
+        PoisonError,
         atomic::Ordering::{AcqRel, Acquire, Relaxed, Release},
     },
     thread,
@@ -28,8 +27,6 @@ use std::{
 /// Time between two looks at the rings, with a viewer and without.
 const LOOK: Duration = Duration::from_millis(2);
 const DOZE: Duration = Duration::from_millis(50);
-/// Maximum number of viewers.
-pub const MAX_VIEWERS: usize = 16;
 /// Time without a word after which a viewer makes room for a new one. Studios say each second that they are there.
 const IDLE: Duration = Duration::from_secs(3);
 /// Interval at which viewers are told that the robot is there.
@@ -46,13 +43,9 @@ const MAX_SHOWN: usize = 64 << 10;
 /// Everything that the thread has.
 pub struct Server {
     listener: Listener,
-    pub access: Access,
+    robot: Robot,
     rings: Vec<Consumer<u8>>,
-    pub shared: Arc<Shared>,
     channels: Vec<Channel>,
-    /// Description of the robot, as a message.
-    about: Vec<u8>,
-    pub asking: Asking,
     viewers: Vec<Viewer>,
     /// Number of viewers so far.
     count: u64,
@@ -65,30 +58,9 @@ pub struct Server {
 }
 
 impl Server {
-    pub fn new(
-        (listener, access): (Listener, Access),
-        rings: Vec<Consumer<u8>>,
-        shared: Arc<Shared>,
-        channels: Vec<Channel>,
-        about: Vec<u8>,
-        params: RemoteParams,
-    ) -> Self {
-        let asking = Asking::new(params, Arc::clone(&shared));
+    pub fn new(listener: Listener, robot: Robot, rings: Vec<Consumer<u8>>, channels: Vec<Channel>) -> Self {
         let (viewers, token, beaten) = (vec![], vec![], Instant::now());
-        Self {
-            listener,
-            access,
-            rings,
-            shared,
-            channels,
-            about,
-            asking,
-            viewers,
-            count: 0,
-            beaten,
-            token,
-            lifeline: None,
-        }
+        Self { listener, robot, rings, channels, viewers, count: 0, beaten, token, lifeline: None }
     }
 
     /// Serves viewers until the end of the program, or until it has to stop.
@@ -96,8 +68,8 @@ impl Server {
         let mut batch: Vec<u8> = vec![];
         loop {
             // Loaded before the rings are read, so that all messages from before the end are seen.
-            let over = self.shared.over.load(Acquire);
-            if self.shared.stops.load(Acquire) && !over {
+            let over = self.robot.shared.over.load(Acquire);
+            if self.robot.shared.stops.load(Acquire) && !over {
                 return self;
             }
             self.lifeline.as_ref().inspect(|lifeline| lifeline.check());
@@ -105,11 +77,11 @@ impl Server {
             self.welcome(&mut viewers);
             let mut has_more = false;
             for viewer in &mut viewers {
-                has_more |= viewer.receive(&mut self);
+                has_more |= viewer.receive(&mut self.robot);
             }
             self.note_wishes(&viewers);
             self.collect(&mut batch);
-            if let Some(report) = self.shared.pace.as_ref().and_then(Pace::news) {
+            if let Some(report) = self.robot.shared.pace.as_ref().and_then(Pace::news) {
                 message::write(&report, &mut batch);
             }
             self.answer(&mut viewers, &mut batch);
@@ -141,17 +113,17 @@ impl Server {
     pub fn leave_viewers(&mut self) {
         self.viewers.clear();
         self.collect(&mut vec![]);
-        self.asking.clear();
-        self.shared.watched.store(false, Release);
+        self.robot.asking.clear();
+        self.robot.shared.watched.store(false, Release);
         self.note_wishes(&[]);
         self.update_channels(&[]);
     }
 
     /// Stores what the viewers want to know.
     fn note_wishes(&self, viewers: &[Viewer]) {
-        self.shared.measured.store(viewers.iter().any(|viewer| viewer.measures), Relaxed);
-        self.shared.followed.store(viewers.iter().any(|viewer| viewer.follows), Relaxed);
-        self.shared.keeps.store(viewers.iter().any(|viewer| viewer.keeps), Relaxed);
+        self.robot.shared.measured.store(viewers.iter().any(|viewer| viewer.measures), Relaxed);
+        self.robot.shared.followed.store(viewers.iter().any(|viewer| viewer.follows), Relaxed);
+        self.robot.shared.keeps.store(viewers.iter().any(|viewer| viewer.keeps), Relaxed);
     }
 
     /// Takes new viewers in. If there are too many, the one leaves that has said nothing for the longest time.
@@ -171,32 +143,16 @@ impl Server {
                 }
                 self.dismiss(viewers);
             }
-            if self.access.token.is_none() {
-                self.greet(&mut viewer);
+            if self.robot.access.token.is_none() {
+                viewer.admit(&self.robot);
             }
             viewers.push(viewer);
         }
     }
 
-    /// Describes the robot to a viewer.
-    pub fn greet(&self, viewer: &mut Viewer) {
-        if core::mem::replace(&mut viewer.is_admitted, true) {
-            return;
-        }
-        self.shared.watched.store(true, Release);
-        if self.access.readonly {
-            message::write(&Report::ReadOnly, &mut viewer.out);
-        }
-        viewer.out.extend_from_slice(&self.about);
-        message::write(&self.shared.active_nodes(), &mut viewer.out);
-        if let Some(pace) = &self.shared.pace {
-            message::write(&pace.report(), &mut viewer.out);
-        }
-    }
-
     /// Passes the answers of the program on.
     fn answer(&mut self, viewers: &mut [Viewer], batch: &mut Vec<u8>) {
-        for told in self.asking.told() {
+        for told in self.robot.asking.told() {
             match told {
                 Told::All(report) => message::write(&report, batch),
                 Told::One(id, report) => {
@@ -211,7 +167,7 @@ impl Server {
     fn beat(&mut self, batch: &mut Vec<u8>) {
         if self.beaten.elapsed() >= BEAT {
             self.beaten = Instant::now();
-            message::write(&self.shared.alive(), batch);
+            message::write(&self.robot.shared.alive(), batch);
         }
     }
 
@@ -220,8 +176,8 @@ impl Server {
         if viewers.extract_if(.., |viewer| viewer.gone).count() > 0 {
             self.update_channels(viewers);
             if viewers.is_empty() {
-                self.shared.watched.store(false, Release);
-                if let Some(pace) = &self.shared.pace {
+                self.robot.shared.watched.store(false, Release);
+                if let Some(pace) = &self.robot.shared.pace {
                     pace.release();
                 }
             }
@@ -238,7 +194,7 @@ impl Server {
                 chunk.commit_all();
             }
         }
-        match self.shared.lost.swap(0, AcqRel) {
+        match self.robot.shared.lost.swap(0, AcqRel) {
             0 => {}
             lost => message::write(&Report::Lost(lost), batch),
         }
@@ -267,7 +223,7 @@ impl Server {
 
     /// Takes the newest token of a channel.
     fn latest(&mut self, channel: usize) -> Option<Report> {
-        let mut latest = self.shared.channels[channel].latest.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut latest = self.robot.shared.channels[channel].latest.lock().unwrap_or_else(PoisonError::into_inner);
         if !latest.is_new {
             return None;
         }
@@ -289,7 +245,7 @@ impl Server {
     }
 
     fn update_channels(&self, viewers: &[Viewer]) {
-        for (at, wanted) in self.shared.channels.iter().enumerate() {
+        for (at, wanted) in self.robot.shared.channels.iter().enumerate() {
             let is = viewers.iter().any(|viewer| viewer.watches.iter().any(|watch| watch.0 == at));
             wanted.is.store(is, Relaxed);
         }

@@ -1,24 +1,19 @@
 //! State that the thread groups of a program share with the thread that talks to viewers.
 
-use super::{
-    message::{Command, Report, Test},
-    server::Server,
-};
+use super::message::{Command, Report, Test};
 use core::time::Duration;
 use std::{
     boxed::Box,
-    io,
     sync::{
         Condvar, Mutex, MutexGuard, PoisonError,
-        atomic::{
-            AtomicBool, AtomicU64,
-            Ordering::{Relaxed, Release},
-        },
+        atomic::{AtomicBool, AtomicU64, Ordering::Relaxed},
     },
-    thread::{self, JoinHandle},
     time::Instant,
     vec::Vec,
 };
+
+/// Maximum number of viewers.
+pub const MAX_VIEWERS: usize = 16;
 
 /// State of a streamed run.
 pub struct Shared {
@@ -43,7 +38,6 @@ pub struct Shared {
     pub pace: Option<Pace>,
     /// `true` while the thread that talks to viewers is to stop.
     pub stops: AtomicBool,
-    thread: Mutex<Option<JoinHandle<Server>>>,
 }
 
 /// A channel that a viewer may ask for.
@@ -102,26 +96,7 @@ impl Shared {
             keeps: AtomicBool::new(false),
             pace,
             stops: AtomicBool::new(false),
-            thread: Mutex::new(None),
         }
-    }
-
-    /// Starts the thread that talks to viewers.
-    pub fn start(&self, server: Server) -> io::Result<()> {
-        let thread = thread::Builder::new().name("apex-studio".into()).spawn(move || server.run())?;
-        *self.thread.lock().unwrap_or_else(PoisonError::into_inner) = Some(thread);
-        Ok(())
-    }
-
-    /// Stops that thread, and returns all that it has, or `None` if there is no such thread.
-    pub fn stop(&self) -> Option<Server> {
-        let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take()?;
-        self.stops.store(true, Release);
-        thread.thread().unpark();
-        // A panic there concerns only the viewers.
-        let server = thread.join().ok();
-        self.stops.store(false, Release);
-        server
     }
 
     /// Says that the robot is there, and whether its groups react.

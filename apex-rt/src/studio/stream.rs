@@ -1,7 +1,8 @@
 use super::{
     checkpoint::Checkpoints,
-    message::{self, Report},
+    message::{self, Report, shortened},
     server::Server,
+    serving::Serving,
     shared::{Latest, Shared, Turn},
     times::Times,
 };
@@ -13,7 +14,7 @@ use core::{
 use rtrb::Producer;
 use std::{
     format,
-    string::{String, ToString as _},
+    string::ToString as _,
     sync::{
         Arc, MutexGuard,
         atomic::Ordering::{Acquire, Relaxed},
@@ -33,6 +34,7 @@ pub struct Stream {
     pub(super) ring: Producer<u8>,
     pub(super) info: &'static Info,
     pub(super) shared: Arc<Shared>,
+    pub(super) serving: Arc<Serving>,
     pub(super) group: u32,
     pub(super) requests: ServedRequests,
     /// The message that is being sent.
@@ -120,14 +122,14 @@ impl Stream {
 
     /// Does something while the process has no other threads of the studio.
     fn beside(&mut self, act: impl FnOnce(&mut Checkpoints, Server) -> (Server, Option<Report>)) {
-        let Some(server) = self.shared.stop() else { return };
+        let Some(server) = self.serving.stop() else { return };
         let (server, report) = act(&mut self.checkpoints, server);
         if report.is_none() {
             // This process has been woken. The requests are those of the original.
             self.requests.shared.forget();
             self.shared.pace.as_ref().inspect(|pace| pace.halt());
         }
-        if let Err(error) = self.shared.start(server) {
+        if let Err(error) = self.serving.start(server) {
             std::eprintln!("error: no viewer is served any more: {error}");
         }
         report.into_iter().for_each(|report| self.send(|| report));
@@ -261,14 +263,4 @@ impl Observer for Option<Stream> {
 
 fn nanos(duration: Duration) -> u64 {
     u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
-}
-
-/// Returns a text of at most `length` bytes.
-pub fn shortened(mut text: String, length: usize) -> String {
-    if text.len() > length {
-        let end = (0..=length).rev().find(|end| text.is_char_boundary(*end)).unwrap_or(0);
-        text.truncate(end);
-        text.push('…');
-    }
-    text
 }

@@ -3,7 +3,7 @@
 use super::{
     access::Access,
     message::{self, Command, Frames, Report},
-    server::Server,
+    robot::Robot,
     shared::Pace,
     socket::Wire,
 };
@@ -85,6 +85,13 @@ impl Viewer {
         self.heard.elapsed()
     }
 
+    /// Admits it, and describes the robot to it.
+    pub fn admit(&mut self, robot: &Robot) {
+        if !core::mem::replace(&mut self.is_admitted, true) {
+            robot.introduce(&mut self.out);
+        }
+    }
+
     /// Tells it why it has to leave.
     pub fn dismiss(&mut self, why: &str) {
         message::write(&Report::Dismissed(why.to_string()), &mut self.out);
@@ -93,9 +100,9 @@ impl Viewer {
     }
 
     /// Obeys commands that have come. Returns `true` if there are more.
-    pub fn receive(&mut self, server: &mut Server) -> bool {
+    pub fn receive(&mut self, robot: &mut Robot) -> bool {
         self.read();
-        let has_more = self.obey_all(server);
+        let has_more = self.obey_all(robot);
         if self.silent_since.is_some_and(|since| since.elapsed() > GREETING) {
             self.dismiss("a viewer has to say something when it has come");
         }
@@ -121,10 +128,10 @@ impl Viewer {
     }
 
     /// Obeys some commands. Returns `true` if there are more.
-    fn obey_all(&mut self, server: &mut Server) -> bool {
+    fn obey_all(&mut self, robot: &mut Robot) -> bool {
         for _ in 0..TURN_COMMANDS {
             match self.came.take() {
-                Ok(Some(command)) => self.hear(command, server),
+                Ok(Some(command)) => self.hear(command, robot),
                 Ok(None) => return false,
                 Err(_) => {
                     self.gone = true;
@@ -135,17 +142,17 @@ impl Viewer {
         self.came.is_ready()
     }
 
-    fn hear(&mut self, command: Command, server: &mut Server) {
+    fn hear(&mut self, command: Command, robot: &mut Robot) {
         (self.heard, self.silent_since) = (Instant::now(), None);
         match command {
-            Command::Token(token) if server.access.admits(&token) => server.greet(self),
-            command if self.is_admitted => self.obey(command, server),
+            Command::Token(token) if robot.access.admits(&token) => self.admit(robot),
+            command if self.is_admitted => self.obey(command, robot),
             _ => self.dismiss(&Access::refusal()),
         }
     }
 
-    fn obey(&mut self, command: Command, server: &mut Server) {
-        if server.access.readonly && command.acts() {
+    fn obey(&mut self, command: Command, robot: &mut Robot) {
+        if robot.access.readonly && command.acts() {
             if let Command::Set { name, .. } = command {
                 let value = Err(std::format!("`{name}` keeps its value: viewers of this robot may only look"));
                 message::write(&Report::Param { name, value, reactions: Some(0) }, &mut self.out);
@@ -156,7 +163,7 @@ impl Viewer {
             Command::Watch { channel, every } => {
                 let channel = channel as usize;
                 self.watches.retain(|watch| watch.0 != channel);
-                if every > 0 && channel < server.shared.channels.len() {
+                if every > 0 && channel < robot.shared.channels.len() {
                     self.watches.push((channel, Duration::from_millis(every.into()), None));
                 }
             }
@@ -165,19 +172,19 @@ impl Viewer {
             Command::Keep(keeps) => {
                 self.keeps = keeps;
                 // Before the next command, which may let the program run.
-                server.shared.keeps.fetch_or(keeps, core::sync::atomic::Ordering::Relaxed);
+                robot.shared.keeps.fetch_or(keeps, core::sync::atomic::Ordering::Relaxed);
             }
-            Command::Params => server.asking.read_all(),
+            Command::Params => robot.asking.read_all(),
             Command::Set { name, value } => {
-                if let Some(answer) = server.asking.set((self.id, &self.name), &name, &value) {
+                if let Some(answer) = robot.asking.set((self.id, &self.name), &name, &value) {
                     message::write(&answer, &mut self.out);
                 }
             }
             Command::Alive | Command::Token(_) => {}
             Command::Break(tests) if tests.len() > MAX_TESTS => {}
             pace => {
-                if let Some(state) = &server.shared.pace {
-                    Pace::obey(state, &pace, &server.shared.active);
+                if let Some(state) = &robot.shared.pace {
+                    Pace::obey(state, &pace, &robot.shared.active);
                 }
             }
         }

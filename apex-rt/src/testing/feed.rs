@@ -1,24 +1,25 @@
 //! Tokens that a test feeds.
 
 use crate::Time;
+use core::time::Duration;
 
-/// Result of putting a token in.
-pub enum Fed {
-    /// The token before is still there.
-    NoRoom,
-    /// It was put in, and the next one is due at this time.
-    Next(Time),
-    /// It was put in, and was the last one.
-    Last,
+/// Times of the tokens of a `feed` statement.
+pub enum Times {
+    /// One every period, if there is one. A single token with a period is repeated.
+    Every {
+        /// Number of tokens.
+        tokens: usize,
+        period: Option<Duration>,
+    },
+    /// Those of a recording, from its beginning.
+    #[cfg(feature = "record")]
+    At(Time, Vec<Duration>),
 }
 
-/// Function that puts in the token that is due at a time.
-type Put<P> = Box<dyn FnMut(&mut P, Time) -> Fed>;
-
-/// The tokens of one `feed` statement.
-pub struct Feed<P> {
+/// The `feed` statement of some tokens.
+pub struct Feed {
     /// Number of `feed` statements before this one.
-    number: usize,
+    pub number: usize,
     /// Port of the program.
     port: &'static str,
     /// Place of the statement.
@@ -26,21 +27,14 @@ pub struct Feed<P> {
     /// Time of the next token.
     pub due: Time,
     /// Number of tokens that were put in.
-    count: u64,
-    /// `true` for a recording or a value that is repeated: it may go on after the test.
-    is_open: bool,
-    put: Put<P>,
+    count: usize,
+    times: Times,
 }
 
-impl<P> Feed<P> {
-    /// Returns a feed whose first token is due at `due`; `put` puts in the token that is due at a time.
-    pub fn new(
-        number: usize,
-        (port, place): (&'static str, &'static str),
-        due: Time,
-        put: impl FnMut(&mut P, Time) -> Fed + 'static,
-    ) -> Self {
-        Self { number, port, place, due, count: 0, is_open: false, put: Box::new(put) }
+impl Feed {
+    /// Returns a feed whose first token is due at `due`.
+    pub fn new(number: usize, (port, place): (&'static str, &'static str), due: Time, times: Times) -> Self {
+        Self { number, port, place, due, count: 0, times }
     }
 
     /// Key that sorts feeds: by the times of their next tokens, and those of one time by their statements.
@@ -48,31 +42,44 @@ impl<P> Feed<P> {
         (self.due, self.number)
     }
 
-    /// Puts the next token in, if there is room.
-    pub fn put(&mut self, program: &mut P) -> Fed {
-        let fed = (self.put)(program, self.due);
-        if let Fed::Next(due) = fed {
-            self.due = due;
-        }
-        self.count += u64::from(!matches!(fed, Fed::NoRoom));
-        fed
+    /// Returns the number of the next token among those of the statement.
+    pub fn next(&self) -> usize {
+        if matches!(self.times, Times::Every { tokens: 1, .. }) { 0 } else { self.count }
     }
 
-    /// Returns the feed as one that may go on after the test.
-    pub fn open(self) -> Self {
-        Self { is_open: true, ..self }
+    /// Takes note that the next token was put in. Returns `false` if it was the last one.
+    pub fn is_put(&mut self) -> bool {
+        self.count += 1;
+        let due = match &self.times {
+            Times::Every { tokens, period } => {
+                period.filter(|_| *tokens == 1 || self.count < *tokens).map(|period| self.due + period)
+            }
+            #[cfg(feature = "record")]
+            Times::At(start, times) => times.get(self.count).map(|time| *start + *time),
+        };
+        self.due = due.unwrap_or(self.due);
+        due.is_some()
+    }
+
+    /// Returns `true` for a recording or a value that is repeated: it may go on after the test.
+    fn is_open(&self) -> bool {
+        match self.times {
+            Times::Every { tokens, period } => tokens == 1 && period.is_some(),
+            #[cfg(feature = "record")]
+            Times::At(..) => true,
+        }
     }
 
     /// Returns `true` if `next`, which begins now, takes the place of this feed: both go on without an end.
     pub fn is_replaced_by(&self, next: &Self) -> bool {
-        self.is_open && next.is_open && self.port == next.port
+        self.is_open() && next.is_open() && self.port == next.port
     }
 
     /// The message that a token which was due by `now` was never put in; `None` if none is missing. `ended` is the time
     /// at which the program ended, if it did.
     pub fn left(&self, now: Time, ended: Option<Time>) -> Option<String> {
         let why = match ended {
-            Some(_) if self.is_open => return None,
+            Some(_) if self.is_open() => return None,
             Some(time) => format!("the program ended at {time}"),
             None if self.due <= now => "the program has not taken the one before".to_owned(),
             None => return None,

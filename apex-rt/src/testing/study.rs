@@ -53,15 +53,15 @@ std::thread_local! {
     static RECORDED: RefCell<Recorded> = RefCell::new(HashMap::new());
 }
 
-/// Sets the parameters of a program to the values of the present run, if there is one.
+/// Sets the parameters that `visit` passes on to the values of the present run, if there is one.
 ///
 /// # Panics
 /// A parameter refuses its value.
-pub(super) fn set<P: Parameters>(program: &mut P) {
+pub(super) fn set(visit: &mut dyn FnMut(&mut dyn ParamVisitor)) {
     TRIAL.with_borrow(|trial| {
         let Some(trial) = trial else { return };
         let mut setter = Setter { trial, refused: None };
-        program.visit_params(&mut setter);
+        visit(&mut setter);
         if let Some(refused) = setter.refused {
             panic!("{refused}");
         }

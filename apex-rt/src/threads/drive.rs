@@ -3,15 +3,17 @@
 use super::{
     CellMessage, Group, Spawn, Wake,
     idle::{Alarm, Shared},
+    pulse::{Heartbeat, WatchdogObserver},
     settings,
-    watch::{Heartbeat, StopSignal, WatchdogObserver, Watched, watch},
+    watch::{StopSignal, Watched, watch},
 };
 use crate::{
-    CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time, WallClock,
+    CellSender, Clock, Info, Next, Observer, Ports, Program, Switch, Time,
+    clock::Pace,
     end::{Driven, is_asked},
     ports::Ways,
+    react::{Lateness, Untaken},
     requests::ServedRequests,
-    run::{Lateness, Untaken},
 };
 use std::{
     panic::resume_unwind,
@@ -22,23 +24,6 @@ use std::{
     thread::{self, Scope, ScopedJoinHandle, Thread},
     time::{Duration, Instant},
 };
-
-/// Timing of threads: the machine's clock, and a switch that ends the program.
-///
-/// ```
-/// use apex_rt::{Switch, prelude::*, threads::Pace};
-///
-/// static STOP: Switch = Switch::new();
-/// let pace = Pace { stopped: Some(&STOP), ..WallClock::new().pace().expect("it is the machine's clock") };
-/// assert!(pace.stopped.is_some_and(|stop| !stop.is_set()));
-/// ```
-#[derive(Debug, Clone, Copy)]
-pub struct Pace {
-    /// Clock of all threads.
-    pub clock: WallClock,
-    /// Switch that ends the program.
-    pub stopped: Option<&'static Switch>,
-}
 
 /// Longest busy wait of a thread. A thread only waits busily if its last sleep was shorter than this.
 const LINGER: Duration = Duration::from_micros(50);

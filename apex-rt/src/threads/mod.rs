@@ -5,62 +5,30 @@ mod drive;
 #[cfg(feature = "std")]
 mod idle;
 #[cfg(feature = "std")]
+mod pulse;
+#[cfg(feature = "std")]
 mod settings;
 #[cfg(feature = "std")]
 mod watch;
 
-use crate::{
-    Observer, Parameters, Program, Time,
-    params::{ParamInfo, ParamVisitor},
-};
 use core::cell::Cell;
 
 #[cfg(feature = "std")]
+pub use crate::clock::Pace;
 #[doc(hidden)]
-pub use watch::WatchdogObserver;
+pub use crate::{
+    cell_message::CellMessage,
+    program::{Group, SingleGroup, Spawn, Wake},
+};
+
+#[cfg(feature = "std")]
+#[doc(hidden)]
+pub use pulse::WatchdogObserver;
 
 #[cfg(feature = "std")]
 pub(crate) use drive::drive_from_threads;
 #[cfg(feature = "std")]
-pub use drive::{Pace, drive_on_threads, react_on_threads};
-
-/// A token between two thread groups, with its stamp and activity.
-#[derive(Debug)]
-#[doc(hidden)]
-pub struct CellMessage<T> {
-    /// The token; `None` is ⊥.
-    pub token: Option<T>,
-    /// `true` if the token carries activity.
-    pub active: bool,
-    /// Firing time of the source from which the token descends.
-    pub stamp: Time,
-}
-
-impl<T> CellMessage<T> {
-    /// Returns a parcel without a token.
-    pub const fn new() -> Self {
-        Self { token: None, active: false, stamp: Time::ZERO }
-    }
-}
-
-impl<T> Default for CellMessage<T> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-/// Wakes thread groups, by number, when a token has come for them or has been taken from them.
-#[doc(hidden)]
-pub trait Wake {
-    /// Wakes group `group`, because there is something to react to.
-    fn wake(&self, group: usize);
-}
-
-impl<W: Wake> Wake for &W {
-    fn wake(&self, group: usize) {
-        (**self).wake(group);
-    }
-}
+pub use drive::{drive_on_threads, react_on_threads};
 
 /// Maximum number of thread groups in a program: each has a bit of [`ReadySet`].
 #[doc(hidden)]
@@ -97,64 +65,6 @@ impl ReadySet {
 impl Wake for ReadySet {
     fn wake(&self, group: usize) {
         self.0.set(self.0.get() | 1 << group);
-    }
-}
-
-/// A part of a program that runs on one thread.
-#[doc(hidden)]
-pub trait Group: Program {
-    /// Reacts at `now`. Sources without a period fire only if `begins` is `true`: the reaction then begins, instead of
-    /// continuing because of actions of other groups.
-    fn react_part<O: Observer>(&mut self, now: Time, begins: bool, observer: &mut O) -> crate::Next;
-}
-
-/// Runner of the thread groups of a program with the mailboxes `I` and `E`. Each group is passed to it.
-#[doc(hidden)]
-pub trait Spawn<'a, I, E> {
-    /// Runs a group on any thread.
-    fn spawn<G: Group + Send + 'a>(&mut self, group: usize, part: G);
-
-    /// Takes the cell that reports hanging nodes to group `group`. Called before the other methods.
-    fn watch(&mut self, group: usize, hung: crate::CellSender<'a, CellMessage<()>>);
-
-    /// Runs the main group, which has the ports of the program, on the current thread. Called last.
-    fn stay<G: Group<Inputs = I, Events = E> + 'a>(&mut self, group: usize, part: G);
-}
-
-/// A program with a single group.
-#[derive(Debug)]
-#[doc(hidden)]
-pub struct SingleGroup<'a, P>(pub &'a mut P);
-
-impl<P: Program> Parameters for SingleGroup<'_, P> {
-    const PARAMS: &'static [ParamInfo] = P::PARAMS;
-
-    fn visit_params(&mut self, visitor: &mut dyn ParamVisitor) {
-        self.0.visit_params(visitor);
-    }
-}
-
-impl<P: Program> Program for SingleGroup<'_, P> {
-    const INFO: crate::Info = P::INFO;
-    type Inputs = P::Inputs;
-    type Events = P::Events;
-
-    fn react_with<O: Observer>(&mut self, now: Time, observer: &mut O) -> crate::Next {
-        self.0.react_with(now, observer)
-    }
-
-    fn mailboxes(&mut self) -> (&mut P::Inputs, &mut P::Events) {
-        self.0.mailboxes()
-    }
-
-    fn untaken(&self) -> Option<(&'static str, crate::Arrival)> {
-        self.0.untaken()
-    }
-}
-
-impl<P: Program> Group for SingleGroup<'_, P> {
-    fn react_part<O: Observer>(&mut self, now: Time, begins: bool, observer: &mut O) -> crate::Next {
-        if begins { self.0.react_with(now, observer) } else { crate::Next::Input }
     }
 }
 

@@ -1,44 +1,11 @@
 //! Watchdog: detects nodes that hang.
 
-use super::CellMessage;
-use crate::{CellSender, Info, Observer};
+use super::pulse::Heartbeat;
+use crate::{CellSender, Info, Observer, cell_message::CellMessage};
 use std::{
-    sync::{
-        Condvar, Mutex, MutexGuard, PoisonError,
-        atomic::{AtomicUsize, Ordering},
-    },
+    sync::{Condvar, Mutex, MutexGuard, PoisonError, atomic::Ordering},
     time::{Duration, Instant},
 };
-
-/// Pulse of a thread: the node that it runs, and the number of nodes that it has begun and finished. The watchdog reads
-/// it periodically, so that the thread never waits nor reads a clock.
-#[derive(Debug, Default)]
-pub struct Heartbeat {
-    /// Number of the node, from 1; 0 between nodes.
-    node: AtomicUsize,
-    beats: AtomicUsize,
-}
-
-/// Observer that updates the pulse of its thread.
-pub struct WatchdogObserver<'a, O> {
-    /// Observer to which all calls are passed on.
-    pub observer: O,
-    /// The pulse, if the thread is watched.
-    pub pulse: Option<&'a Heartbeat>,
-    /// Description of the program, for the node at the end of each connection.
-    pub info: &'static Info,
-}
-
-impl<O> WatchdogObserver<'_, O> {
-    /// Sets the node that the thread runs, by its number from 1; 0 for none.
-    #[inline(always)]
-    pub(crate) fn runs(&self, node: usize) {
-        if let Some(pulse) = self.pulse {
-            pulse.beats.store(pulse.beats.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
-            pulse.node.store(node, Ordering::Relaxed);
-        }
-    }
-}
 
 /// Last observation of a thread.
 struct Seen {

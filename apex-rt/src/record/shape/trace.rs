@@ -1,7 +1,7 @@
 //! Tracing of a type: it is read again and again from made-up values, each time another variant, until everything that
 //! it asks for has been seen.
 
-use super::{Shape, Slot};
+use super::parts::{Shape, Slot};
 use serde::{
     Deserializer,
     de::{
