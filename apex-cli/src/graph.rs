@@ -164,7 +164,7 @@ impl Drawn<'_> {
 /// The named graph or state machine. Without a name: the only robot, else the only graph that is not part of another
 /// one, else the only other graph, else the only state machine.
 fn choose<'a>(checked: &'a Checked, file: &Path, name: Option<&str>) -> Result<Drawn<'a>, String> {
-    let programs = checked.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
+    let programs = checked.programs.iter().filter(|p| !p.is_test()).map(|p| &p.graph);
     let graphs = || checked.parts.iter().chain(programs.clone());
     let machines = || checked.machines().into_iter().map(Drawn::Machine);
     let all: Vec<Drawn<'_>> = graphs().map(Drawn::Graph).chain(machines()).collect();

@@ -27,7 +27,7 @@ struct Measured<'a> {
 /// Prints the size of each program of a source file, part by part.
 pub fn run(file: &Path, answer: &mut Answer) -> Result<ExitCode, String> {
     let mut checked = project::check(file)?;
-    let programs: Vec<&CheckedProgram> = checked.programs.iter().filter(|p| p.script.is_none()).collect();
+    let programs: Vec<&CheckedProgram> = checked.programs.iter().filter(|p| !p.is_test()).collect();
     let of_all = passes::memory(programs.iter().copied(), &checked.catalog, &checked.sources, &mut checked.diagnostics);
     answer.messages(&checked.diagnostics, &checked.sources);
     if checked.diagnostics.has_errors() {

@@ -456,7 +456,7 @@ pub fn package(file: &Path) -> Result<PathBuf, String> {
 
 /// The named program, or else the only robot, or else the only graph.
 fn choose<'a>(programs: &'a [CheckedProgram], name: Option<&str>) -> Result<&'a CheckedProgram, String> {
-    let programs: Vec<&CheckedProgram> = programs.iter().filter(|p| p.script.is_none()).collect();
+    let programs: Vec<&CheckedProgram> = programs.iter().filter(|p| !p.is_test()).collect();
     let names = || programs.iter().map(|p| format!("`{}`", p.graph.name)).collect::<Vec<_>>().join(", ");
     if let Some(name) = name {
         return programs.iter().copied().find(|p| p.graph.name == name).ok_or_else(|| {

@@ -86,7 +86,7 @@ pub fn study(launch: &Launch, page: &Page) -> Result<ExitCode, String> {
 fn studies(file: &Path) -> Vec<Study> {
     let workspace = run::package(file).and_then(|folder| Workspace::load(&folder));
     let (Ok(workspace), Ok(checked)) = (workspace, project::check(file)) else { return vec![] };
-    let scripts = checked.programs.iter().filter_map(|program| program.script.as_ref());
+    let scripts = checked.programs.iter().flat_map(|program| &program.scripts);
     let named = scripts
         .filter(|script| script.study.is_some())
         .map(|script| Study { name: script.name.clone(), folder: tune::default_folder(&workspace, &script.name) });

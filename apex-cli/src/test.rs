@@ -30,7 +30,7 @@ pub fn run(file: &Path, filter: Option<&str>, how: How, answer: &mut Answer) -> 
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
-    let scripts = checked.programs.iter().filter_map(|p| p.script.as_ref()).filter(|script| script.study.is_none());
+    let scripts = checked.programs.iter().flat_map(|p| &p.scripts).filter(|script| script.study.is_none());
     let scripts: Vec<&Script> = scripts.collect();
     if scripts.is_empty() {
         answer.give(|| format!("`{}` has no `test`", file.display()), || results::json(&[]))?;
@@ -79,7 +79,7 @@ fn in_studio(file: &Path, checked: &Checked, test: &str) -> Option<String> {
     let tree = &checked.texts.files.first()?.1;
     let path = &tree.tests.iter().find(|item| item.name.text == test)?.graph;
     let graph = path.segments.last()?.text.as_str();
-    let programs = || checked.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
+    let programs = || checked.programs.iter().filter(|p| !p.is_test()).map(|p| &p.graph);
     let robots: Vec<&str> = programs().filter(|graph| graph.robot).map(|graph| graph.name.as_str()).collect();
     let (what, robot) = match robots.as_slice() {
         _ if programs().any(|program| program.name == graph) => (format!("`{graph}`"), graph),
@@ -106,7 +106,7 @@ pub fn built(file: &Path, checked: &Checked, names: &[&str], how: How) -> Result
     let workspace = Workspace::load(&folder)?;
     run::has_apex(&folder, &workspace)?;
     let is_recorded = |step: &Step| matches!(step, Step::FeedRecorded { .. });
-    let scripts = checked.programs.iter().filter_map(|p| p.script.as_ref());
+    let scripts = checked.programs.iter().flat_map(|p| &p.scripts);
     let recorded = scripts.flat_map(|script| &script.steps).any(is_recorded);
     let tests = Tests {
         text: &run::absolute(file)?,

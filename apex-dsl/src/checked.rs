@@ -12,6 +12,13 @@ pub struct CheckedProgram {
     pub claims: Decided,
     /// Division into thread groups, if it runs on several threads.
     pub split: Option<Split>,
-    /// Script of the test, if the program is made for one.
-    pub script: Option<Script>,
+    /// Scripts of the tests for which the program is made; empty for a program of its own.
+    pub scripts: Vec<Script>,
+}
+
+impl CheckedProgram {
+    /// `true` if the program is made for tests.
+    pub fn is_test(&self) -> bool {
+        !self.scripts.is_empty()
+    }
 }

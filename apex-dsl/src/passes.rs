@@ -52,9 +52,8 @@ pub fn check_all(
     catalog.look_from(&sources.get(root).path);
     let resolved = resolve::resolve(root, catalog, sources, world, diagnostics);
     let (mut programs, mut parts) = (vec![], resolved.nested);
-    let graphs = resolved.graphs.into_iter().map(|graph| (graph, None));
-    let tests = resolved.tests.into_iter().map(|(graph, script)| (graph, Some(script)));
-    for (graph, script) in graphs.chain(tests) {
+    let graphs = resolved.graphs.into_iter().map(|graph| (graph, vec![]));
+    for (graph, scripts) in graphs.chain(resolved.tests) {
         check::check(&graph, catalog, diagnostics);
         if let Some(analysis) = analyse::analyse(&graph, catalog, diagnostics) {
             check::check_rates(&graph, &analysis, diagnostics);
@@ -62,7 +61,7 @@ pub fn check_all(
             if graph.is_open {
                 parts.push(graph);
             } else {
-                programs.push(CheckedProgram { graph, analysis, claims: Decided::default(), split: None, script });
+                programs.push(CheckedProgram { graph, analysis, claims: Decided::default(), split: None, scripts });
             }
         }
     }
@@ -94,7 +93,7 @@ pub fn check_all(
 
 /// The program between analysis and Rust, as text, for each of `programs` that is not a test.
 pub fn listings(programs: &[CheckedProgram], catalog: &Catalog, sources: &Sources) -> Vec<String> {
-    let graphs = programs.iter().filter(|program| program.script.is_none());
+    let graphs = programs.iter().filter(|program| !program.is_test());
     graphs.map(|program| codegen::listing(program, catalog, sources)).collect()
 }
 

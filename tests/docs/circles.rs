@@ -8,10 +8,11 @@ use std::{
 };
 
 /// Folders with the sources of crates.
-const CRATES: [&str; 17] = [
+const CRATES: [&str; 19] = [
     "apex-attributes/src",
     "apex-bag/src",
     "apex-cli/src",
+    "apex-diagram/src",
     "apex-dsl/src",
     "apex-host/src",
     "apex-ide/src",
@@ -22,6 +23,7 @@ const CRATES: [&str; 17] = [
     "apex-messages/src",
     "apex-optim/src",
     "apex-petri/src",
+    "apex-rt/src",
     "apex-signature/src",
     "apex-tune/src",
     "robots/explorer/src",
@@ -29,11 +31,13 @@ const CRATES: [&str; 17] = [
 ];
 
 /// Files that use each other because their types contain one another.
-const RECURSIVE: [[&str; 2]; 2] = [
+const RECURSIVE: [[&str; 2]; 3] = [
     // A bag of several files is a recording, and has recordings.
     ["apex-bag/src/folder.rs", "apex-bag/src/recording.rs"],
     // A node may have a graph inside.
     ["apex-dsl/src/graph/mod.rs", "apex-dsl/src/graph/node.rs"],
+    // A tap is an observer, and an observer may have one.
+    ["apex-rt/src/observer.rs", "apex-rt/src/record/tap.rs"],
 ];
 
 /// A module by its path in the crate. It has a file.
@@ -74,11 +78,13 @@ fn flat(stream: TokenStream, out: &mut Vec<String>) {
 
 /// The tokens without items that only tests have.
 fn without_tests(words: &[String]) -> Vec<String> {
-    const TEST: [&str; 7] = ["#", "[", "cfg", "(", "test", ")", "]"];
+    const TESTS: [&[&str]; 2] =
+        [&["#", "[", "cfg", "(", "test", ")"], &["#", "[", "cfg", "(", "all", "(", "test", ","]];
     let (mut left, mut at) = (vec![], 0);
     while at < words.len() {
-        if words[at..].iter().take(TEST.len()).eq(TEST) {
-            at = end_of_item(words, at + TEST.len());
+        if TESTS.iter().any(|test| words[at..].iter().take(test.len()).eq(test.iter())) {
+            let attribute = words[at..].iter().position(|word| word == "]").unwrap_or_default();
+            at = end_of_item(words, at + attribute + 1);
         } else {
             left.push(words[at].clone());
             at += 1;
@@ -94,6 +100,8 @@ fn end_of_item(words: &[String], mut at: usize) -> usize {
         match words[at].as_str() {
             "{" | "(" | "[" => depth += 1,
             "}" if depth == 1 => return at + 1,
+            // In code that is quoted, the item may be a variable.
+            "}" | ")" | "]" if depth == 0 => return at,
             "}" | ")" | "]" => depth -= 1,
             ";" if depth == 0 => return at + 1,
             _ => {}
@@ -151,7 +159,8 @@ impl File {
         flat(code.parse().expect("it is Rust"), &mut words);
         let words = without_tests(&words);
         let mut file = Self { path, ..Self::default() };
-        let mut at = 0;
+        // What a module inside the file or a function imports has that name only there.
+        let (mut at, mut depth) = (0, 0_usize);
         while at < words.len() {
             if words[at] == "use" {
                 let is_public = at > 0 && (words[at - 1] == "pub" || words[at - 1] == ")");
@@ -159,16 +168,26 @@ impl File {
                 at = tree_at(&words, at + 1, &[], &mut found);
                 for (name, path) in found {
                     match is_public {
+                        true if depth > 0 => continue,
                         true => drop(file.exports.insert(name.clone())),
                         false => file.uses.push(path.clone()),
                     }
-                    file.imports.insert(name, path);
+                    if depth == 0 {
+                        file.imports.insert(name, path);
+                    } else {
+                        file.imports.entry(name).or_insert(path);
+                    }
                 }
             } else if is_name(&words[at]) {
                 let mut path = vec![];
                 at = path_at(&words, at, &mut path);
                 file.uses.extend((path.len() > 1).then_some(path));
             } else {
+                depth = match words[at].as_str() {
+                    "{" => depth + 1,
+                    "}" => depth.saturating_sub(1),
+                    _ => depth,
+                };
                 at += 1;
             }
         }
@@ -296,7 +315,10 @@ fn circles_are_found() {
     };
     let circle = |a: &str, b: &str| {
         let files = BTreeMap::from([
-            file("", "mod a; mod b; mod c; pub use a::A; pub use self::b::{B, Other};"),
+            file(
+                "",
+                "mod a; mod b; mod c; pub use a::A; pub use self::b::{B, Other}; pub mod prelude { pub use crate::{A, B}; }",
+            ),
             file("a", a),
             file("b", b),
             file("c", "use crate::{A, B};"),

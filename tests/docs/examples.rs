@@ -54,11 +54,15 @@ impl Module {
     /// Adds what is re-exported.
     fn add_used(&self, item: &ItemUse, called: &mut Vec<Called>) {
         let UseTree::Path(path) = &item.tree else { panic!("a path is re-exported") };
+        let (mut path, mut folder) = (path, self.folder.clone());
+        if let ("crate", UseTree::Path(inner)) = (path.ident.to_string().as_str(), &*path.tree) {
+            (path, folder) = (inner, root().join("apex-rt/src"));
+        }
         let (module, mut names) = (path.ident.to_string(), vec![]);
         add_names(&path.tree, &mut names);
         if module == MACROS {
             called.extend(names.into_iter().map(|name| Called { name, has_example: has_example(&item.attrs) }));
-        } else if let Some(module) = Self::read(&self.folder, &module) {
+        } else if let Some(module) = Self::read(&folder, &module) {
             called.extend(names.iter().filter_map(|name| module.called(name)));
         }
     }

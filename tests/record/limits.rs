@@ -92,9 +92,11 @@ fn the_size_of_all_files_is_bounded() {
         // All that is left is repeated, and equal where it does not depend on what was before.
         let report = repeat(Busy::new(), &finished.path);
         assert!(report.is_same() && report.is_whole() && report.file > 1, "{report}");
+        assert!(report.compared[0].equal > 100, "{report}");
         let [.., last] = finished.files.as_slice() else { panic!("there are files") };
         let report = repeat(Busy::new(), last);
-        assert!(report.is_same() && report.is_whole() && report.compared[0].equal > 100, "{report}");
+        // Where it begins depends on the thread that writes: a moment before the end at the latest.
+        assert!(report.is_same() && report.is_whole() && report.compared[0].equal > 0, "{report}");
         assert!(report.to_string().starts_with("the recording begins with file "), "{report}");
         // A file alone does not end as the run did.
         let folder = Folder::new();

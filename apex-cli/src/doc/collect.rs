@@ -98,7 +98,7 @@ impl Checked<'_> {
 
     fn graph(&self, id: GraphId, nodes: &mut BTreeMap<Key, Item>) -> Item {
         let item = self.view.texts.graph(id);
-        let programs = self.programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
+        let programs = self.programs.iter().filter(|p| !p.is_test()).map(|p| &p.graph);
         let graph = programs.chain(self.parts).find(|graph| graph.span == item.name.span);
         let written = self.written(item);
         for node in written.iter().filter_map(|written| self.made_of(written)) {

@@ -101,7 +101,7 @@ pub fn run(wanted: &Wanted, answer: &mut Answer) -> Result<ExitCode, String> {
     if checked.diagnostics.has_errors() {
         return Ok(ExitCode::from(1));
     }
-    let scripts = checked.programs.iter().filter_map(|p| p.script.as_ref());
+    let scripts = checked.programs.iter().flat_map(|p| &p.scripts);
     let studies = scripts.filter_map(|script| Some((script, script.study.as_ref()?))).collect::<Vec<_>>();
     let (script, stated) = chosen(&studies, wanted)?;
     let folder = run::package(&wanted.file)?;

@@ -18,8 +18,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use std::collections::BTreeSet;
 
-/// The program of a graph, with the test that it is made for, if there is one; `recordable` if a run of it can be
-/// recorded.
+/// The program of a graph, with the tests that it is made for; `recordable` if a run of it can be recorded.
 pub fn program(
     program: &CheckedProgram,
     catalog: &Catalog,
@@ -46,10 +45,7 @@ pub fn program(
     let formats = channels.map(Channels::formats);
     let recorded = generator.recorded_tokens(graph);
     let code = quote! { #code #formats #recorded };
-    let code = match &program.script {
-        Some(script) => generator.test(graph, script, code),
-        None => code,
-    };
+    let code = if program.is_test() { generator.tests(graph, &program.scripts, code) } else { code };
     bugs.report(diagnostics);
     code
 }

@@ -1,4 +1,4 @@
-//! A `test` or `tune` item as a Rust test: the program that is made for it, and its script. A study is a test that
+//! `test` and `tune` items as Rust tests: the program that is made for them, and their scripts. A study is a test that
 //! `cargo test` ignores; `apex tune` has it run the script again and again.
 
 use super::{
@@ -37,51 +37,52 @@ impl Generator<'_> {
         }
     }
 
-    /// The test around `program`: a module with the program, and beside it the function that Rust's tests know.
-    pub fn test(&self, graph: &Graph, script: &Script, program: TokenStream) -> TokenStream {
-        let (test, name, program_name) = (ident(&script.name), &script.name, ident(&graph.name));
-        let module_name = format_ident!("test_{}", script.name);
-        let docs = (!script.docs.is_empty()).then(|| {
-            let docs = &script.docs;
-            quote!(#[doc = #docs])
+    /// The tests of `program`: a module with the program and their scripts, and beside it the functions that Rust's
+    /// tests know.
+    pub fn tests(&self, graph: &Graph, scripts: &[Script], program: TokenStream) -> TokenStream {
+        let module_name = format_ident!("tests_of_{}", graph.name);
+        let runs = scripts.iter().map(|script| match &script.study {
+            Some(study) => self.study(graph, script, study),
+            None => self.script(graph, script),
         });
-        if let Some(study) = &script.study {
-            let run = self.study(graph, script, study);
-            let module = module(&module_name, &graph.name, quote! { #program #run });
-            return quote! {
-                #[cfg(test)]
-                #module
+        let module = module(&module_name, &graph.name, quote! { #program #(#runs)* });
+        let tests = scripts.iter().map(|script| {
+            let (test, run, docs) = (ident(&script.name), run(&script.name), &script.docs);
+            let docs = (!docs.is_empty()).then(|| quote!(#[doc = #docs]));
+            let ignored = script.study.is_some().then(|| quote!(#[ignore = "a study, which `apex tune` runs"]));
+            quote! {
                 #docs
                 #[cfg(test)]
                 #[test]
-                #[ignore = "a study, which `apex tune` runs"]
-                fn #test() { #module_name::run() }
-            };
+                #ignored
+                fn #test() { #module_name::#run() }
+            }
+        });
+        quote! {
+            #[cfg(test)]
+            #module
+            #(#tests)*
         }
+    }
+
+    /// The function that runs the script of a test.
+    fn script(&self, graph: &Graph, script: &Script) -> TokenStream {
+        let (run, name, program) = (run(&script.name), &script.name, ident(&graph.name));
         let drains = self.drains(
             graph,
             script,
-            |_, name| quote!(timeline.token(#name, &(&::apex_rt::testing::Shown(token)).shown());),
+            |_, name| quote!(timeline.token(#name, &(&::apex_rt::shown::Shown(token)).shown());),
         );
         let steps = script.steps.iter().enumerate().map(|(number, step)| self.step(graph, number, step, false));
-        // Beside the function its name hides others, in the module it does not.
-        let run = quote! {
-            pub fn run() {
-                use ::apex_rt::testing::{ByDebug as _, ByType as _};
-                let program = #program_name::new();
+        // In the module its name hides no others.
+        quote! {
+            pub fn #run() {
+                use ::apex_rt::shown::{ByDebug as _, ByType as _};
+                let program = #program::new();
                 let mut test = ::apex_rt::testing::Test::new(#name, program, |program, timeline| { #(#drains)* });
                 #(#steps)*
                 test.finish();
             }
-        };
-        let module = module(&module_name, &graph.name, quote! { #program #run });
-        quote! {
-            #[cfg(test)]
-            #module
-            #docs
-            #[cfg(test)]
-            #[test]
-            fn #test() { #module_name::run() }
         }
     }
 
@@ -106,11 +107,12 @@ impl Generator<'_> {
         });
         let (seeds, recordings) = (&study.seed_params, &study.recordings);
         let required = study.required.iter().map(|test| {
-            let module = format_ident!("test_{}", test);
-            quote! { (#test, super::#module::run as fn()) }
+            let function = ident(test);
+            quote! { (#test, super::#function as fn()) }
         });
+        let run = run(name);
         quote! {
-            pub fn run() {
+            pub fn #run() {
                 const STUDY: ::apex_rt::testing::Study = ::apex_rt::testing::Study {
                     vary: &[#(#vary),*],
                     seeds: &[#(#seeds),*],
@@ -129,19 +131,25 @@ impl Generator<'_> {
     }
 
     /// Code that takes the tokens out of each probe, and compares them with what the statements expect or forbid; a
-    /// check has the number of its statement. `more` is done with each token besides.
+    /// check has the number of its statement. `more` is done with each token besides. Probes inside the graph that
+    /// only other tests of the program look at are emptied.
     fn drains(&self, graph: &Graph, script: &Script, more: impl Fn(NodeId, &str) -> TokenStream) -> Vec<TokenStream> {
         let mut numbers = 0..;
         let mut drain = |node: NodeId| {
-            let (field, name) = (self.probe(node), graph.nodes[node].name.trim_start_matches("probe "));
+            let (field, name, ports) = (self.probe(node), &graph.nodes[node].name, self.ports_of(graph, node));
+            let tokens = quote!(#ports.outputs.#field.take());
             let checks = checks(script, node);
+            let inside = name.strip_prefix("probe ");
+            if checks.is_empty() && inside.is_some() && script.study.is_none() {
+                return quote! { drop(#tokens); };
+            }
             let checks = checks.values().zip(numbers.by_ref()).map(|(checks, number)| {
                 let number = Literal::usize_unsuffixed(number);
                 quote! { timeline.arrives(#number); #(#checks)* }
             });
-            let (ports, more) = (self.ports_of(graph, node), more(node, name));
+            let more = more(node, inside.unwrap_or(name));
             quote! {
-                for token in #ports.outputs.#field.take() {
+                for token in #tokens {
                     let token = &token;
                     #(#checks)*
                     #more
@@ -168,7 +176,7 @@ impl Generator<'_> {
                 let (shown, place) = (&graph.nodes[*port].name, self.position(*span));
                 quote! {
                     test.feed::<#token>(
-                        (#shown, #place), [#(#values),*], #every, |program, token| #ports.inputs.#name.put(token),
+                        (#shown, #place), &[#(#values),*], #every, |program, token| #ports.inputs.#name.put(token),
                     );
                 }
             }
@@ -261,6 +269,11 @@ impl Generator<'_> {
             What::Token(..) => None,
         }
     }
+}
+
+/// The function that runs a script, in the module of its program.
+fn run(test: &str) -> Ident {
+    format_ident!("run_{test}")
 }
 
 /// The checks of the tokens of a probe, by the field that they look at: each field is expected apart from the others.

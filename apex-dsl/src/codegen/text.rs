@@ -39,12 +39,9 @@ pub fn text(
     let modules = machines.iter().map(|m| module(&ident(&m.module), &m.name, machine::item(m, catalog)));
     let programs_of = programs.iter().map(|p| {
         let code = program(p, catalog, sources, place, recordable, diagnostics);
-        match &p.script {
-            None => module(&graph_module(&p.graph.name), &p.graph.name, code),
-            Some(_) => code,
-        }
+        if p.is_test() { code } else { module(&graph_module(&p.graph.name), &p.graph.name, code) }
     });
-    let graphs = programs.iter().filter(|p| p.script.is_none()).map(|p| &p.graph);
+    let graphs = programs.iter().filter(|p| !p.is_test()).map(|p| &p.graph);
     let own = machines.iter().filter(|m| m.is_own);
     let names = graphs.flat_map(exports).chain(own.flat_map(|m| machine_exports(m)));
     let source = sources.get(FileId(0));

@@ -66,8 +66,8 @@ pub struct Resolved {
     pub nested: Vec<Graph>,
     /// Connections of the graphs of the first source file, as written.
     pub links: Vec<Link>,
-    /// Tests of the first source file: the graph under test, and the script.
-    pub tests: Vec<(Graph, Script)>,
+    /// Tests of the first source file: each graph under test, and the scripts that run it.
+    pub tests: Vec<(Graph, Vec<Script>)>,
 }
 
 /// Resolves the source file `root` and everything that it imports.
@@ -96,17 +96,21 @@ pub fn resolve(
     generated_names(&texts, &used, catalog, diagnostics);
     let mut tests = vec![];
     test_names(&texts.files[0].1, diagnostics);
-    for test in &texts.files[0].1.tests {
+    for items in testing::by_program(&texts.files[0].1.tests, sources) {
         if budget.exceeded || broken {
             break;
         }
         // A port without a certain name can be neither fed nor expected.
-        let graph = texts.graph_ids(0).map(|id| texts.graph(id)).find(|graph| test.graph.text() == graph.name.text);
+        let graph = texts.graph_ids(0).map(|id| texts.graph(id)).find(|graph| items[0].graph.text() == graph.name.text);
         let mut ports = graph.into_iter().flat_map(|graph| &graph.ports);
         if ports.any(|port| diagnostics.has_errors_in(port.name.span)) {
             continue;
         }
-        tests.extend(testing::test(&texts, catalog, test, sources, &mut budget, diagnostics));
+        let resolved = testing::tests(&texts, catalog, &items, sources, &mut budget, diagnostics);
+        if let Some((mut graph, scripts)) = resolved {
+            testing::name_apart(&mut graph, &tests);
+            tests.push((graph, scripts));
+        }
     }
     if !broken && texts.files[0].1.is_empty() && !diagnostics.has_errors() {
         let span = crate::source::Span::new(root, 0, 0);
