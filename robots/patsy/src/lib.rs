@@ -10,6 +10,7 @@ mod beneath;
 mod container;
 mod detector;
 mod drive;
+mod ends;
 pub mod experiments;
 mod finder;
 mod mission_control;
@@ -42,10 +43,28 @@ pub fn clear_view() -> apex_nodes::scan::Scan {
     Scan { angle_min: -1.5, angle_increment: 0.1, ranges: [20.0; 31].into_iter().collect(), ..Scan::default() }
 }
 
+/// Floor without obstacles, 10 m in all directions, for tests.
+#[apex_rt::node]
+pub fn free_floor() -> apex_nodes::map::Grid<apex_nodes::map::Occupancy> {
+    use apex_nodes::{
+        map::{Grid, Occupancy, Raster},
+        scan::Point2,
+    };
+    let raster = Raster { corner: Point2::new(-10.0, -10.0), resolution: 0.05, width: 400, height: 400 };
+    Grid::new(raster, Occupancy::Free).unwrap_or_default()
+}
+
+/// Token that never comes, for tests.
+#[apex_rt::node]
+pub fn absent<T>() -> Option<T> {
+    None
+}
+
 pub use beneath::Beneath;
 pub use container::{BODY, LENGTH, TOP, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
 pub use detector::{Detector, Weights};
 pub use drive::Drive;
+pub use ends::Ends;
 pub use finder::{Finder, Search};
 pub use mission_control::{MissionControl, ahead};
 pub use order::Order;

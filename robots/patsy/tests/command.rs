@@ -41,6 +41,8 @@ fn wrong_arguments_are_named() {
         (&["approach", "--jobs", "many"], "not `many`"),
         (&["approach", "--log", "x"], "--help"),
         (&["times", "--jobs", "2"], "--help"),
+        (&["missions", "--fault", "camera"], "`camera` is no kind of fault; there are camera-black"),
+        (&["missions", "--fault", "lift-jammed", "--faults"], "leave out `--fault` or `--faults`"),
         (&["validate"], "`validate` needs `--with`, `--labels` and `--without`"),
         (&["validate", "--folds", "1"], "from 2 to 100"),
         (&["--labels", "x"], "need `--log`"),

@@ -17,6 +17,7 @@ struct Missions {
     duration: Duration,
     people: usize,
     faults: bool,
+    fault: Option<FaultKind>,
     keeps_twist: bool,
     outages: bool,
     out: PathBuf,
@@ -31,7 +32,7 @@ pub fn missions(options: &mut Options) -> Result<ExitCode, String> {
         return missions.outages();
     }
     let seeds = missions.seeds.all();
-    let mut jobs: Vec<clinic::Options> = seeds.iter().map(|seed| missions.options(*seed, None)).collect();
+    let mut jobs: Vec<clinic::Options> = seeds.iter().map(|seed| missions.options(*seed, missions.fault)).collect();
     if missions.faults {
         let kinds = FaultKind::MEASURED.into_iter();
         jobs.extend(
@@ -80,6 +81,7 @@ fn read(options: &mut Options) -> Result<Missions, String> {
         duration: Duration::from_secs(600),
         people: PEOPLE,
         faults: false,
+        fault: None,
         keeps_twist: false,
         outages: false,
         out: PathBuf::from("out/patsy/clinic.svg"),
@@ -91,6 +93,7 @@ fn read(options: &mut Options) -> Result<Missions, String> {
             "minutes" => missions.duration = options.minutes(&name)?,
             "people" => missions.people = options.number(&name, 0..=100)? as usize,
             "faults" => missions.faults = true,
+            "fault" => missions.fault = Some(options.text()?.parse()?),
             "keeps-twist" => missions.keeps_twist = true,
             "outages" => missions.outages = true,
             "out" => missions.out = options.path()?,
@@ -98,6 +101,9 @@ fn read(options: &mut Options) -> Result<Missions, String> {
             "timeline" => missions.timeline = Some(options.path()?),
             _ => missions.seeds.read(&name, options)?,
         }
+    }
+    if missions.faults && missions.fault.is_some() {
+        return Err("`--faults` runs with faults of all kinds: leave out `--fault` or `--faults`".to_owned());
     }
     Ok(missions)
 }

@@ -18,8 +18,8 @@ Usage: patsy [--log FILE [--container pallet|cart] [--labels FILE] [--table FILE
        patsy obstacles [OPTIONS]
        patsy accuracy [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
        patsy approach [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
-       patsy missions [--first-seed N] [--seeds N] [--jobs N] [--minutes N] [--people N] [--faults] [--outages]
-                      [--keeps-twist] [--out FILE] [--record FILE] [--timeline FILE]
+       patsy missions [--first-seed N] [--seeds N] [--jobs N] [--minutes N] [--people N] [--fault KIND | --faults]
+                      [--outages] [--keeps-twist] [--out FILE] [--record FILE] [--timeline FILE]
        patsy times [--first-seed N] [--seeds N]
        patsy validate --with FILE --labels FILE --without FILE [--folds N] [--jobs N]
 
@@ -52,6 +52,8 @@ delivered and touched. It draws the first run.
   --minutes N       simulated time of each run (default 10)
   --people N        number of people (default 8)
   --faults          also runs with a fault of each kind: of the camera, the scanner, the odometry, the lift
+  --fault KIND      each run has a fault of this kind, at a time that the seed draws: camera-black, camera-frozen,
+                    camera-nan, scanner-frozen, odometry-stopped, lift-jammed
   --outages         instead, sensors fail one after the other, at times that the seed draws, and the motors keep the last
                     twist: how long the vehicle moves without them, and whether that is longer than it promises
   --keeps-twist     motors without a command time-out: they keep the last twist until the next one

@@ -36,7 +36,9 @@ impl fmt::Display for Row<'_> {
         let Losses { persons, hazards, field, planning, blind } = losses;
         write!(f, "{persons:>7.0} s{hazards:>7.0} s{field:>7.0} s{planning:>8.0} s{blind:>7.0} s")?;
         write!(f, "{:>8.1} s{:>10}", took.as_secs_f32(), failures.len())?;
-        options.faults.iter().try_for_each(|fault| write!(f, "  {}", words(fault)))?;
+        for fault in &options.faults {
+            write!(f, "  {}, {} delivered afterwards", words(fault), delivered_after(self.0, fault.until))?;
+        }
         failures.iter().try_for_each(|failure| write!(f, "\n        {failure}"))
     }
 }
@@ -98,24 +100,29 @@ pub fn activity_table(runs: &[Run]) -> String {
     rows.collect()
 }
 
-/// Table of runs with faults: a line for each kind, after one for the runs without.
+/// Table of runs with faults: a line for each kind, after one for the runs without. The last column is the share of the
+/// runs in which a container is delivered after the fault.
 pub fn faults_table(without: &[Run], with: &[Run]) -> String {
     let mut text = format!(
-        "{:<18}{:>9}{:>7}{:>6}{:>7}{:>10}{:>7}{:>10}{:>10}\n",
-        "fault", "median", "least", "most", "mean", "contacts", "falls", "run over", "survived"
+        "{:<18}{:>9}{:>7}{:>6}{:>7}{:>10}{:>7}{:>10}{:>10}{:>10}\n",
+        "fault", "median", "least", "most", "mean", "contacts", "falls", "run over", "survived", "delivers"
     );
     let mut line = |name: &str, runs: &[&Run]| {
         let own: Vec<Run> = runs.iter().map(|run| (*run).clone()).collect();
         let [least, median, most] = delivered(&own);
         let sum = |value: fn(&Run) -> usize| own.iter().map(value).sum::<usize>();
-        let survived = own.iter().filter(|run| survives(run)).count();
+        let of_all = |holds: fn(&Run) -> bool| {
+            let count = own.iter().filter(|run| holds(run)).count();
+            format!("{count}/{}", own.len())
+        };
         text += &format!(
-            "{name:<18}{median:>9}{least:>7}{most:>6}{:>7.1}{:>10}{:>7}{:>10}{:>10}\n",
+            "{name:<18}{median:>9}{least:>7}{most:>6}{:>7.1}{:>10}{:>7}{:>10}{:>10}{:>10}\n",
             mean(&own),
             sum(|run| run.report.contacts.len()),
             sum(|run| run.report.falls.len()),
             sum(|run| run.report.run_over.len()),
-            format!("{survived}/{}", own.len())
+            of_all(survives),
+            of_all(|run| delivered_after(run, end_of_faults(run)) > 0)
         );
     };
     line("none", &without.iter().collect::<Vec<_>>());
@@ -128,10 +135,20 @@ pub fn faults_table(without: &[Run], with: &[Run]) -> String {
 
 /// Returns `true` if nothing failed, the vehicle did not fall, and it drove on after the last fault.
 fn survives(run: &Run) -> bool {
-    let after = run.options.faults.iter().map(|fault| fault.until).max().unwrap_or(Time::ZERO);
+    let after = end_of_faults(run);
     let poses: Vec<_> = run.report.trajectory.iter().filter(|(at, _)| *at >= after).map(|(_, pose)| pose).collect();
     let driven: f32 = poses.windows(2).map(|pair| (pair[1].position() - pair[0].position()).norm()).sum();
     run.failures.is_empty() && run.report.falls.is_empty() && driven >= GOES_ON
+}
+
+/// Time from which on nothing is broken.
+fn end_of_faults(run: &Run) -> Time {
+    run.options.faults.iter().map(|fault| fault.until).max().unwrap_or(Time::ZERO)
+}
+
+/// Number of containers that were brought to their destination after a time.
+fn delivered_after(run: &Run, after: Time) -> usize {
+    run.report.deliveries.iter().filter(|delivery| delivery.at > after && delivery.is_right()).count()
 }
 
 /// Minimum, median and maximum of the delivered containers.

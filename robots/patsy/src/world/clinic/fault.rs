@@ -1,5 +1,5 @@
-use apex_sim::{Promise, Stops};
-use std::time::Duration;
+use apex_sim::{Promise, Stops, fault_named};
+use std::{str::FromStr, time::Duration};
 
 /// Temporary fault of a device of the vehicle.
 pub type Fault = apex_sim::Fault<FaultKind>;
@@ -106,6 +106,15 @@ impl FaultKind {
     /// Duration of the fault: long enough to meet a lift that moves.
     pub const fn duration(self) -> Duration {
         Duration::from_secs(if matches!(self, Self::LiftJammed) { 60 } else { 10 })
+    }
+}
+
+impl FromStr for FaultKind {
+    type Err = String;
+
+    /// Kind of a fault whose cost is measured, by its name.
+    fn from_str(text: &str) -> Result<Self, String> {
+        fault_named(text, &Self::MEASURED, Self::name)
     }
 }
 
