@@ -175,7 +175,7 @@ fn odd_and_late_detections_are_no_persons() {
                 let now = Time::from_millis(100 * step);
                 // Every fourth one is late.
                 let stamp = if step % 4 == 3 { Time::from_millis(-5000) } else { now };
-                let view = View { pose: Pose2::new(view, 0.0, view), angle: view, range: view };
+                let view = View { pose: Pose2::new(view, 0.0, view), angle: view, nearest: view, range: view };
                 let positions = [Point2::new(position, 0.5), Point2::new(0.5, position)].into_iter().collect();
                 let detections = Detections { stamp, view, positions };
                 track.inputs().camera.put(detections.clone()).expect("room");

@@ -29,7 +29,7 @@ impl Street {
         pose.set(ROBOT);
         camera.emit(Detections {
             stamp: ctx.now(),
-            view: View { pose: ROBOT, angle: 1.8, range: 6.0 },
+            view: View { pose: ROBOT, angle: 1.8, nearest: 0.0, range: 6.0 },
             positions: [ROBOT.to_outer(walker)].into_iter().collect(),
         });
     }

@@ -53,7 +53,7 @@ impl UprightClusters {
         }
         let out = persons.get_mut();
         out.stamp = ctx.stamp();
-        out.view = View { pose: *pose, angle: TAU, range: self.reach };
+        out.view = View { pose: *pose, angle: TAU, nearest: 0.0, range: self.reach };
         out.positions.clear();
         for cluster in clusters {
             let middle = Point2::new(0.5 * (cluster.min[0] + cluster.max[0]), 0.5 * (cluster.min[1] + cluster.max[1]));

@@ -40,7 +40,7 @@ pub struct Detections {
     pub positions: Vec<Point2, MAX_DETECTIONS>,
 }
 
-/// Field of view of a sensor: a sector of a circle. The default is unlimited.
+/// Field of view of a sensor: a sector of a ring. The default is unlimited.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct View {
@@ -48,13 +48,15 @@ pub struct View {
     pub pose: Pose2,
     /// Angle of the sector, in rad.
     pub angle: f32,
+    /// Distance from which on the sensor sees something, in m.
+    pub nearest: f32,
     /// Radius of the sector, in m.
     pub range: f32,
 }
 
 impl Default for View {
     fn default() -> Self {
-        Self { pose: Pose2::default(), angle: TAU, range: f32::MAX }
+        Self { pose: Pose2::default(), angle: TAU, nearest: 0.0, range: f32::MAX }
     }
 }
 
@@ -62,7 +64,7 @@ impl View {
     /// Returns `true` if a point of the fixed frame is in view.
     pub fn contains(&self, point: Point2) -> bool {
         let seen = self.pose.to_inner(point);
-        seen.norm() <= self.range && 2.0 * seen.angle().abs() <= self.angle
+        (self.nearest..=self.range).contains(&seen.norm()) && 2.0 * seen.angle().abs() <= self.angle
     }
 }
 
@@ -73,7 +75,8 @@ mod tests {
 
     #[test]
     fn a_view_is_a_sector() {
-        let view = View { pose: Pose2::new(1.0, 0.0, FRAC_PI_2), angle: FRAC_PI_2, range: 2.0 };
+        let view = View { pose: Pose2::new(1.0, 0.0, FRAC_PI_2), angle: FRAC_PI_2, nearest: 0.5, range: 2.0 };
+        assert!(view.contains(Point2::new(1.0, 0.6)) && !view.contains(Point2::new(1.0, 0.4)));
         assert!(view.contains(Point2::new(1.0, 1.9)) && view.contains(Point2::new(0.5, 1.0)));
         assert!(!view.contains(Point2::new(1.0, 2.1)) && !view.contains(Point2::new(2.0, 0.5)));
         assert!(View::default().contains(Point2::new(-1e6, 0.0)));

@@ -102,7 +102,7 @@ impl LegPairs {
         }
         let persons = persons.get_mut();
         persons.stamp = legs.stamp;
-        persons.view = View { pose: *pose, angle: self.view_angle, range: self.view_range };
+        persons.view = View { pose: *pose, angle: self.view_angle, nearest: 0.0, range: self.view_range };
         persons.positions.clear();
         let mut rest: Vec<Point2, MAX_DETECTIONS> = legs.list.iter().map(|leg| leg.position).collect();
         while let Some((a, b)) = self.nearest_pair(&rest) {

@@ -441,7 +441,7 @@ mod tests {
             self.ids.extend(person.map(|p| p.id));
             self.persons = persons.get().expect("persons").len();
             if self.ms % 200 == 0 {
-                let view = View { angle: 1.2, range: 20.0, ..View::default() };
+                let view = View { angle: 1.2, nearest: 1.0, range: 20.0, ..View::default() };
                 let detections = Detections { view, ..self.around(camera, 0.1) };
                 self.node.camera(&detections);
             }
@@ -460,6 +460,25 @@ mod tests {
         let target = test.target.expect("it is followed");
         assert!((target.position.x - 10.9).abs() < 0.2 && (target.velocity.x - 1.0).abs() < 0.15, "{target:?}");
         assert_eq!((test.said.len(), test.said[0].0, test.ids.len(), test.persons), (1, "found", 1, 1));
+    }
+
+    #[test]
+    fn who_stands_too_near_for_the_camera_stays_the_person() {
+        let mut test = Test::new();
+        let person = |i: usize| Point2::new((5.0 - 0.15 * i as f32).max(0.7), 0.1);
+        for i in 0..600 {
+            let place = person(i);
+            let seen = [place];
+            test.step(&[TREES[0], place], if place.norm() > 1.0 { &seen } else { &[] });
+        }
+        let target = test.target.expect("it is followed");
+        assert!((target.position - person(600)).norm() < 0.2 && test.said.len() == 1, "{target:?} {:?}", test.said);
+        // What stands in view, and is not seen by the camera, is not the person.
+        let mut test = Test::new();
+        let place = [Point2::new(3.0, 0.1)];
+        (0..20).for_each(|_| test.step(&place, &place));
+        (0..200).for_each(|_| test.step(&place, &[]));
+        assert!(test.target.is_none() && test.said.len() == 2, "{:?}", test.said);
     }
 
     #[test]

@@ -73,7 +73,7 @@ impl World {
     /// Reads the value of the option `name`.
     fn read(&mut self, name: &str, options: &mut Options) -> Result<(), String> {
         match name {
-            "metres" => self.metres = options.number(name, 300..=5000)?,
+            "metres" => self.metres = options.number(name, 100..=5000)?,
             "no-people" => self.people = false,
             "out" => self.out = options.path()?,
             _ => return Err(Options::unknown(name)),

@@ -100,8 +100,8 @@ impl Camera {
         if now >= self.due {
             self.due = now + IMAGES;
             let field = self.field.at(now);
-            let [_, range] = self.detector.ranges;
-            let view = View { pose: Pose2::default(), angle: self.detector.view, range };
+            let [nearest, range] = self.detector.ranges;
+            let view = View { pose: Pose2::default(), angle: self.detector.view, nearest, range };
             let pose = field.pose();
             let found = self.detector.detect(&field.terrain, &pose, field.people(), &mut self.random);
             let positions = found.take(MAX_DETECTIONS).collect();
