@@ -1,6 +1,5 @@
 //! Connections of browsers and apps: a limited number of them, and a limited time for those that say nothing.
 
-use crate::server::PATIENCE;
 use axum::Router;
 use hyper::server::conn::http1;
 use hyper_util::{
@@ -25,6 +24,8 @@ use tokio::{
     time,
 };
 
+/// Time that a browser has for its token, and for taking a message.
+pub const PATIENCE: Duration = Duration::from_secs(10);
 /// Maximum number of connections. When there are more, the oldest one ends that is not a page.
 const MOST: usize = 128;
 /// Time in which a browser has to take the files of a page, and may then ask for more.

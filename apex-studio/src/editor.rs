@@ -1,9 +1,9 @@
 //! The source files on a page: their texts, what the language server says about them, and their changes.
 
 use crate::{
-    Source,
     language::{Language, Place, Said},
     picture::Picture,
+    source::Source,
 };
 use apex_ide::{Paint, paint, statement};
 use serde::Serialize;

@@ -5,16 +5,15 @@ mod channels;
 mod messages;
 mod parameters;
 mod playback;
+mod seen;
 mod viewer;
 
-use crate::{
-    Replayed,
-    robot::Shared,
-    server::{PATIENCE, Worker},
-};
+pub use seen::Seen;
+
+use crate::{connections::PATIENCE, worker::Worker};
 use axum::extract::ws::{Message, WebSocket};
 use messages::{Frame, asked};
-use std::{sync::Arc, time::Duration};
+use std::time::Duration;
 use tokio::time;
 use viewer::Viewer;
 
@@ -23,17 +22,6 @@ pub const PROTOCOLS: [&str; 2] = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 
 /// Interval at which an app gets news: shorter than the one at which a robot sends tokens, so that none is left out.
 const TICK: Duration = Duration::from_millis(25);
-
-/// A robot that an app looks at.
-pub struct Seen {
-    pub shared: Arc<Shared>,
-    /// `true` if the app may only look.
-    pub readonly: bool,
-    /// `true` if the robot can go back in time.
-    pub travels: bool,
-    /// The recording that it repeats, if it repeats one.
-    pub replayed: Option<Replayed>,
-}
 
 /// Talks to an app until it leaves.
 pub async fn talk(seen: Seen, mut socket: WebSocket) {

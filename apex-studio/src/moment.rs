@@ -1,6 +1,6 @@
 //! An interval of a run as a `test` item: what became active in it, what stayed active, and what never was.
 
-use crate::{Replayed, kinds::is_silent, lane::Lane, live::Live, words::is_name};
+use crate::{kinds::is_silent, lane::Lane, live::Live, source::Replayed, words::is_name};
 use apex_rt::studio::message::{About, AboutNode};
 use std::fmt::Write as _;
 

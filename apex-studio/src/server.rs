@@ -1,12 +1,15 @@
 //! The web server: pages, and sockets for what they ask and are told.
 
 use crate::{
-    Source, connections, foxglove,
+    connections::{self, PATIENCE},
+    foxglove,
     messages::{Asked, Told},
     robot::Shared,
     session::{Beside, Session},
     site::Site,
+    source::Source,
     study::{self, Followed},
+    worker::Worker,
 };
 use axum::{
     Router,
@@ -24,8 +27,6 @@ use tokio::{net::TcpListener, task, time};
 
 /// Interval at which a page gets news.
 const TICK: Duration = Duration::from_millis(50);
-/// Time that a page has for its token, and for taking a message.
-pub const PATIENCE: Duration = Duration::from_secs(10);
 /// Maximum size of a message of a page in bytes.
 const MAX_MESSAGE: usize = 1 << 20;
 
@@ -334,22 +335,6 @@ async fn talk<P: Page>(serving: Serving, mut socket: WebSocket, begin: fn(Servin
                 return;
             }
         }
-    }
-}
-
-/// A page or an app that works on threads which may wait: for the compiler, a file, or a robot. Meanwhile all others
-/// are served.
-pub struct Worker<P>(pub P);
-
-impl<P: Send + 'static> Worker<P> {
-    /// Lets it do something. Returns `None` after a panic, which ends this page only.
-    pub async fn work<T: Send + 'static>(self, act: impl FnOnce(&mut P) -> T + Send + 'static) -> Option<(Self, T)> {
-        let Self(mut page) = self;
-        let worked = task::spawn_blocking(move || {
-            let told = act(&mut page);
-            (Self(page), told)
-        });
-        worked.await.ok()
     }
 }
 

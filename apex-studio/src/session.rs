@@ -1,7 +1,6 @@
 //! One page: answers to what it asks for, and what has changed since it was told.
 
 use crate::{
-    ParamChange, Source,
     drawn::drawn,
     editor::Editor,
     lane::{Window, nanos},
@@ -10,6 +9,7 @@ use crate::{
     moment,
     picture::{Picture, View},
     robot::{Earlier, Shared, locked},
+    source::{ParamChange, Source},
     why::{Line, why},
 };
 use apex_rt::studio::message::Command;

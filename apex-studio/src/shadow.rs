@@ -1,6 +1,6 @@
 //! A second robot that gets the inputs of the first one: it repeats the recording that the first one is making.
 
-use crate::Robot;
+use crate::robot::Robot;
 use std::{
     fs,
     path::{Path, PathBuf},

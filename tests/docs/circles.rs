@@ -8,7 +8,7 @@ use std::{
 };
 
 /// Folders with the sources of crates.
-const CRATES: [&str; 19] = [
+const CRATES: [&str; 20] = [
     "apex-attributes/src",
     "apex-bag/src",
     "apex-cli/src",
@@ -25,6 +25,7 @@ const CRATES: [&str; 19] = [
     "apex-petri/src",
     "apex-rt/src",
     "apex-signature/src",
+    "apex-studio/src",
     "apex-tune/src",
     "robots/explorer/src",
     "robots/follow/src",

@@ -9,6 +9,10 @@ use super::{
 use proc_macro2::TokenStream;
 use quote::quote;
 
+/// Maximum number of copies of slots in the code of a reaction. rustc takes a time that grows with the square of the size
+/// of a function.
+const MOST_COPIES: usize = 128;
+
 impl Generator<'_> {
     /// Serves slots until none is ready; says whether there was one.
     pub fn serve(&self, view: ProgramView<'_>) -> TokenStream {
@@ -34,9 +38,12 @@ impl Generator<'_> {
             false => (quote!(), quote!()),
         };
         let exit = view.program.lower.has_exit().then(|| quote! { if self.state.exit.is_some() { break; } });
+        // Each cluster serves what it has sent.
+        let copies = count * (analysis.clusters.len() + 1);
+        let inline = if copies > MOST_COPIES { quote!(#[inline(never)]) } else { quote!(#[inline]) };
         quote! {
             #needs_table
-            #[inline]
+            #inline
             fn serve<O: ::apex_rt::Observer>(&mut self, ctx: &::apex_rt::Ctx, observer: &mut O) -> bool {
                 let mut any = false;
                 loop {

@@ -1,8 +1,8 @@
 //! The time of a robot, as far as an app controls it.
 
 use super::{
-    Seen,
     messages::{Control, Frame, Moment, State, Status, nanos},
+    seen::Seen,
 };
 use crate::{
     lane::limited,

@@ -1,10 +1,11 @@
 //! One app: what it asks for, and what it is told.
 
 use super::{
-    Seen, channels,
+    channels,
     messages::{Asked, Channel, Control, Frame, Parameter, Subscription, Text, Told},
     parameters::{Followed, Pending, parameters, text},
     playback::{self, Playback},
+    seen::Seen,
 };
 use crate::live::{Live, Node};
 use apex_rt::studio::message::{About, Command};
