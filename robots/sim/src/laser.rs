@@ -55,9 +55,9 @@ impl Laser {
         self.sweep(world, |_| *pose, random, scan);
     }
 
-    /// As [`measure`](Self::measure) for a scanner that moves while its mirror turns: `pose_at` gives its pose at a part
-    /// of the sweep, from 0 at the first beam to 1 at the last one. The scan is bent by the motion, as it says nothing
-    /// of it. The world stands still.
+    /// As [`measure`](Self::measure) for a scanner that moves while its mirror turns: `pose_at` gives its pose at a
+    /// part of the sweep, from 0 at the first beam to 1 at the last one. The scan is bent by the motion, as it says
+    /// nothing of it. The world stands still.
     pub fn sweep(&self, world: &World, pose_at: impl Fn(f32) -> Pose2, random: &mut Random, scan: &mut Scan) {
         scan.angle_min = -0.5 * self.field_of_view;
         scan.angle_increment = self.resolution;

@@ -57,8 +57,8 @@ delivered and touched. It draws the first run.
                     camera-nan, scanner-frozen, odometry-stopped, lift-jammed
   --outages         instead, sensors fail one after the other, at times that the seed draws, and the motors keep the last
                     twist: how long the vehicle moves without them, and whether that is longer than it promises
-  --world WORLD     conditions in the clinic: kind (default), harder, or those of a file, of which robots/patsy/harder.toml
-                    is an example that describes each value
+  --world WORLD     conditions in the clinic: kind (default), harder, or those of a file; robots/patsy/harder.toml is an
+                    example, which describes each value
   --prices          also runs in the world (default: harder), and with each of its values alone, the others kind: the
                     price of each
   --keeps-twist     motors without a command time-out: they keep the last twist until the next one

@@ -133,8 +133,8 @@ pub fn faults_table(without: &[Run], with: &[Run]) -> String {
     text
 }
 
-/// Conditions whose runs tell the prices of the values of a world, with their names: each of its values alone that is not
-/// kind, and all of them.
+/// Conditions whose runs tell the prices of the values of a world, with their names: each of its values alone that is
+/// not kind, and all of them.
 pub fn prices(world: &Conditions) -> Vec<(&'static str, Conditions)> {
     let alone = Conditions::VALUES.iter().map(|value| (value.name, Conditions::KIND.with(value, *world)));
     alone.filter(|(_, conditions)| *conditions != Conditions::KIND).chain([("all", *world)]).collect()

@@ -39,8 +39,8 @@ pub struct Delivery {
     pub container: usize,
     /// Destination of the order; `None` if another container was ordered.
     pub destination: Option<Pose2>,
-    /// Distance of the container from its destination when it was set down, and then when the vehicle had left it, in m;
-    /// infinite without one.
+    /// Distance of the container from its destination when it was set down, and then when the vehicle had left it, in
+    /// m; infinite without one.
     pub offset: f32,
     /// Angle between the container and its destination, in rad, at most a quarter of a turn: its ends are alike.
     pub turn: f32,

@@ -70,8 +70,8 @@ impl Site {
     }
 }
 
-/// Tries to place furniture at the walls of the corridors, with free way beside it: not beside a place for containers, a
-/// door, a crossing, or other furniture there.
+/// Tries to place furniture at the walls of the corridors, with free way beside it: not beside a place for containers,
+/// a door, a crossing, or other furniture there.
 pub(super) fn furnish_corridors(site: &mut Site, count: usize, random: &mut Random) {
     let mut placed: Vec<Point2> = vec![];
     for _ in 0..count {
