@@ -3,7 +3,7 @@
 use apex_rt::Time;
 use patsy::{
     experiments::missions::{Run, run},
-    world::clinic::{Fault, FaultKind, Options},
+    world::clinic::{Conditions, Fault, FaultKind, Options},
 };
 use std::time::Duration;
 
@@ -21,6 +21,14 @@ fn the_vehicle_leaves_for_its_first_container_the_same_way_each_time() {
     assert!(runs[0].failures.is_empty(), "{:?}", runs[0].failures);
     assert_eq!(report.contacts, []);
     assert_eq!(report, &runs[1].report);
+}
+
+#[test]
+fn a_harder_world_is_the_same_each_time() {
+    let options = Options { conditions: Conditions::HARDER, people: 2, ..Options::default() };
+    let runs = [of(&options, 15), of(&options, 15)];
+    assert_eq!(runs[0].report, runs[1].report);
+    assert!(runs[0].report.distance > 2.0 && runs[0].failures.is_empty(), "{:?}", runs[0].failures);
 }
 
 /// The whole way of an order: approach, lift, bring, set down, and leave.

@@ -52,18 +52,33 @@ impl Laser {
 
     /// Replaces `scan` by a measurement at `pose`; the stamp is unchanged. A beam without an echo measures infinity.
     pub fn measure(&self, world: &World, pose: &Pose2, random: &mut Random, scan: &mut Scan) {
+        self.sweep(world, |_| *pose, random, scan);
+    }
+
+    /// As [`measure`](Self::measure) for a scanner that moves while its mirror turns: `pose_at` gives its pose at a
+    /// part of the sweep, from 0 at the first beam to 1 at the last one. The scan is bent by the motion, as it says
+    /// nothing of it. The world stands still.
+    pub fn sweep(&self, world: &World, pose_at: impl Fn(f32) -> Pose2, random: &mut Random, scan: &mut Scan) {
         scan.angle_min = -0.5 * self.field_of_view;
         scan.angle_increment = self.resolution;
         scan.range_min = self.range_min;
         scan.range_max = self.range_max;
         scan.ranges.clear();
-        for beam in 0..self.beams() {
+        let beams = self.beams();
+        let step = 1.0 / beams.saturating_sub(1).max(1) as f32;
+        for beam in 0..beams {
+            let pose = pose_at(beam as f32 * step);
             let direction = Point2::polar(1.0, pose.theta + scan.angle(beam));
             let range = world.cast(pose.position(), direction).map_or(f32::INFINITY, |r| r + random.normal(self.noise));
             let lost = random.chance(self.dropout) || range > self.range_max;
             let full = scan.ranges.push(if lost { f32::INFINITY } else { range });
             debug_assert!(full.is_ok(), "there are at most as many beams as fit");
         }
+    }
+
+    /// Time from the first beam to the last one of a mirror that turns once in `turn` s.
+    pub fn sweep_time(&self, turn: f32) -> f32 {
+        turn * self.field_of_view / core::f32::consts::TAU
     }
 }
 
@@ -113,6 +128,41 @@ mod tests {
         let rate = 1.0 - measured.len() as f32 / ranges.len() as f32;
         let sigma = (measured.iter().map(|r| (r - 4.0).powi(2)).sum::<f32>() / measured.len() as f32).sqrt();
         assert!((rate - 0.1).abs() < 0.01 && (sigma - 0.02).abs() < 0.001, "{rate} {sigma}");
+    }
+
+    /// A wall straight ahead, seen while the scanner turns by 0.2 rad: as if it were bent, and turned on average.
+    #[test]
+    fn a_wall_is_bent_while_the_scanner_turns() {
+        let mut world = World::default();
+        world.wall(Point2::new(2.0, -20.0), Point2::new(2.0, 20.0));
+        let laser = Laser { noise: 0.0, dropout: 0.0, field_of_view: 2.0, ..Laser::default() };
+        let points = |turn: f32| {
+            let mut scan = Scan::default();
+            laser.sweep(&world, |part| Pose2::new(0.0, 0.0, turn * (part - 1.0)), &mut Random::new(1), &mut scan);
+            let at = |beam: usize| Point2::polar(scan.ranges[beam], scan.angle(beam));
+            [0, scan.ranges.len() / 2, scan.ranges.len() - 1].map(at)
+        };
+        // Distance of the middle from the line through both ends.
+        let sag = |[a, middle, b]: [Point2; 3]| {
+            let along = b - a;
+            along.perpendicular().dot(middle - a) / along.norm()
+        };
+        assert!(sag(points(0.0)).abs() < 1e-4);
+        assert!(sag(points(0.2)).abs() > 0.05, "{}", sag(points(0.2)));
+        let last = points(0.2)[2];
+        assert!((last - points(0.0)[2]).norm() < 1e-4, "the stamp is that of the last beam");
+    }
+
+    #[test]
+    fn a_wall_is_as_far_as_at_the_time_of_its_beam() {
+        let mut world = World::default();
+        world.wall(Point2::new(3.0, -20.0), Point2::new(3.0, 20.0));
+        let laser = Laser { noise: 0.0, dropout: 0.0, ..Laser::default() };
+        let mut scan = Scan::default();
+        laser.sweep(&world, |part| Pose2::new(part - 1.0, 0.0, 0.0), &mut Random::new(1), &mut scan);
+        let ahead = scan.beam_towards(0.0).expect("in view");
+        assert!((scan.ranges[ahead] - 3.5).abs() < 1e-4, "half of the way before the end");
+        assert!((laser.sweep_time(0.04) - 0.03).abs() < 1e-6);
     }
 
     #[test]

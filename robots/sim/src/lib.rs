@@ -26,6 +26,7 @@ mod fault;
 mod held_twist;
 mod jobs;
 mod laser;
+mod latency;
 mod odometry;
 #[cfg(feature = "building")]
 mod office;
@@ -36,6 +37,8 @@ mod payload;
 #[cfg(feature = "people")]
 mod people;
 mod plan;
+mod pose_track;
+mod push;
 mod say;
 mod scanner;
 #[cfg(feature = "camera")]
@@ -64,6 +67,7 @@ pub use fault::{Fault, fault_named};
 pub use held_twist::HeldTwist;
 pub use jobs::in_order;
 pub use laser::Laser;
+pub use latency::Latency;
 pub use odometry::{Odometry, OdometryNoise};
 #[cfg(feature = "building")]
 pub use office::OfficePlan;
@@ -72,6 +76,8 @@ pub use payload::{Footprint, Lift};
 #[cfg(feature = "people")]
 pub use people::{Crowd, Pedestrian};
 pub use plan::{FloorPlan, PlanError};
+pub use pose_track::PoseTrack;
+pub use push::pushed;
 pub use say::say;
 pub use scanner::LaserScanner;
 #[cfg(feature = "camera")]

@@ -1,5 +1,5 @@
 use crate::Random;
-use apex_nodes::scan::Pose2;
+use apex_nodes::{nav::Twist, scan::Pose2};
 
 /// Error model of wheel odometry. Variances grow with distance and rotation, so that the number of steps does not
 /// matter (Thrun, Burgard, Fox 2005, 5.4).
@@ -60,6 +60,14 @@ impl Odometry {
         Self { noise, random: Random::new(seed), pose: Pose2::new(0.0, 0.0, 0.0) }
     }
 
+    /// Measures wheels that slip while something holds the base: a share of what the motors are told for `dt` s. Values
+    /// that are not finite count as 0. Returns the odometry.
+    pub fn slip(&mut self, command: &Twist, share: f32, dt: f32) -> Pose2 {
+        let part = |value: f32| if value.is_finite() { value * share * dt } else { 0.0 };
+        let wheels = Pose2::new(part(command.x), part(command.y), part(command.omega));
+        self.measure(&Pose2::default(), &wheels)
+    }
+
     /// Measures a movement of the base from one pose of the world to another, with a rotation of less than half a turn.
     /// Returns the odometry.
     pub fn measure(&mut self, from: &Pose2, to: &Pose2) -> Pose2 {
@@ -83,6 +91,17 @@ impl Odometry {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn wheels_that_slip_measure_a_share_of_the_command() {
+        let mut odometry = Odometry::new(OdometryNoise::NONE, 1);
+        for _ in 0..50 {
+            odometry.slip(&Twist::new(0.4, 0.0, 0.0), 0.5, 0.02);
+        }
+        let pose = odometry.slip(&Twist::new(f32::NAN, 0.0, 0.2), 0.5, 1.0);
+        assert!((pose.x - 0.2).abs() < 1e-5 && (pose.theta - 0.1).abs() < 1e-5, "{pose:?}");
+        assert_eq!(odometry.slip(&Twist::new(1.0, 0.0, 1.0), 0.0, 1.0), pose, "without slip");
+    }
 
     #[test]
     fn without_noise_it_is_exact() {

@@ -28,6 +28,15 @@ const STUCK: f32 = 3.0;
 /// Distance up to which a person sees vehicles in its way, and distance that its path keeps from them, in m.
 const SIGHT: f32 = 6.0;
 const APART: f32 = 0.3;
+/// Greatest angular velocity of a person who walks, and of one with a trolley, in rad/s.
+const TURN: f32 = 5.0;
+const TROLLEY_TURN: f32 = 1.5;
+/// Distance of the middle of a trolley before the person who pushes it, and its length and width, in m.
+const TROLLEY: [f32; 3] = [0.75, 0.8, 0.5];
+/// Distance of the wheels of a trolley from its ends and sides, and their radius, in m.
+const CASTOR: [f32; 2] = [0.06, 0.05];
+/// Additional distance that the path of a person with a trolley keeps from vehicles, in m.
+const TROLLEY_APART: f32 = 0.3;
 /// Probability that a person goes to another one who stands.
 const JOINS: f32 = 0.35;
 /// Probability that a person stops on the way, per s.
@@ -52,6 +61,7 @@ pub struct Pedestrian {
     rest: f32,
     /// Time since the last progress, in s.
     stuck: f32,
+    has_trolley: bool,
 }
 
 /// People in a building, who walk to random places, stop on their way, turn, and stand together in groups.
@@ -81,6 +91,13 @@ impl Crowd {
             crowd.people = (0..count).map(|_| crowd.appear()).collect();
         }
         crowd
+    }
+
+    /// Gives a trolley to the first `count` people, who then push it before them. Walls do not hold trolleys.
+    #[must_use]
+    pub fn with_trolleys(mut self, count: usize) -> Self {
+        self.people.iter_mut().take(count).for_each(|person| person.has_trolley = true);
+        self
     }
 
     /// All people.
@@ -125,6 +142,7 @@ impl Crowd {
             next: 0,
             rest: random.uniform(0.0, 5.0),
             stuck: 0.0,
+            has_trolley: false,
         }
     }
 
@@ -174,7 +192,10 @@ impl Crowd {
         let heading = near.map_or_else(|| self.random.uniform(-PI, PI), |p| (p - here).angle());
         let rest = self.random.uniform(2.0, 15.0);
         let person = &mut self.people[i];
-        person.pose.theta = heading;
+        // A trolley does not turn on the spot.
+        if !person.has_trolley {
+            person.pose.theta = heading;
+        }
         person.rest = rest;
         // At the end of its path, it gets a new one afterwards.
         if person.next >= person.path.points.len() {
@@ -213,14 +234,15 @@ impl Crowd {
     /// Marks the vehicles that a person sees, but not the place where it is.
     fn look(&mut self, i: usize, vehicles: &[Footprint]) {
         let here = self.people[i].pose.position();
+        let apart = if self.people[i].has_trolley { APART + TROLLEY_APART } else { APART };
         self.seen.clone_from(&self.free);
         for vehicle in vehicles.iter().filter(|vehicle| vehicle.distance(here) <= SIGHT) {
             let (middle, raster) = (vehicle.pose.position(), *self.seen.raster());
-            let reach = 0.5 * libm::hypotf(vehicle.length, vehicle.width) + APART;
+            let reach = 0.5 * libm::hypotf(vehicle.length, vehicle.width) + apart;
             let count = (reach / raster.resolution) as i32 + 1;
             for (x, y) in (-count..=count).flat_map(|x| (-count..=count).map(move |y| (x, y))) {
                 let place = middle + Point2::new(x as f32, y as f32).scaled(raster.resolution);
-                if vehicle.distance(place) < APART && (place - here).norm() > APART {
+                if vehicle.distance(place) < apart && (place - here).norm() > APART {
                     let cell = raster.cell(place).and_then(|cell| self.seen.get_mut(cell));
                     cell.into_iter().for_each(|cell| *cell = Occupancy::Occupied);
                 }
@@ -238,7 +260,10 @@ impl Crowd {
             .enumerate()
             .filter(|(k, _)| *k != i)
             .map(|(_, other)| force(person, here - other.pose.position(), AMONG));
-        let vehicles = vehicles.iter().map(|vehicle| force(person, here - vehicle.nearest(here), FROM_OTHERS));
+        let vehicles = vehicles.iter().map(|vehicle| {
+            let from = here - vehicle.nearest(here);
+            force(person, person.trolley().map_or(from, |trolley| limited(from, gap(&trolley, vehicle))), FROM_OTHERS)
+        });
         others.chain(vehicles).fold(Point2::default(), |sum, one| sum + one)
     }
 
@@ -257,10 +282,28 @@ impl Pedestrian {
         [(HIP, swing), (-HIP, -swing)].map(|(y, x)| Disc { centre: self.pose.to_outer(Point2::new(x, y)), radius: LEG })
     }
 
+    /// Area of the trolley that the person pushes.
+    pub fn trolley(&self) -> Option<Footprint> {
+        let [ahead, length, width] = TROLLEY;
+        let pose = self.pose.compose(&Pose2::new(ahead, 0.0, 0.0));
+        self.has_trolley.then_some(Footprint { pose, length, width })
+    }
+
+    /// Cross-sections of the wheels of the trolley at the height of a scanner.
+    pub fn trolley_wheels(&self) -> impl Iterator<Item = Disc> {
+        let [inset, radius] = CASTOR;
+        self.trolley().into_iter().flat_map(move |Footprint { pose, length, width }| {
+            let (x, y) = (0.5 * length - inset, 0.5 * width - inset);
+            let places = [(x, y), (x, -y), (-x, y), (-x, -y)];
+            places.map(|(x, y)| Disc { centre: pose.to_outer(Point2::new(x, y)), radius })
+        })
+    }
+
     fn walk(&mut self, to: Point2, way: f32, dt: f32) {
         if self.velocity.norm() > 0.15 {
             let turn = normalize_angle(&(self.velocity.angle() - self.pose.theta));
-            self.pose.theta = normalize_angle(&(self.pose.theta + turn.clamp(-5.0 * dt, 5.0 * dt)));
+            let most = dt * if self.has_trolley { TROLLEY_TURN } else { TURN };
+            self.pose.theta = normalize_angle(&(self.pose.theta + turn.clamp(-most, most)));
         }
         (self.pose.x, self.pose.y) = (to.x, to.y);
         self.phase = normalize_angle(&(self.phase + 2.0 * PI * way / STRIDE));
@@ -283,9 +326,15 @@ fn force(person: &Pedestrian, from: Point2, [strength, range, near]: [f32; 3]) -
     (away + away.perpendicular().scaled(0.3)).scaled(push)
 }
 
-fn limited(velocity: Point2, most: f32) -> Point2 {
-    let speed = velocity.norm();
-    if speed > most { velocity.scaled(most / speed) } else { velocity }
+/// Distance from a vehicle to a trolley, but never 0, in m.
+fn gap(trolley: &Footprint, vehicle: &Footprint) -> f32 {
+    let end = trolley.nearest(vehicle.nearest(trolley.pose.position()));
+    vehicle.distance(end).max(0.01)
+}
+
+fn limited(vector: Point2, most: f32) -> Point2 {
+    let length = vector.norm();
+    if length > most { vector.scaled(most / length) } else { vector }
 }
 
 #[cfg(test)]
@@ -356,6 +405,45 @@ mod tests {
             }
         }
         assert!(passages > 20, "{passages}");
+    }
+
+    #[test]
+    fn a_trolley_is_before_the_person_who_pushes_it() {
+        let mut crowd = Crowd::new(room(), 6, 3).with_trolleys(2);
+        for _ in 0..1500 {
+            crowd.step(0.02, &[]);
+        }
+        let trolleys: Vec<_> = crowd.people().iter().filter_map(|person| Some((person, person.trolley()?))).collect();
+        assert_eq!(trolleys.len(), 2);
+        for (person, trolley) in trolleys {
+            let middle = person.pose.to_inner(trolley.pose.position());
+            assert!((middle.x - TROLLEY[0]).abs() < 1e-4 && middle.y.abs() < 1e-4, "{middle:?}");
+            let wheels: Vec<Disc> = person.trolley_wheels().collect();
+            assert_eq!(wheels.len(), 4);
+            assert!(wheels.iter().all(|wheel| trolley.distance(wheel.centre) <= 0.0));
+        }
+        assert_eq!(crowd.people()[5].trolley_wheels().count(), 0);
+    }
+
+    /// The people who push a trolley differ from others in their ways only.
+    #[test]
+    fn trolleys_change_nothing_at_the_beginning() {
+        let poses = |crowd: Crowd| crowd.people().iter().map(|person| person.pose).collect::<Vec<_>>();
+        assert_eq!(poses(Crowd::new(room(), 6, 3)), poses(Crowd::new(room(), 6, 3).with_trolleys(9)));
+    }
+
+    /// The vehicle stands in the gap, as above: the trolleys rarely touch it.
+    #[test]
+    fn a_trolley_keeps_away_from_a_vehicle() {
+        let vehicle = Footprint { pose: Pose2::new(6.0, 4.55, 0.0), length: 1.2, width: 0.5 };
+        let mut crowd = Crowd::new(room(), 6, 3).with_trolleys(6);
+        let mut touches = 0;
+        for _ in 0..9000 {
+            crowd.step(0.02, &[vehicle]);
+            let wheels = crowd.people().iter().flat_map(Pedestrian::trolley_wheels);
+            touches += wheels.filter(|wheel| vehicle.distance(wheel.centre) <= wheel.radius).count();
+        }
+        assert!(touches < 9000 / 50, "{touches}");
     }
 
     #[test]

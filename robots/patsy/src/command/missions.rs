@@ -5,9 +5,10 @@ use apex_sim::{
 };
 use patsy::{
     experiments::missions::{
-        BudgetTable, Row, activity_table, fault_at, faults_table, picture, run, run_with_outages, summary, timeline,
+        BudgetTable, Row, activity_table, fault_at, faults_table, picture, prices, prices_table, run, run_with_outages,
+        summary, timeline,
     },
-    world::clinic::{self, Fault, FaultKind, PEOPLE, words},
+    world::clinic::{self, Conditions, Fault, FaultKind, PEOPLE, words},
 };
 use std::{path::PathBuf, process::ExitCode, time::Duration};
 
@@ -20,6 +21,8 @@ struct Missions {
     fault: Option<FaultKind>,
     keeps_twist: bool,
     outages: bool,
+    world: Option<Conditions>,
+    prices: bool,
     out: PathBuf,
     record: Option<PathBuf>,
     timeline: Option<PathBuf>,
@@ -33,6 +36,11 @@ pub fn missions(options: &mut Options) -> Result<ExitCode, String> {
     }
     let seeds = missions.seeds.all();
     let mut jobs: Vec<clinic::Options> = seeds.iter().map(|seed| missions.options(*seed, missions.fault)).collect();
+    if missions.prices {
+        for (_, conditions) in prices(&missions.conditions()) {
+            jobs.extend(seeds.iter().map(|seed| clinic::Options { conditions, ..missions.options(*seed, None) }));
+        }
+    }
     if missions.faults {
         let kinds = FaultKind::MEASURED.into_iter();
         jobs.extend(
@@ -49,6 +57,9 @@ pub fn missions(options: &mut Options) -> Result<ExitCode, String> {
     say(&format!("\n{}\n{}\nActive nodes:\n{}\n", summary(without), BudgetTable(without), activity_table(without)))?;
     if missions.faults {
         say(&format!("{}\n", faults_table(without, with)))?;
+    }
+    if missions.prices {
+        say(&format!("{}\n", prices_table(&prices(&missions.conditions()), &runs)))?;
     }
     write_file(&missions.out, &picture(&without[0]))?;
     if let Some(path) = &missions.timeline {
@@ -68,10 +79,16 @@ impl Missions {
         broken_promises(&seeds, &watches, |outage| words(&Fault::of(outage, &FaultKind::OF_SENSORS)))
     }
 
+    /// Conditions of the world; of `harder` if its prices are asked for, and of `kind` else.
+    fn conditions(&self) -> Conditions {
+        self.world.unwrap_or(if self.prices { Conditions::HARDER } else { Conditions::KIND })
+    }
+
     fn options(&self, seed: u64, kind: Option<FaultKind>) -> clinic::Options {
+        let conditions = if self.prices { Conditions::KIND } else { self.conditions() };
         let faults = kind.map(|kind| fault_at(kind, seed, self.duration)).into_iter().collect();
         let command_timeout = clinic::Options::default().command_timeout.filter(|_| !self.keeps_twist);
-        clinic::Options { seed, people: self.people, faults, command_timeout }
+        clinic::Options { seed, people: self.people, faults, command_timeout, conditions }
     }
 }
 
@@ -84,6 +101,8 @@ fn read(options: &mut Options) -> Result<Missions, String> {
         fault: None,
         keeps_twist: false,
         outages: false,
+        world: None,
+        prices: false,
         out: PathBuf::from("out/patsy/clinic.svg"),
         record: None,
         timeline: None,
@@ -96,6 +115,8 @@ fn read(options: &mut Options) -> Result<Missions, String> {
             "fault" => missions.fault = Some(options.text()?.parse()?),
             "keeps-twist" => missions.keeps_twist = true,
             "outages" => missions.outages = true,
+            "world" => missions.world = Some(Conditions::named(&options.text()?)?),
+            "prices" => missions.prices = true,
             "out" => missions.out = options.path()?,
             "record" => missions.record = Some(options.path()?),
             "timeline" => missions.timeline = Some(options.path()?),
@@ -104,6 +125,9 @@ fn read(options: &mut Options) -> Result<Missions, String> {
     }
     if missions.faults && missions.fault.is_some() {
         return Err("`--faults` runs with faults of all kinds: leave out `--fault` or `--faults`".to_owned());
+    }
+    if missions.prices && (missions.faults || missions.fault.is_some() || missions.outages) {
+        return Err("`--prices` runs without faults: leave out `--fault`, `--faults` and `--outages`".to_owned());
     }
     Ok(missions)
 }

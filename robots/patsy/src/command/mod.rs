@@ -19,7 +19,8 @@ Usage: patsy [--log FILE [--container pallet|cart] [--labels FILE] [--table FILE
        patsy accuracy [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
        patsy approach [--first-seed N] [--seeds N] [--jobs N] [--out FILE]
        patsy missions [--first-seed N] [--seeds N] [--jobs N] [--minutes N] [--people N] [--fault KIND | --faults]
-                      [--outages] [--keeps-twist] [--out FILE] [--record FILE] [--timeline FILE]
+                      [--outages] [--keeps-twist] [--world kind|harder|FILE] [--prices]
+                      [--out FILE] [--record FILE] [--timeline FILE]
        patsy times [--first-seed N] [--seeds N]
        patsy validate --with FILE --labels FILE --without FILE [--folds N] [--jobs N]
 
@@ -56,6 +57,10 @@ delivered and touched. It draws the first run.
                     camera-nan, scanner-frozen, odometry-stopped, lift-jammed
   --outages         instead, sensors fail one after the other, at times that the seed draws, and the motors keep the last
                     twist: how long the vehicle moves without them, and whether that is longer than it promises
+  --world WORLD     conditions in the clinic: kind (default), harder, or those of a file; robots/patsy/harder.toml is an
+                    example, which describes each value
+  --prices          also runs in the world (default: harder), and with each of its values alone, the others kind: the
+                    price of each
   --keeps-twist     motors without a command time-out: they keep the last twist until the next one
   --out FILE        the picture (default out/patsy/clinic.svg)
   --record FILE     recording of the first run, for `apex replay` and viewers

@@ -13,5 +13,5 @@ pub use losses::Losses;
 pub use outages::run_with_outages;
 pub use picture::picture;
 pub use run::{Run, run};
-pub use table::{Row, activity_table, fault_at, faults_table, summary, table};
+pub use table::{Row, activity_table, fault_at, faults_table, prices, prices_table, summary, table};
 pub use timeline::timeline;

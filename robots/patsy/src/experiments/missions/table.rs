@@ -1,5 +1,5 @@
 use super::{Losses, Run};
-use crate::world::clinic::{Fault, FaultKind, words};
+use crate::world::clinic::{Conditions, Fault, FaultKind, words};
 use apex_rt::Time;
 use apex_sim::{Random, experiment::spread};
 use std::{cmp::Reverse, fmt, time::Duration};
@@ -133,6 +133,51 @@ pub fn faults_table(without: &[Run], with: &[Run]) -> String {
     text
 }
 
+/// Conditions whose runs tell the prices of the values of a world, with their names: each of its values alone that is
+/// not kind, and all of them.
+pub fn prices(world: &Conditions) -> Vec<(&'static str, Conditions)> {
+    let alone = Conditions::VALUES.iter().map(|value| (value.name, Conditions::KIND.with(value, *world)));
+    alone.filter(|(_, conditions)| *conditions != Conditions::KIND).chain([("all", *world)]).collect()
+}
+
+/// Table of runs in the kind world and under each of the `prices`: a line for each.
+pub fn prices_table(prices: &[(&str, Conditions)], runs: &[Run]) -> String {
+    let mut text = format!(
+        "{:<20}{:>9}{:>8}{:>7}{:>6}{:>7}{:>11}{:>12}{:>10}{:>7}{:>10}{:>7}{:>8}\n",
+        "value",
+        "delivered",
+        "median",
+        "least",
+        "most",
+        "mean",
+        "misplaced",
+        "given back",
+        "contacts",
+        "falls",
+        "run over",
+        "bumps",
+        "wedges"
+    );
+    for (name, conditions) in [("none", Conditions::KIND)].iter().chain(prices) {
+        let own: Vec<Run> = runs.iter().filter(|run| run.options.conditions == *conditions).cloned().collect();
+        let [least, median, most] = delivered(&own);
+        let sum = |value: fn(&Run) -> usize| own.iter().map(value).sum::<usize>();
+        text += &format!(
+            "{name:<20}{:>9}{median:>8}{least:>7}{most:>6}{:>7.1}{:>11}{:>12}{:>10}{:>7}{:>10}{:>7}{:>8}\n",
+            sum(|run| run.report.delivered()),
+            mean(&own),
+            sum(|run| run.report.deliveries.len() - run.report.delivered()),
+            sum(|run| run.report.refused),
+            sum(|run| run.report.contacts.len()),
+            sum(|run| run.report.falls.len()),
+            sum(|run| run.report.run_over.len()),
+            sum(|run| run.report.bumps.len()),
+            sum(|run| run.report.wedges.len()),
+        );
+    }
+    text
+}
+
 /// Returns `true` if nothing failed, the vehicle did not fall, and it drove on after the last fault.
 fn survives(run: &Run) -> bool {
     let after = end_of_faults(run);
@@ -163,6 +208,15 @@ fn mean(runs: &[Run]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_value_that_is_not_kind_has_a_price() {
+        let all: Vec<_> = prices(&Conditions::HARDER).into_iter().map(|(name, _)| name).collect();
+        let values = Conditions::VALUES.map(|value| value.name);
+        assert_eq!(all, values.into_iter().chain(["all"]).collect::<Vec<_>>());
+        let slip = Conditions { slip: 0.3, ..Conditions::KIND };
+        assert_eq!(prices(&slip), [("slip", slip), ("all", slip)]);
+    }
 
     #[test]
     fn faults_are_at_times_of_the_seed_within_the_run() {

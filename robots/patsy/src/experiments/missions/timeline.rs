@@ -20,7 +20,7 @@ pub fn timeline(run: &Run) -> String {
         })
         .collect();
     let mut event = |at: Time, what: String| lines.push((at, format!("{:8.2} s: {what}", at.as_secs_f64())));
-    for Delivery { at, container, offset, turn, left } in &report.deliveries {
+    for Delivery { at, container, offset, turn, left, .. } in &report.deliveries {
         let left = left.map_or("never".to_owned(), |left| format!("at {:.2} s", left.as_secs_f64()));
         let turn = turn.to_degrees();
         event(*at, format!("container {container} set down, {offset:.2} m and {turn:.0}° off, left {left}"));

@@ -41,8 +41,9 @@ impl Body {
         self.load.map(|(_, place)| self.tractor.trailer_pose().compose(&place))
     }
 
-    /// Drives for `dt` s, unless something of the world is in the way. Returns `true` if it touched something.
-    pub fn drive(&mut self, command: &Twist, dt: f32, world: &World) -> bool {
+    /// Drives for `dt` s, unless something of the world is in the way. Returns the vehicle as
+    /// it would have been inside of what holds it.
+    pub fn drive(&mut self, command: &Twist, dt: f32, world: &World) -> Option<Self> {
         let (before, free) = (self.tractor.clone(), self.clearance(world));
         self.tractor.step(command, dt);
         let after = self.clearance(world);
@@ -50,11 +51,12 @@ impl Body {
         let touches = after <= 0.0 && after <= free && self.tractor.base.pose != before.base.pose;
         let leaves = free <= 0.0 && !self.approaches(&before, world);
         if touches && !leaves {
+            let inside = self.clone();
             self.tractor = before;
             self.tractor.base.twist = Twist::ZERO;
-            return true;
+            return Some(inside);
         }
-        false
+        None
     }
 
     fn clearance(&self, world: &World) -> f32 {

@@ -1,4 +1,4 @@
-use super::{Clinic, DOCK, FaultKind};
+use super::{Clinic, DOCK, FaultKind, State};
 use crate::Order;
 use apex_nodes::{
     cloud::{CloudPoint, PointCloud},
@@ -7,7 +7,7 @@ use apex_nodes::{
 };
 use apex_rt::{Ctx, Event, Out, Time, node};
 use apex_sim::{
-    Laser, Random,
+    Laser, Latency, Random,
     tof::{Distortion, Floor, Space, TofCamera, TofFrame},
 };
 use core::f32::consts::PI;
@@ -53,28 +53,30 @@ impl Drivers {
 pub struct Scanner {
     clinic: Clinic,
     random: Random,
+    sent: Latency<Scan>,
 }
 
 #[node]
 impl Scanner {
     /// Creates the scanner of the vehicle in `clinic`.
     pub fn new(clinic: &Clinic) -> Self {
-        Self { random: clinic.present().stream(30), clinic: clinic.clone() }
+        Self { random: clinic.present().stream(30), clinic: clinic.clone(), sent: Latency::default() }
     }
 
     fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
         let mut clinic = self.clinic.at(ctx.now());
-        if clinic.has(FaultKind::ScannerFrozen) {
-            return;
-        }
-        let pose = clinic.pose();
-        let token = scan.get_mut();
-        token.stamp = ctx.now();
-        Laser::S300.measure(clinic.scanned(), &pose, &mut self.random, token);
-        for (kind, range) in [(FaultKind::ScannerNan, f32::NAN), (FaultKind::ScannerInfinite, f32::INFINITY)] {
-            if clinic.has(kind) {
-                token.ranges.fill(range);
+        if !clinic.has(FaultKind::ScannerFrozen) {
+            let [tractor, _] = clinic.past().clone();
+            let mut turn = turn(&mut clinic, ctx.now(), |age| tractor.before(age), &mut self.random);
+            for (kind, range) in [(FaultKind::ScannerNan, f32::NAN), (FaultKind::ScannerInfinite, f32::INFINITY)] {
+                if clinic.has(kind) {
+                    turn.ranges.fill(range);
+                }
             }
+            self.sent.send(ctx.now() + clinic.conditions().scan_latency, turn);
+        }
+        if let Some(arrived) = self.sent.receive(ctx.now()) {
+            scan.set(arrived);
         }
     }
 }
@@ -85,29 +87,40 @@ impl Scanner {
 pub struct RearScanner {
     clinic: Clinic,
     random: Random,
+    sent: Latency<Scan>,
 }
 
 #[node]
 impl RearScanner {
     /// Creates the scanner on the trailer of the vehicle in `clinic`.
     pub fn new(clinic: &Clinic) -> Self {
-        Self { random: clinic.present().stream(32), clinic: clinic.clone() }
+        Self { random: clinic.present().stream(32), clinic: clinic.clone(), sent: Latency::default() }
     }
 
     /// Sends scans whose x axis points backward.
     fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
         let mut clinic = self.clinic.at(ctx.now());
-        if clinic.has(FaultKind::RearFrozen) {
-            return;
+        if !clinic.has(FaultKind::RearFrozen) {
+            let [_, trailer] = clinic.past().clone();
+            let pose = |age| trailer.before(age).compose(&Pose2::new(0.0, 0.0, PI));
+            let mut turn = turn(&mut clinic, ctx.now(), pose, &mut self.random);
+            if clinic.has(FaultKind::RearNan) {
+                turn.ranges.fill(f32::NAN);
+            }
+            self.sent.send(ctx.now() + clinic.conditions().scan_latency, turn);
         }
-        let pose = clinic.trailer().compose(&Pose2::new(0.0, 0.0, PI));
-        let token = scan.get_mut();
-        token.stamp = ctx.now();
-        Laser::S300.measure(clinic.scanned(), &pose, &mut self.random, token);
-        if clinic.has(FaultKind::RearNan) {
-            token.ranges.fill(f32::NAN);
+        if let Some(arrived) = self.sent.receive(ctx.now()) {
+            scan.set(arrived);
         }
     }
+}
+
+/// Scan of a turn that ends now. `pose` gives the pose of the scanner at an age in s.
+fn turn(clinic: &mut State, now: Time, pose: impl Fn(f32) -> Pose2, random: &mut Random) -> Scan {
+    let sweep = Laser::S300.sweep_time(clinic.conditions().scan_turn.as_secs_f32());
+    let mut scan = Scan { stamp: now, ..Scan::default() };
+    Laser::S300.sweep(clinic.scanned(), |part| pose((1.0 - part) * sweep), random, &mut scan);
+    scan
 }
 
 /// Wheel odometry and the angle of the hitch: a source.
@@ -291,5 +304,47 @@ impl Dispatch {
         if let Some(next) = clinic.next_order() {
             order.emit(next);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::clinic::{Conditions, Options};
+
+    /// Times in ms of the first three scans of a scanner that fires every 80 ms: of their arrival, and of their stamps.
+    fn scans(latency_ms: u64) -> Vec<(i64, i64)> {
+        let conditions = Conditions { scan_latency: Duration::from_millis(latency_ms), ..Conditions::KIND };
+        let state = State::new(&Options { people: 0, conditions, ..Options::default() }).expect("a plan");
+        let mut scanner = Scanner::new(&Clinic::new(state));
+        let fire = |ms: i64| {
+            let mut scan = Out::new();
+            scanner.process(&Ctx::new(Time::from_millis(ms)), &mut scan);
+            scan.get().map(|scan| (ms, scan.stamp.as_nanos() / 1_000_000))
+        };
+        (0..=4).map(|period| 80 * period).filter_map(fire).take(3).collect()
+    }
+
+    #[test]
+    fn a_scan_arrives_after_its_stamp_by_the_latency() {
+        assert_eq!(scans(0), [(0, 0), (80, 80), (160, 160)]);
+        assert_eq!(scans(80), [(80, 0), (160, 80), (240, 160)]);
+        assert_eq!(scans(100), [(160, 0), (240, 80), (320, 160)]);
+    }
+
+    /// The same world, seen by a vehicle that turns: a turn of the mirror that takes time bends the scan.
+    #[test]
+    fn the_scan_of_a_vehicle_that_turns_is_bent() {
+        let ranges = |turn_ms: u64, omega: f32| {
+            let conditions = Conditions { scan_turn: Duration::from_millis(turn_ms), ..Conditions::KIND };
+            let state = State::new(&Options { people: 0, conditions, ..Options::default() }).expect("a plan");
+            let clinic = Clinic::new(state);
+            clinic.present().drive(Twist::new(0.0, 0.0, omega));
+            let mut scan = Out::new();
+            Scanner::new(&clinic).process(&Ctx::new(Time::from_millis(240)), &mut scan);
+            scan.get().expect("a scan").ranges.clone()
+        };
+        assert_eq!(ranges(0, 0.0), ranges(40, 0.0));
+        assert_ne!(ranges(0, 1.0), ranges(40, 1.0));
     }
 }

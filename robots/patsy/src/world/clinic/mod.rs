@@ -2,6 +2,7 @@
 //! on the plan, small things on the floor and an open stairwell.
 
 mod body;
+mod conditions;
 mod drivers;
 mod fault;
 mod report;
@@ -9,6 +10,7 @@ mod site;
 mod state;
 mod view;
 
+pub use conditions::{Conditions, Value};
 pub use drivers::{Camera, Dispatch, Drivers, LiftDrive, Motors, RearScanner, Scanner, Wheels};
 pub use fault::{Fault, FaultKind, words};
 pub use report::{Contact, Delivery, Report};

@@ -1,5 +1,5 @@
 use crate::world::Thing;
-use apex_nodes::scan::Pose2;
+use apex_nodes::{math::normalize_angle, scan::Pose2};
 use apex_rt::Time;
 use std::time::Duration;
 
@@ -37,7 +37,10 @@ pub struct Delivery {
     pub at: Time,
     /// Number of the container.
     pub container: usize,
-    /// Distance of the container from the destination of the order, in m; infinite if another one was ordered.
+    /// Destination of the order; `None` if another container was ordered.
+    pub destination: Option<Pose2>,
+    /// Distance of the container from its destination when it was set down, and then when the vehicle had left it, in
+    /// m; infinite without one.
     pub offset: f32,
     /// Angle between the container and its destination, in rad, at most a quarter of a turn: its ends are alike.
     pub turn: f32,
@@ -62,6 +65,13 @@ const NEAR: [f32; 2] = [0.3, 10.0 * core::f32::consts::PI / 180.0];
 pub const WEDGED: Duration = Duration::from_secs(20);
 
 impl Delivery {
+    /// Notes the pose of the container.
+    pub(super) fn stands_at(&mut self, pose: &Pose2) {
+        let Some(destination) = &self.destination else { return };
+        let off = pose.relative_to(destination);
+        (self.offset, self.turn) = (off.position().norm(), 0.5 * normalize_angle(&(2.0 * off.theta)));
+    }
+
     /// Returns `true` if the container stands at its destination and the vehicle got away from it.
     pub fn is_right(&self) -> bool {
         self.offset <= NEAR[0] && self.turn.abs() <= NEAR[1] && self.left.is_some()
@@ -80,8 +90,32 @@ mod tests {
     use super::*;
 
     #[test]
+    fn what_is_pushed_away_before_the_vehicle_has_left_it_is_not_delivered() {
+        let destination = Some(Pose2::new(3.0, 4.0, 0.1));
+        let mut delivery = Delivery {
+            at: Time::ZERO,
+            container: 0,
+            destination,
+            offset: f32::INFINITY,
+            turn: 0.0,
+            left: Some(Time::ZERO),
+        };
+        delivery.stands_at(&Pose2::new(3.0, 4.2, 0.1 - core::f32::consts::PI));
+        assert!(delivery.is_right() && (delivery.offset - 0.2).abs() < 1e-5, "its ends are alike");
+        delivery.stands_at(&Pose2::new(3.0, 4.2, 0.4));
+        assert!(!delivery.is_right());
+    }
+
+    #[test]
     fn only_what_stands_right_and_was_left_is_delivered() {
-        let right = Delivery { at: Time::ZERO, container: 0, offset: 0.2, turn: -0.1, left: Some(Time::from_secs(9)) };
+        let right = Delivery {
+            at: Time::ZERO,
+            container: 0,
+            destination: None,
+            offset: 0.2,
+            turn: -0.1,
+            left: Some(Time::from_secs(9)),
+        };
         let wrong = [
             Delivery { offset: 0.31, ..right },
             Delivery { turn: 0.2, ..right },

@@ -41,6 +41,10 @@ const WAYS: [[[f32; 2]; 2]; 5] = [
     [[44.2, 46.4], [7.0, 23.0]],
     [[0.4, 3.4], [7.5, 20.6]],
 ];
+/// Walls of the two corridors: y from and to, in m.
+const CORRIDORS: [[f32; 2]; 2] = [[7.2, 9.6], [20.6, 23.0]];
+/// Where other ways meet the corridors, with room to turn: x from and to, in m.
+const MOUTHS: [[f32; 2]; 3] = [[0.0, 8.5], [18.5, 23.7], [42.5, 48.1]];
 /// Free strip that a place needs: before and behind it for the vehicle, in m.
 const STRIP: [f32; 2] = [7.0, 0.9];
 
@@ -64,6 +68,46 @@ impl Site {
         let things = things(&places, random);
         Ok(Self { building, places, carts, things })
     }
+}
+
+/// Tries to place furniture at the walls of the corridors, with free way beside it: not beside a place for containers,
+/// a door, a crossing, or other furniture there.
+pub(super) fn furnish_corridors(site: &mut Site, count: usize, random: &mut Random) {
+    let mut placed: Vec<Point2> = vec![];
+    for _ in 0..count {
+        let piece = (0..100).map(|_| piece(random)).find(|piece| {
+            let at = piece.pose.position();
+            let is_far = |other: Point2| (other.x - at.x).abs() > FREE || (other.y - at.y).abs() > FREE;
+            site.places.iter().all(|place| is_far(place.position()))
+                && placed.iter().all(|other| is_far(*other))
+                && MOUTHS.iter().all(|[from, to]| !(*from..*to).contains(&at.x))
+                && has_wall_behind(&site.building.world, piece)
+        });
+        if let Some(Footprint { pose, length, width }) = piece {
+            site.building.world.block(&pose, length, width);
+            placed.push(pose.position());
+        }
+    }
+}
+
+/// Piece of furniture at a wall of a corridor, which is on its left.
+fn piece(random: &mut Random) -> Footprint {
+    let [y, side] = [random.bits() % 2, random.bits() % 2].map(|bit| bit as usize);
+    let (length, width) = (random.uniform(0.4, 1.0), random.uniform(0.3, 0.5));
+    let (x, gap) = (random.uniform(THINGS_IN[0], THINGS_IN[1]), random.uniform(0.02, 0.12));
+    let theta = random.uniform(-0.08, 0.08);
+    let inward = if side == 0 { 1.0 } else { -1.0 };
+    let y = CORRIDORS[y][side] + inward * (gap + 0.5 * width);
+    Footprint { pose: Pose2::new(x, y, theta + if side == 0 { PI } else { 0.0 }), length, width }
+}
+
+/// Returns `true` if there is no door behind a piece of furniture, which is left of it.
+fn has_wall_behind(world: &World, piece: &Footprint) -> bool {
+    [-0.5, 0.0, 0.5].into_iter().all(|part| {
+        let back = piece.pose.to_outer(Point2::new(part * (piece.length + 0.4), 0.0));
+        let left = Point2::polar(1.0, piece.pose.theta + 0.5 * PI);
+        world.cast(back, left).is_some_and(|distance| distance < 0.5 * piece.width + 0.3)
+    })
 }
 
 /// Container at a place, a little off, with castors at the angles at which it was left.
@@ -130,4 +174,28 @@ fn is_on(way: &[[f32; 2]; 2], point: Point2) -> bool {
 /// Area of the body of a container.
 pub(super) fn area(cart: &Cart) -> Footprint {
     Footprint { pose: cart.pose(), length: LENGTH, width: WIDTH }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_sim::stream;
+
+    #[test]
+    fn furniture_in_corridors_leaves_a_way() {
+        let mut count = 0;
+        for seed in 1..=10 {
+            let mut site = Site::new(&mut stream(seed, 0)).expect("a plan");
+            let before = site.building.world.walls().len();
+            furnish_corridors(&mut site, 12, &mut stream(seed, 4));
+            let added = &site.building.world.walls()[before..];
+            count += added.len() / 4;
+            for wall in added {
+                let [low, high] = if wall.a.y < 15.0 { CORRIDORS[0] } else { CORRIDORS[1] };
+                assert!(wall.a.y - low < 0.8 || high - wall.a.y < 0.8, "{wall:?}");
+                assert!(site.places.iter().all(|place| (place.position() - wall.a).norm() > 1.2), "{wall:?}");
+            }
+        }
+        assert!(count >= 50, "{count} pieces");
+    }
 }

@@ -1,23 +1,23 @@
 use super::{
-    Contact, DOCK, Delivery, Fault, FaultKind, PEOPLE, Report, STAIRWELL,
+    Conditions, Contact, DOCK, Delivery, Fault, FaultKind, PEOPLE, Report, STAIRWELL,
     body::{Body, along},
     report::WEDGED,
-    site::{Site, area},
+    site::{Site, area, furnish_corridors},
     view,
 };
 use crate::{
-    Order,
+    Order, WHEEL_LENGTH,
     world::{Cart, Thing},
 };
 use apex_nodes::{
     io::ReadError,
-    math::normalize_angle,
     nav::Twist,
     scan::{Point2, Pose2},
 };
 use apex_rt::Time;
 use apex_sim::{
-    Crowd, Disc, Footprint, HeldTwist, Odometry, OdometryNoise, Random, Shared, Simulation, World, stream, tof::Space,
+    Crowd, Disc, Footprint, HeldTwist, Odometry, OdometryNoise, PoseTrack, Random, Shared, Simulation, World, pushed,
+    stream, tof::Space,
 };
 use std::time::Duration;
 
@@ -39,6 +39,12 @@ const CONTACT: f32 = 0.01;
 const MOVES: f32 = 0.05;
 /// Distance by which a vehicle that is not wedged moves, in m.
 const FREE: f32 = 0.3;
+/// Longest time that is remembered of the motion of the vehicle, in s.
+const PAST: f32 = 0.2;
+/// Radius of gyration of a container, in m: that of a block of its size.
+const GYRATION: f32 = 0.4;
+/// Radius of the parts of a trolley above its wheels, and their distances from its middle, in m.
+const TROLLEY: (f32, [f32; 3]) = (0.22, [-0.18, 0.0, 0.18]);
 /// Radius of the body of a person above the legs, in m.
 const BODY: f32 = 0.18;
 
@@ -53,12 +59,15 @@ pub struct Options {
     pub faults: Vec<Fault>,
     /// Time without a twist after which the motors brake. Without one they keep the last twist.
     pub command_timeout: Option<Duration>,
+    /// What makes the clinic harder.
+    pub conditions: Conditions,
 }
 
-/// Eight people, no faults, and motors that brake after 0.3 s.
+/// Eight people, no faults, motors that brake after 0.3 s, and kind conditions.
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, people: PEOPLE, faults: vec![], command_timeout: Some(COMMAND_TIMEOUT) }
+        let conditions = Conditions::KIND;
+        Self { seed: 1, people: PEOPLE, faults: vec![], command_timeout: Some(COMMAND_TIMEOUT), conditions }
     }
 }
 
@@ -70,9 +79,12 @@ pub type Clinic = Shared<State>;
 pub struct State {
     now: Time,
     seed: u64,
+    conditions: Conditions,
     site: Site,
     crowd: Crowd,
     body: Body,
+    /// Poses of tractor and trailer.
+    past: [PoseTrack; 2],
     odometry: Odometry,
     wheels: Pose2,
     command: HeldTwist,
@@ -123,15 +135,20 @@ impl State {
     pub fn new(options: &Options) -> Result<Self, ReadError> {
         let seed = options.seed;
         let mut random = stream(seed, 0);
-        let site = Site::new(&mut random)?;
+        let mut site = Site::new(&mut random)?;
+        furnish_corridors(&mut site, options.conditions.corridor_furniture, &mut stream(seed, 4));
         let known = site.carts.iter().map(Cart::pose).collect();
         let crowd = Crowd::new(view::walkable(&site.building), options.people, stream(seed, 1).bits());
+        let body = Body::new(DOCK);
+        let past = [body.tractor.base.pose, body.tractor.trailer_pose()];
         Ok(Self {
             now: Time::ZERO,
             seed,
+            conditions: options.conditions,
             site,
-            crowd,
-            body: Body::new(DOCK),
+            crowd: crowd.with_trolleys(options.conditions.trolleys),
+            body,
+            past: past.map(|pose| PoseTrack::new(pose, PAST, STEP.as_secs_f32())),
             odometry: Odometry::new(OdometryNoise::PIONEER.times(DRIFT), stream(seed, 2).bits()),
             wheels: Pose2::default(),
             command: HeldTwist::new(options.command_timeout),
@@ -187,6 +204,16 @@ impl State {
     /// Pose of the trailer.
     pub fn trailer(&self) -> Pose2 {
         self.body.tractor.trailer_pose()
+    }
+
+    /// Poses of tractor and trailer in the last 0.2 s.
+    pub const fn past(&self) -> &[PoseTrack; 2] {
+        &self.past
+    }
+
+    /// What makes the clinic harder.
+    pub const fn conditions(&self) -> &Conditions {
+        &self.conditions
     }
 
     /// Events up to now.
@@ -260,7 +287,8 @@ impl State {
         self.seen.take_near(&self.site.building.world, here, SIGHT);
         self.site.carts.iter().for_each(|cart| cart.add_to(&mut self.seen));
         for person in self.crowd.people() {
-            person.legs().into_iter().for_each(|leg| self.seen.disc(leg.centre, leg.radius));
+            let feet = person.legs().into_iter().chain(person.trolley_wheels());
+            feet.for_each(|foot| self.seen.disc(foot.centre, foot.radius));
         }
         for (_, pose) in self.site.things.iter().filter(|(thing, _)| *thing == Thing::Glass) {
             self.seen.disc(pose.position(), 0.035);
@@ -274,9 +302,15 @@ impl State {
         view::walls(&self.site.building.world, &pose, space);
         let load = self.body.load.map(|(number, _)| number);
         for (number, cart) in self.site.carts.iter().enumerate() {
-            view::cart(cart, &pose, load == Some(number), space);
+            let is_lifted = load == Some(number);
+            if self.conditions.load_in_view || !is_lifted {
+                view::cart(cart, &pose, is_lifted, space);
+            }
         }
-        self.crowd.people().iter().for_each(|person| view::person(person, &pose, space));
+        for person in self.crowd.people() {
+            view::person(person, &pose, space);
+            view::trolley(person, &pose, space);
+        }
         self.site.things.iter().enumerate().for_each(|(i, (thing, at))| view::thing(*thing, at, i, &pose, space));
         space.dig(STAIRWELL);
     }
@@ -288,11 +322,18 @@ impl State {
         self.crowd.step(dt, &areas);
         self.move_lift(dt);
         let before = self.pose();
-        self.move_body(dt);
+        let is_held = self.move_body(dt);
+        self.wheels = if is_held && self.conditions.slip > 0.0 {
+            self.odometry.slip(&self.command.at(self.now), self.conditions.slip, dt)
+        } else {
+            self.odometry.measure(&before, &self.pose())
+        };
         self.touch_people();
         self.watch_floor();
         self.watch_containers();
-        self.wheels = self.odometry.measure(&before, &self.pose());
+        for (past, pose) in self.past.iter_mut().zip([self.body.tractor.base.pose, self.body.tractor.trailer_pose()]) {
+            past.push(pose);
+        }
         self.report.distance += (self.pose().position() - before.position()).norm();
         if self.now.as_nanos() % 200_000_000 == 0 {
             self.report.trajectory.push((self.now, self.pose()));
@@ -335,11 +376,11 @@ impl State {
 
     fn set_down(&mut self, number: usize) {
         let Some(destination) = self.order.map(|order| order.destination) else { return };
-        let is_ordered = self.ordered == Some(number);
-        let off = self.site.carts[number].pose().relative_to(&destination);
-        let offset = if is_ordered { off.position().norm() } else { f32::INFINITY };
-        let turn = 0.5 * normalize_angle(&(2.0 * off.theta));
-        self.report.deliveries.push(Delivery { at: self.now, container: number, offset, turn, left: None });
+        let destination = Some(destination).filter(|_| self.ordered == Some(number));
+        let (offset, turn) = (f32::INFINITY, 0.0);
+        let mut delivery = Delivery { at: self.now, container: number, destination, offset, turn, left: None };
+        delivery.stands_at(&self.site.carts[number].pose());
+        self.report.deliveries.push(delivery);
     }
 
     /// Notices when the vehicle has left a container, and when it is wedged beneath one.
@@ -350,6 +391,8 @@ impl State {
         for delivery in self.report.deliveries.iter_mut().filter(|delivery| delivery.left.is_none()) {
             if load.is_none() && !is_above(delivery.container) {
                 delivery.left = Some(self.now);
+                // It may have been pushed away meanwhile.
+                delivery.stands_at(&self.site.carts[delivery.container].pose());
             }
         }
         let here = self.body.tractor.base.pose;
@@ -364,15 +407,18 @@ impl State {
         }
     }
 
-    fn move_body(&mut self, dt: f32) {
+    /// Drives for `dt` s. Returns `true` if something held the vehicle.
+    fn move_body(&mut self, dt: f32) -> bool {
         if !self.report.falls.is_empty() {
-            return;
+            return false;
         }
         let command = self.command.at(self.now);
         if self.now.as_nanos() % 100_000_000 == 0 {
             self.look_around();
         }
-        let touches = self.body.drive(&command, dt, &self.near);
+        let before = self.body.clone();
+        let inside = self.body.drive(&command, dt, &self.near);
+        let touches = inside.is_some();
         if touches && !self.bumped {
             self.report.bumps.push(self.now);
         }
@@ -381,6 +427,29 @@ impl State {
         if let Some(((number, _), pose)) = self.body.load.zip(self.body.load_pose()) {
             self.site.carts[number].move_to(pose);
         }
+        if let Some(inside) = inside.filter(|_| !self.conditions.container_roll.is_zero()) {
+            self.bump(&before, &inside, dt);
+        }
+        touches
+    }
+
+    /// Lets the containers roll that the vehicle, from `before`, would be `inside` after `dt` s.
+    fn bump(&mut self, before: &Body, inside: &Body, dt: f32) {
+        let load = self.body.load.map(|(number, _)| number);
+        for number in (0..self.site.carts.len()).filter(|number| Some(*number) != load) {
+            let cart = &self.site.carts[number];
+            let Some((at, way)) = push(cart, before, inside) else { continue };
+            let way = way.scaled(self.conditions.container_roll.as_secs_f32() / dt);
+            let pose = pushed(&cart.pose(), at, way, GYRATION);
+            let mut around = World::default();
+            around.take_near(&self.site.building.world, pose.position(), TOUCH);
+            let others = self.site.carts.iter().enumerate().filter(|(other, _)| *other != number);
+            others.for_each(|(_, other)| other.add_to(&mut around));
+            if area(&Cart::new(pose, [0.0; 4])).clearance(&around) > 0.0 {
+                self.site.carts[number].move_to(pose);
+            }
+        }
+        self.look_around();
     }
 
     /// Counts contacts of people with the vehicle that drives, and pushes them out of its way.
@@ -390,7 +459,13 @@ impl State {
         for person in 0..self.crowd.people().len() {
             let one = &self.crowd.people()[person];
             let trunk = Disc { centre: one.pose.position(), radius: BODY };
-            let parts = one.legs().into_iter().chain(is_loaded.then_some(trunk));
+            // What is above the legs meets only a load.
+            let (radius, places) = TROLLEY;
+            let baskets = one.trolley().into_iter().flat_map(|trolley| {
+                places.map(|x| Disc { centre: trolley.pose.to_outer(Point2::new(x, 0.0)), radius })
+            });
+            let above = [trunk].into_iter().chain(baskets).filter(|_| is_loaded);
+            let parts = one.legs().into_iter().chain(above).chain(one.trolley_wheels());
             let overlap = |disc: &Disc| {
                 let depth = areas.iter().map(|area| area.distance(disc.centre)).fold(f32::INFINITY, f32::min);
                 disc.radius - depth
@@ -431,10 +506,88 @@ impl State {
     }
 }
 
+/// Point at which a vehicle meets a wheel of a container, and its way there from `before`. `None` if it does not.
+fn push(cart: &Cart, before: &Body, inside: &Body) -> Option<(Point2, Point2)> {
+    before.areas().zip(inside.areas()).find_map(|(from, to)| {
+        let wheel = cart.wheels().map(|(wheel, _)| wheel).find(|wheel| to.distance(*wheel) <= 0.5 * WHEEL_LENGTH)?;
+        let at = to.nearest(wheel);
+        Some((at, at - from.pose.to_outer(to.pose.to_inner(at))))
+    })
+}
+
 impl Simulation for State {
     fn advance(&mut self, now: Time) {
         while self.now + STEP <= now {
             self.step();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use apex_nodes::math::normalize_angle;
+
+    /// Clinic without people in which the vehicle stands behind a container, beside its middle.
+    fn behind_a_container(conditions: Conditions) -> State {
+        let mut state = State::new(&Options { people: 0, conditions, ..Options::default() }).expect("a plan");
+        let cart = state.site.carts[0].pose();
+        state.body = Body::new(cart.compose(&Pose2::new(-1.2, 0.15, 0.0)));
+        state
+    }
+
+    /// Drives against it: by how much it turned, and how far the vehicle and its wheels went.
+    fn drive_against_a_container(conditions: Conditions) -> (f32, f32, f32) {
+        let mut state = behind_a_container(conditions);
+        let (cart, start) = (state.site.carts[0].pose(), state.pose());
+        for step in 1..=150 {
+            state.drive(Twist::new(0.4, 0.0, 0.0));
+            state.advance(Time::from_millis(20 * step));
+        }
+        assert!(!state.report().bumps.is_empty());
+        let turn = normalize_angle(&(state.site.carts[0].pose().theta - cart.theta));
+        (turn, (state.pose().position() - start.position()).norm(), state.wheels().position().norm())
+    }
+
+    #[test]
+    fn a_container_that_is_bumped_turns() {
+        let kind = drive_against_a_container(Conditions::KIND);
+        let rolls = Conditions { container_roll: Duration::from_millis(200), ..Conditions::KIND };
+        let rolling = drive_against_a_container(rolls);
+        assert!(kind.0.abs() < 1e-5, "it stands like a wall: {kind:?}");
+        // The left side is pushed forward.
+        assert!(rolling.0 < -0.05 && rolling.1 > kind.1, "{kind:?} {rolling:?}");
+    }
+
+    #[test]
+    fn wheels_slip_before_what_holds_the_vehicle() {
+        let kind = drive_against_a_container(Conditions::KIND);
+        let slips = drive_against_a_container(Conditions { slip: 0.5, ..Conditions::KIND });
+        assert_eq!(slips.1, kind.1);
+        assert!((kind.2 - kind.1).abs() < 0.05 && slips.2 > slips.1 + 0.2, "{kind:?} {slips:?}");
+    }
+
+    #[test]
+    fn the_camera_sees_the_load_if_it_is_in_view() {
+        let solids = |load_in_view, is_lifted: bool| {
+            let mut state = behind_a_container(Conditions { load_in_view, ..Conditions::KIND });
+            state.body.load = is_lifted.then_some((0, Pose2::default()));
+            let mut space = Space::new(apex_sim::tof::Floor::default());
+            state.fill(&mut space);
+            space.solids().len()
+        };
+        assert_eq!(solids(true, true), solids(true, false));
+        // A body and four wheels.
+        assert_eq!(solids(false, true) + 5, solids(false, false));
+    }
+
+    #[test]
+    fn scanners_see_the_wheels_of_a_trolley() {
+        let discs = |trolleys| {
+            let conditions = Conditions { trolleys, ..Conditions::KIND };
+            let mut state = State::new(&Options { people: 1, conditions, ..Options::default() }).expect("a plan");
+            state.scanned().discs().len()
+        };
+        assert_eq!(discs(0) + 4, discs(1));
     }
 }

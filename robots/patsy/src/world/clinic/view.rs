@@ -10,7 +10,7 @@ use apex_nodes::{
     scan::{Point2, Pose2},
 };
 use apex_sim::{
-    Building, Pedestrian, Random, World,
+    Building, Footprint, Pedestrian, Random, World,
     tof::{Material, Shape, Solid, SolidKind, Space},
 };
 
@@ -18,6 +18,8 @@ use apex_sim::{
 const SIGHT: f32 = 5.0;
 /// Height of a container on the lift above that on the floor, in m.
 const LIFTED: f32 = 0.06;
+/// Heights of the bottom and the top of a trolley, in m.
+const TROLLEY: [f32; 2] = [0.15, 0.9];
 /// Distance that people keep from walls, in m.
 const ROOM: f32 = 0.3;
 
@@ -59,7 +61,7 @@ pub(super) fn walls(world: &World, pose: &Pose2, space: &mut Space) {
 /// Adds a container.
 pub(super) fn cart(cart: &Cart, pose: &Pose2, is_lifted: bool, space: &mut Space) {
     let at = cart.pose();
-    if (at.position() - pose.position()).norm() > SIGHT + LENGTH || is_lifted {
+    if (at.position() - pose.position()).norm() > SIGHT + LENGTH {
         return;
     }
     let up = if is_lifted { LIFTED } else { 0.0 };
@@ -80,6 +82,18 @@ pub(super) fn person(person: &Pedestrian, pose: &Pose2, space: &mut Space) {
     if is_seen(pose, at) {
         person.legs().into_iter().for_each(|leg| rod(space, leg.centre, [0.0, 0.85], leg.radius, 0.3));
         rod(space, at, [0.85, 1.7], 0.2, 0.4);
+    }
+}
+
+/// Adds the trolley that a person pushes.
+pub(super) fn trolley(person: &Pedestrian, pose: &Pose2, space: &mut Space) {
+    let Some(Footprint { pose: at, length, width }) = person.trolley() else { return };
+    if is_seen(pose, at.position()) {
+        let [bottom, top] = TROLLEY;
+        let centre = [at.x, at.y, 0.5 * (bottom + top)];
+        let shape = Shape::Block { centre, size: [length, width, top - bottom], yaw: at.theta };
+        add(space, shape, 0.5, SolidKind::Overhanging);
+        person.trolley_wheels().for_each(|wheel| rod(space, wheel.centre, [0.0, bottom], wheel.radius, 0.2));
     }
 }
 
