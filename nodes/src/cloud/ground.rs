@@ -22,8 +22,8 @@ const MOST: usize = 128;
 ///   the foot of something;
 /// - the point before it in its column is on an obstacle, and it is straight above that.
 ///
-/// Beside an obstacle in its ring there is another one: a single point is a blade of grass. A low thing, whose column is
-/// like that of a bump, is higher by `rise` than the ground to both sides of it, 0.6 m or 1.2 m away.
+/// Beside an obstacle in its ring there is another one: a single point is a blade of grass. A low thing, whose column
+/// is like that of a bump, is higher by `rise` than the ground to both sides of it, 0.6 m or 1.2 m away.
 ///
 /// A slope is steeper than the angle `steep` if one point is straight above another one. Obstacles are overhanging
 /// beyond `overhang` above the line. A point is below the ground, in a ditch, if the ground goes on behind it: if there
@@ -31,8 +31,8 @@ const MOST: usize = 128;
 /// to that point by more than `ditch`, and by half of `bend` for each metre. Both ends of the line are nearer than
 /// `brink`. Ground that falls behind a bump or a crest, and stays low, is not a ditch.
 ///
-/// `columns` are those of a full turn in equal steps, in the level frame of the robot, whose origin is on the ground, as
-/// `CompensateTurn` sends them. Columns that are not whole give ⊥.
+/// `columns` are those of a full turn in equal steps, in the level frame of the robot, whose origin is on the ground,
+/// as `CompensateTurn` sends them. Columns that are not whole give ⊥.
 ///
 /// Cost: O(n) for n points; 0.8 ms for 28,800. Allocates with the first cloud.
 #[node]
