@@ -34,6 +34,7 @@ mod points;
 mod rings;
 mod rolling;
 mod sets;
+mod sides;
 mod smooth;
 mod upright;
 mod voxel;
