@@ -9,8 +9,8 @@ use super::{
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// Maximum number of copies of slots in the code of a reaction. rustc takes a time that grows with the square of the size
-/// of a function.
+/// Maximum number of copies of slots in the code of a reaction. rustc takes a time that grows with the square of the
+/// size of a function.
 const MOST_COPIES: usize = 128;
 
 impl Generator<'_> {

@@ -4,7 +4,7 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-/// What makes a clinic harder than a simulation usually is: the values of a world file.
+/// Conditions that make a clinic harder than a simulation usually is: the values of a world file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conditions {
     /// The camera sees the container on the lift. The scanners always see its castors.

@@ -43,7 +43,7 @@ const WAYS: [[[f32; 2]; 2]; 5] = [
 ];
 /// Walls of the two corridors: y from and to, in m.
 const CORRIDORS: [[f32; 2]; 2] = [[7.2, 9.6], [20.6, 23.0]];
-/// Where other ways meet the corridors, with room to turn: x from and to, in m.
+/// Places where other ways meet the corridors, with room to turn: x from and to, in m.
 const MOUTHS: [[f32; 2]; 3] = [[0.0, 8.5], [18.5, 23.7], [42.5, 48.1]];
 /// Free strip that a place needs: before and behind it for the vehicle, in m.
 const STRIP: [f32; 2] = [7.0, 0.9];

@@ -59,7 +59,7 @@ pub struct Options {
     pub faults: Vec<Fault>,
     /// Time without a twist after which the motors brake. Without one they keep the last twist.
     pub command_timeout: Option<Duration>,
-    /// What makes the clinic harder.
+    /// Conditions that make the clinic harder.
     pub conditions: Conditions,
 }
 
@@ -211,7 +211,7 @@ impl State {
         &self.past
     }
 
-    /// What makes the clinic harder.
+    /// Conditions that make the clinic harder.
     pub const fn conditions(&self) -> &Conditions {
         &self.conditions
     }
