@@ -403,5 +403,13 @@ mod tests {
         let mut out = Out::new();
         node().process(&odd, &mut out);
         assert!(out.get().is_none());
+        // On the axis of the scanner, and infinitely far away.
+        let values = [0.0, 1e-30, 1.0, 1e30, f32::INFINITY, f32::NAN];
+        let points = |every: usize| (0..216).map(|i| values[i / every % values.len()]).collect();
+        let odd = Columns { height: 12, x: points(1), y: points(6), z: points(36), ..Columns::default() };
+        let odd = Columns { intensity: points(1), ..odd };
+        let mut out = Out::new();
+        node().process(&odd, &mut out);
+        assert_eq!(out.get().map(|labels| labels.labels.len()), Some(216));
     }
 }

@@ -26,7 +26,7 @@ impl Turn<'_> {
         let (column, row) = (i / height, i % height);
         let (distance, z) = (self.distances[i], self.columns.z[i]);
         // A cast of a number that is not finite saturates.
-        let off = ((BESIDE * count as f32 / (TAU * distance)) as usize + 1).min(count / 8);
+        let off = ((BESIDE * count as f32 / (TAU * distance)) as usize).saturating_add(1).min(count / 8);
         let is_over = |other: usize| {
             let other = if other < count { other } else { other - count };
             let same = other * height + row;
