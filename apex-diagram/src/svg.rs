@@ -264,7 +264,7 @@ fn words(out: &mut String, text: &Text) {
     let anchor = match text.align {
         Align::Begin => "start",
         Align::Middle => "middle",
-        Align::PortId => "end",
+        Align::End => "end",
     };
     let (x, y) = text.at;
     let _ = write!(out, "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" text-anchor=\"{anchor}\">", text.size);

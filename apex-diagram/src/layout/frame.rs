@@ -156,10 +156,10 @@ impl Layout<'_> {
                 let (at, text) = match side {
                     Side::Left => ((0, y), (5, Align::Begin)),
                     Side::Top => ((stair, 0), (stair + 4, Align::Begin)),
-                    Side::Right => ((width, y), (width - 5, Align::PortId)),
+                    Side::Right => ((width, y), (width - 5, Align::End)),
                     Side::Bottom => {
                         let x = width - (rank as i64 + 1) * STAIR;
-                        ((x, height), (x - 4, Align::PortId))
+                        ((x, height), (x - 4, Align::End))
                     }
                 };
                 self.placed.ports[port] = at;

@@ -164,7 +164,7 @@ impl Box<'_> {
         let count = sides.left.len().max(sides.right.len()) as i64;
         let is_named = self.is_named();
         let end = if is_named { header + count * ROW } else { header.max(top + count * 12) };
-        for (ports, x, align) in [(&sides.left, 0, Align::Begin), (&sides.right, self.size.0, Align::PortId)] {
+        for (ports, x, align) in [(&sides.left, 0, Align::Begin), (&sides.right, self.size.0, Align::End)] {
             let room = end - top;
             for (i, &port) in ports.iter().enumerate() {
                 let i = i as i64;

@@ -44,8 +44,8 @@ pub enum Align {
     Begin,
     /// The middle of the text is at the point.
     Middle,
-    /// It ends there.
-    PortId,
+    /// The text ends at the point.
+    End,
 }
 
 /// Font sizes of names, types and ports.
@@ -69,7 +69,7 @@ impl Text {
         let left = match self.align {
             Align::Begin => self.at.0,
             Align::Middle => self.at.0 - self.width() / 2,
-            Align::PortId => self.at.0 - self.width(),
+            Align::End => self.at.0 - self.width(),
         };
         (left, self.at.1 - self.size + 1, left + self.width(), self.at.1 + self.size / 4)
     }

@@ -9,9 +9,9 @@ use quote::{format_ident, quote};
 /// function, and each function costs, too.
 const CHUNK: usize = 32;
 
-/// Attribute that decides if each of `count` functions is inlined.
-pub fn inlined(count: usize) -> TokenStream {
-    if count > MANY { quote!(#[inline(never)]) } else { quote!(#[inline]) }
+/// Attribute that decides if code is inlined of which there would be `count` pieces: up to `most` of them.
+pub fn inlined(count: usize, most: usize) -> TokenStream {
+    if count > most { quote!(#[inline(never)]) } else { quote!(#[inline]) }
 }
 
 /// Returns `true` if the clusters of a program share functions.

@@ -1,6 +1,7 @@
 //! Delivery of slot tokens: from a queue, or in an order that is known at compile time.
 
 use super::{
+    clusters::inlined,
     generator::Generator,
     sets::{set, set_type},
     tokens::ident,
@@ -39,8 +40,7 @@ impl Generator<'_> {
         };
         let exit = view.program.lower.has_exit().then(|| quote! { if self.state.exit.is_some() { break; } });
         // Each cluster serves what it has sent.
-        let copies = count * (analysis.clusters.len() + 1);
-        let inline = if copies > MOST_COPIES { quote!(#[inline(never)]) } else { quote!(#[inline]) };
+        let inline = inlined(count * (analysis.clusters.len() + 1), MOST_COPIES);
         quote! {
             #needs_table
             #inline

@@ -8,7 +8,7 @@ use super::{
     view::ProgramView,
 };
 use crate::{
-    analyse::Delivery,
+    analyse::{Delivery, MANY},
     catalog::Signature,
     graph::{ConnectionId, Graph, Library, NodeId, NodeKind, PortId},
     program::{Arg, Entering, Failing, Slot, SlotCall, is_buffer},
@@ -49,7 +49,7 @@ impl Generator<'_> {
             return self.slots(view).functions();
         }
         let (slots, rows) = (&view.wiring.slots, self.slot_rows(view));
-        let inline = inlined(slots.len());
+        let inline = inlined(slots.len(), MANY);
         let functions = slots.iter().enumerate().map(|(number, slot)| {
             let (name, docs) =
                 (ident(&view.labels.slots[number]), self.docs_of_connection(view.graph, slot.connection));

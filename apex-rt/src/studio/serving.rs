@@ -28,7 +28,7 @@ impl Serving {
         Ok(())
     }
 
-    /// Stops the thread, and returns all that it has, or `None` if there is no such thread.
+    /// Stops the thread and returns its state; `None` if it does not run.
     pub fn stop(&self) -> Option<Server> {
         let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take()?;
         self.shared.stops.store(true, Release);

@@ -100,7 +100,7 @@ impl Conditions {
     /// The conditions of this name, `kind` or `harder`, or else those of a world file.
     ///
     /// # Errors
-    /// The errors of [`parse`](Self::parse), or that there is no such file.
+    /// The file cannot be read, or [`parse`](Self::parse) refuses its text.
     pub fn named(text: &str) -> Result<Self, String> {
         match text {
             "kind" => Ok(Self::KIND),
@@ -164,9 +164,8 @@ impl Value {
         match self.kind {
             Kind::Flag(place) => *place(conditions) = value.as_bool()?,
             Kind::Count(most, place) => {
-                let number = value.as_integer()?;
-                let number = i64::from_str_radix(number.as_str(), number.radix()).ok()?;
-                *place(conditions) = usize::try_from(number).ok().filter(|_| number <= most)?;
+                let number = whole(value).filter(|number| *number <= most)?;
+                *place(conditions) = usize::try_from(number).ok()?;
             }
             Kind::Share(place) => *place(conditions) = number(value, 1.0)? as f32,
             Kind::Time(most, place) => *place(conditions) = Duration::from_secs_f64(number(value, most)?),
@@ -175,12 +174,17 @@ impl Value {
     }
 }
 
+/// Whole number.
+fn whole(value: &DeValue<'_>) -> Option<i64> {
+    let number = value.as_integer()?;
+    i64::from_str_radix(number.as_str(), number.radix()).ok()
+}
+
 /// Number from 0 to `most`.
 fn number(value: &DeValue<'_>, most: f64) -> Option<f64> {
     let number = match value {
         DeValue::Float(number) => number.as_str().parse().ok()?,
-        DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix()).ok()? as f64,
-        _ => return None,
+        _ => whole(value)? as f64,
     };
     (0.0..=most).contains(&number).then_some(number)
 }

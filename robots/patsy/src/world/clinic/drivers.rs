@@ -66,7 +66,7 @@ impl Scanner {
     fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
         let mut clinic = self.clinic.at(ctx.now());
         if !clinic.has(FaultKind::ScannerFrozen) {
-            let [tractor, _] = clinic.past().clone();
+            let tractor = clinic.past()[0].clone();
             let mut turn = turn(&mut clinic, ctx.now(), |age| tractor.before(age), &mut self.random);
             for (kind, range) in [(FaultKind::ScannerNan, f32::NAN), (FaultKind::ScannerInfinite, f32::INFINITY)] {
                 if clinic.has(kind) {
@@ -101,7 +101,7 @@ impl RearScanner {
     fn process(&mut self, ctx: &Ctx, scan: &mut Out<Scan>) {
         let mut clinic = self.clinic.at(ctx.now());
         if !clinic.has(FaultKind::RearFrozen) {
-            let [_, trailer] = clinic.past().clone();
+            let trailer = clinic.past()[1].clone();
             let pose = |age| trailer.before(age).compose(&Pose2::new(0.0, 0.0, PI));
             let mut turn = turn(&mut clinic, ctx.now(), pose, &mut self.random);
             if clinic.has(FaultKind::RearNan) {
