@@ -1,6 +1,7 @@
 //! Builds of programs with cargo. They use the target folder of the workspace, so that finished crates are not built
 //! again.
 
+pub mod earlier;
 mod trim;
 mod wanted;
 
@@ -124,7 +125,13 @@ fn cargo_for(wanted: &Wanted, verb: &[&str], how: How) -> Command {
     let mut command = cargo();
     command.args(verb).args(&wanted.select).current_dir(&wanted.root).env("CARGO_TARGET_DIR", &wanted.target);
     command.args(how.release.then_some("--release")).args(how.quiet.then_some("--quiet"));
-    command.arg("--message-format=json-render-diagnostics").stdin(Stdio::null()).stdout(Stdio::piped());
+    let (format, is_terminal) = (&wanted.hushed, io::stderr().is_terminal());
+    command.arg(match format {
+        Some(_) if is_terminal => "--message-format=json-diagnostic-rendered-ansi",
+        Some(_) => "--message-format=json",
+        None => "--message-format=json-render-diagnostics",
+    });
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
     command
 }
 
@@ -140,6 +147,8 @@ pub enum Outcome {
     Nothing,
     /// Compile errors, which cargo has printed.
     Broken,
+    /// Compile errors in the crate whose messages are not shown, and only there.
+    Refused,
 }
 
 impl Outcome {
@@ -150,7 +159,7 @@ impl Outcome {
     pub fn program(self) -> Result<Option<Built>, String> {
         match self {
             Self::Built(built) => Ok(Some(built)),
-            Self::Broken => Ok(None),
+            Self::Broken | Self::Refused => Ok(None),
             Self::Nothing => Err("cargo did not build a program".to_owned()),
         }
     }
@@ -170,14 +179,17 @@ pub fn build(wanted: &Wanted, verb: &[&str], how: How) -> Result<Outcome, String
     let passes_on = !how.quiet && !sees_progress;
     command.stderr(if passes_on { Stdio::piped() } else { Stdio::inherit() });
     let mut child = command.spawn().map_err(|e| no_cargo(&e))?;
-    let progress = child.stderr.take().map(|lines| thread::spawn(move || pass_on(lines)));
-    let messages = Messages::read(&mut child, verb == TESTS)?;
+    let progress = child.stderr.take().map(|lines| {
+        let hushed = wanted.hushed.clone();
+        thread::spawn(move || pass_on(lines, hushed.as_deref()))
+    });
+    let messages = Messages::read(&mut child, verb == TESTS, wanted.hushed.as_deref())?;
     if let Some(progress) = progress {
         // The thread only prints; a panic in it does not matter.
         let _ = progress.join();
     }
     if !child.wait().map_err(|e| no_cargo(&e))?.success() {
-        return Ok(Outcome::Broken);
+        return Ok(if messages.is_hushed { Outcome::Refused } else { Outcome::Broken });
     }
     if sees_progress && !how.quiet && messages.compiled == 0 {
         // Erases the line that reports that nothing had to be done.
@@ -201,7 +213,12 @@ const FIRST: &str = "note: the first build compiles the compiler, the runtime an
 
 /// `true` if nothing has been built in the target folder with these settings.
 fn is_first(wanted: &Wanted, how: How) -> bool {
-    !wanted.target.join(if how.release { "release" } else { "debug" }).exists()
+    !program_folder(wanted, how).exists()
+}
+
+/// Folder of the programs that are built with these settings.
+fn program_folder(wanted: &Wanted, how: How) -> PathBuf {
+    wanted.target.join(if how.release { "release" } else { "debug" })
 }
 
 /// Time from which on a build is long enough to say what it took.
@@ -216,12 +233,14 @@ fn took(compiled: usize, time: Duration) -> Option<String> {
     (compiled > 0 && time >= LONG).then(|| format!("compiled {crates} in {time_shown}"))
 }
 
-/// Prints cargo's progress messages, without the final ones that report the end of the build.
-fn pass_on(lines: impl Read) {
+/// Prints cargo's progress messages, without the final ones that report the end of the build, and without the failure
+/// of a crate that is `hushed`.
+fn pass_on(lines: impl Read, hushed: Option<&str>) {
     for line in BufReader::new(lines).split(b'\n').map_while(Result::ok) {
         let line = String::from_utf8_lossy(&line);
         let is_end = ["Finished `", "Executable "].iter().any(|word| line.trim_start().starts_with(word));
-        if !is_end {
+        let is_hushed = hushed.is_some_and(|name| line.starts_with(&format!("error: could not compile `{name}`")));
+        if !is_end && !is_hushed {
             print_error(&line);
         }
     }
@@ -236,17 +255,27 @@ struct Messages {
     executable: Option<PathBuf>,
     /// Folders into which build scripts have put libraries.
     linked: Vec<PathBuf>,
+    /// All errors were in the crate whose messages are not shown.
+    is_hushed: bool,
 }
 
 impl Messages {
-    /// Reads all messages of a build of a program, or of `tests`.
-    fn read(child: &mut Child, tests: bool) -> Result<Self, String> {
+    /// Reads all messages of a build of a program, or of `tests`. With a crate that is `hushed`, the messages of the
+    /// others are printed.
+    fn read(child: &mut Child, tests: bool, hushed: Option<&str>) -> Result<Self, String> {
         let mut messages = Self::default();
         let Some(output) = child.stdout.take() else { return Ok(messages) };
         for line in BufReader::new(output).lines() {
             let line = line.map_err(|e| format!("cannot read the output of cargo: {e}"))?;
             // Lines of other programs are not JSON.
             let Ok(message) = serde_json::from_str::<Value>(&line) else { continue };
+            if let (Some(hushed), Some(text)) = (hushed, message["message"]["rendered"].as_str()) {
+                let is_error = message["message"]["level"] == "error";
+                match message["target"]["name"] == hushed {
+                    true => messages.is_hushed |= is_error,
+                    false => print_error(text.trim_end()),
+                }
+            }
             let is_script = message["target"]["kind"][0] == "custom-build";
             messages.compiled += usize::from(message["fresh"] == false && !is_script);
             if let Some(executable) = message["executable"].as_str().filter(|_| message["profile"]["test"] == tests) {

@@ -31,15 +31,24 @@ pub struct Made<'a> {
     pub program: &'a str,
     /// Features of the runtime.
     pub features: &'a [&'a str],
+    /// Crates beside the runtime that the code uses, too.
+    pub tools: &'a [&'a str],
     /// Path of its only code file in the package.
     pub file: &'a str,
     pub code: &'a str,
 }
 
 impl Made<'_> {
+    /// The folder of a crate beside the runtime, if it is there.
+    pub fn tool(workspace: &Workspace, name: &str) -> Option<PathBuf> {
+        let libraries = workspace.libraries();
+        let (_, runtime) = libraries.iter().find(|(library, _)| *library == RUNTIME)?;
+        Some(runtime.parent()?.join(name)).filter(|folder| folder.join("Cargo.toml").is_file())
+    }
+
     /// A unique name. Cargo and the target folder identify programs by name, and some file systems do not distinguish
     /// upper and lower case.
-    fn name(&self) -> String {
+    pub fn name(&self) -> String {
         let stem = self.text.file_stem().unwrap_or_default();
         let shown = format!("{} {}", stem.to_string_lossy(), self.program);
         let what = [self.what, self.program, &self.features.join(",")].join("\n");
@@ -63,6 +72,7 @@ impl Made<'_> {
             package: folder,
             root: self.workspace.root.clone(),
             target: self.workspace.target.clone(),
+            hushed: None,
         })
     }
 
@@ -99,6 +109,12 @@ impl Made<'_> {
                 add_features(&mut dependency, declared.remove("features"));
             }
             dependencies.insert(name.to_owned(), dependency.into());
+        }
+        for name in self.tools {
+            if let Some(folder) = Self::tool(self.workspace, name) {
+                let dependency = Table::from_iter([("path".to_owned(), Value::from(utf8(&folder)?))]);
+                dependencies.insert((*name).to_owned(), dependency.into());
+            }
         }
         let mut manifest = Table::from_iter([
             ("package".to_owned(), package.into()),

@@ -269,13 +269,16 @@ enum Command {
     },
     /// Run the tests of a source file in simulated time.
     #[command(
-        after_help = "If the package compiles the file with `graph!(\"…\")`, the tests are those that `cargo test` runs, too. Otherwise a package\nis generated for them in the target folder. In both cases, crates that `cargo build` has built are reused.\nExit code 0: all passed, 1: one failed (or the file has errors), 2: they could not be built.\n\nExample:\n  apex test robot.afg\n  apex test robot.afg wall"
+        after_help = "The graphs are interpreted. Rustc only compiles the node types that they use, so that after most changes of the file it\nhas nothing to do. With --compiled, the tests are those that `cargo test` runs, too. Crates that `cargo build` has built\nare reused.\nExit code 0: all passed, 1: one failed (or the file has errors), 2: they could not be built.\n\nExample:\n  apex test robot.afg\n  apex test robot.afg wall"
     )]
     Test {
         /// Source file.
         file: PathBuf,
         /// Run only the tests whose names contain this text.
         filter: Option<String>,
+        /// Compile the whole graphs with rustc, as `cargo test` does, instead of interpreting them.
+        #[arg(long)]
+        compiled: bool,
         /// Format of the output.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
@@ -476,7 +479,9 @@ fn obey(command: Command, answer: &mut Answer) -> Result<ExitCode, String> {
         Command::New { folder, template, path } => new::run(&folder, template, path.as_deref()),
         Command::Nodes { words, package, markdown, .. } => nodes::run(&package, &words, markdown, answer),
         Command::Sbom { folder, notices, output } => sbom::run(&folder, notices, output.as_deref()),
-        Command::Test { file, filter, how, .. } => test::run(&file, filter.as_deref(), how.how(), answer),
+        Command::Test { file, filter, compiled, how, .. } => {
+            test::run(&file, filter.as_deref(), compiled, how.how(), answer)
+        }
         Command::Replay { recording, file, robot, params, how, .. } => {
             let params = run::Params { load: params, save: None };
             let (robot, recording) = (robot.as_deref(), run::Recording::Repeated(&recording));

@@ -59,6 +59,7 @@ fn measure<'a>(
         text: &text,
         program: "",
         features: &[],
+        tools: &[],
         file: "src/main.rs",
         code: &main_file(made::utf8(&text)?, programs, &of_all),
     };

@@ -326,8 +326,12 @@ impl Wanted<'_> {
         select.extend(made::select_features(&workspace, &self.features(false, &graphs)));
         let (root, target) = (folder.clone(), workspace.target.clone());
         let turn = Turn::wait(&workspace, self.how)?;
-        let built = build::build(&build::Wanted { select, package: folder, root, target }, build::PROGRAM, self.how)?
-            .program()?;
+        let built = build::build(
+            &build::Wanted { select, package: folder, root, target, hushed: None },
+            build::PROGRAM,
+            self.how,
+        )?
+        .program()?;
         Ok(built.map(|built| Found { built, made: None, _turn: turn }))
     }
 
@@ -368,6 +372,7 @@ impl Wanted<'_> {
             text: &text,
             program: &graph.name,
             features: &self.features(params, &[graph]),
+            tools: &[],
             file: "src/main.rs",
             code: &main_file(made::utf8(&text)?, &graph.name, self.simulated, params),
         };

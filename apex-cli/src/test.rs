@@ -1,5 +1,6 @@
 //! `apex test`: the tests of a source file, as Rust tests.
 
+mod interpreted;
 mod results;
 
 use crate::{
@@ -16,6 +17,7 @@ use apex_dsl::{
     script::{Script, Step},
 };
 use apex_host::Workspace;
+use interpreted::Interpretation;
 use std::{
     ffi::OsString,
     io::{self, IsTerminal as _, Read},
@@ -23,8 +25,15 @@ use std::{
     process::{ExitCode, Stdio},
 };
 
-/// Checks, builds and runs the tests whose names contain `filter`.
-pub fn run(file: &Path, filter: Option<&str>, how: How, answer: &mut Answer) -> Result<ExitCode, String> {
+/// Checks, builds and runs the tests whose names contain `filter`. They are interpreted, unless they are to be
+/// `compiled` or can only be.
+pub fn run(
+    file: &Path,
+    filter: Option<&str>,
+    compiled: bool,
+    how: How,
+    answer: &mut Answer,
+) -> Result<ExitCode, String> {
     let checked = project::check(file)?;
     answer.messages(&checked.diagnostics, &checked.sources);
     if checked.diagnostics.has_errors() {
@@ -37,6 +46,9 @@ pub fn run(file: &Path, filter: Option<&str>, how: How, answer: &mut Answer) -> 
         return Ok(ExitCode::SUCCESS);
     }
     let names = chosen(&scripts, filter)?;
+    if !compiled && let Some(code) = interpreted(file, &checked, &names, how, answer)? {
+        return Ok(code);
+    }
     let Some(Found { built, names, turn }) = built(file, &checked, &names, how)? else { return answer.not_built() };
     let mut command = built.command();
     command.arg("--exact").args(&names).current_dir(run::package(file)?).env("RUST_BACKTRACE", "0");
@@ -56,6 +68,49 @@ pub fn run(file: &Path, filter: Option<&str>, how: How, answer: &mut Answer) -> 
         project::print(&line)?;
     }
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+/// Interprets tests. Returns `None`, after a note, if they can only be compiled.
+fn interpreted(
+    file: &Path,
+    checked: &Checked,
+    names: &[&str],
+    how: How,
+    answer: &mut Answer,
+) -> Result<Option<ExitCode>, String> {
+    let folder = run::package(file)?;
+    let workspace = Workspace::load(&folder)?;
+    run::has_apex(&folder, &workspace)?;
+    let turn = Turn::wait(&workspace, how)?;
+    let text = run::absolute(file)?;
+    let runner = match interpreted::build(&text, &workspace, names, how)? {
+        Interpretation::Of(runner) => runner,
+        Interpretation::Broken => return answer.not_built().map(Some),
+        Interpretation::None(reason) => {
+            if !how.quiet {
+                project::print_error(&format!("note: the tests are compiled, because {reason}"));
+            }
+            return Ok(None);
+        }
+    };
+    let is_json = answer.is_json();
+    if !is_json {
+        project::write(&format!("\nrunning {}\n", project::counted(names.len(), "test")))?;
+    }
+    let start = std::time::Instant::now();
+    drop(turn);
+    let tests = runner.run(&folder, |test| match is_json {
+        true => Ok(()),
+        false => project::write(if test.passed { "." } else { "F" }),
+    })?;
+    answer.give(|| results::text(&tests, start.elapsed()), || results::json(&tests))?;
+    let failed: Vec<&str> = tests.iter().filter(|test| !test.passed).map(|test| test.name.as_str()).collect();
+    if !is_json {
+        for line in failed.iter().filter_map(|name| in_studio(file, checked, name)) {
+            project::print(&line)?;
+        }
+    }
+    Ok(Some(if failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) }))
 }
 
 /// Prints the output of tests while they run, and returns it.
@@ -173,11 +228,11 @@ impl Tests<'_> {
                 let mut select: Vec<OsString> = package.iter().chain(&select).map(Into::into).collect();
                 select.extend(made::select_features(self.workspace, self.features));
                 let (package, target) = (self.folder.to_owned(), self.workspace.target.clone());
-                let wanted = build::Wanted { select, root: package.clone(), package, target };
+                let wanted = build::Wanted { select, root: package.clone(), package, target, hushed: None };
                 let built = match build::build(&wanted, build::TESTS, self.how)? {
                     Outcome::Built(built) => built,
                     Outcome::Nothing => continue,
-                    Outcome::Broken => return Ok(Own::Broken),
+                    Outcome::Broken | Outcome::Refused => return Ok(Own::Broken),
                 };
                 // Conditional compilation may have excluded the tests.
                 if let Some(tests) = named(&listed(&built)?, &module, self.text, names) {
@@ -196,6 +251,7 @@ impl Tests<'_> {
             text: self.text,
             program: "",
             features: self.features,
+            tools: &[],
             file: "src/lib.rs",
             code: &format!("apex_macros::graph!({:?});\n", made::utf8(self.text)?),
         };

@@ -2,7 +2,6 @@
 
 use crate::{Args, Value, local::Local, run::Run};
 use apex_dsl::{
-    analyse::silence_parameter,
     graph::{NodeId, PortId},
     program::{Arg, Call, Deadline, Failing, Fire, Flag, ParamOutput, SlotCall},
 };
@@ -31,8 +30,12 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 let token = local.arriving(self.state, input);
                 local.write(self.state, PortId { node, port: 1 }, token);
             }
-            // Nothing looks at probes yet.
-            Fire::See | Fire::Nothing => {}
+            Fire::See => {
+                if let Some(token) = local.arriving(self.state, input) {
+                    self.state.probes.entry(node).or_default().push(token);
+                }
+            }
+            Fire::Nothing => {}
         }
     }
 
@@ -51,7 +54,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 boxed.absent();
                 Ok(())
             });
-        } else if self.accepts(node, call, local) {
+        } else if self.accepts_all(node, call, local) {
             let mut args = self.args(node, args, None, ctx, Some(local));
             if let Some(event) = call.processed {
                 self.state.trigger(event);
@@ -68,7 +71,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         for ParamOutput { param, arrived, output } in &call.param_outputs {
             let value = match arrived {
                 Some(input) => local.arriving(self.state, *input),
-                None => self.state.nodes.get(&node).and_then(|node| node.param(*param)),
+                None => self.state.nodes.get_mut(&node).and_then(|node| node.param(*param)),
             };
             local.write(self.state, *output, value);
         }
@@ -78,20 +81,34 @@ impl<'r, O: Observer> Run<'r, '_, O> {
 
     /// Puts tokens at parameter ports into the fields of a node.
     fn set_params(&mut self, node: NodeId, call: &Call, local: &Local<'r>) {
-        let sets = call.sets.iter().filter_map(|(param, input)| Some((*param, local.arriving(self.state, *input)?)));
-        let sets: Vec<(usize, Value)> = sets.collect();
-        if let Some(node) = self.state.nodes.get_mut(&node) {
-            sets.iter().for_each(|(param, value)| node.set_param(*param, value));
+        for (param, input) in &call.sets {
+            if let Some(value) = local.arriving(self.state, *input)
+                && self.accepts(node, *param, &value)
+                && let Some(node) = self.state.nodes.get_mut(&node)
+            {
+                node.put_param(*param, &value);
+            }
         }
     }
 
-    /// Returns `true` if the parameters of a function that have arrived are in their ranges. What is refused is not
-    /// reported.
-    fn accepts(&self, node: NodeId, call: &Call, local: &Local<'r>) -> bool {
+    /// Returns `true` if a value of a parameter is in its range, and reports it if not.
+    fn accepts(&mut self, node: NodeId, param: usize, value: &Value) -> bool {
         let Some(boxed) = self.state.nodes.get(&node) else { return false };
-        call.checks
-            .iter()
-            .all(|(param, input)| local.arriving(self.state, *input).is_some_and(|value| boxed.accepts(*param, &value)))
+        match boxed.accepts(param, value) {
+            Ok(()) => true,
+            Err((name, value)) => {
+                self.observer.refused(self.number(node), name, &format_args!("{value}"));
+                false
+            }
+        }
+    }
+
+    /// Returns `true` if the parameters of a function that have arrived are in their ranges.
+    fn accepts_all(&mut self, node: NodeId, call: &Call, local: &Local<'r>) -> bool {
+        call.checks.iter().all(|(param, input)| {
+            let value = local.arriving(self.state, *input);
+            value.is_some_and(|value| self.accepts(node, *param, &value))
+        })
     }
 
     /// A node sends ⊥.
@@ -185,12 +202,11 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         let lower = self.code.program.lower;
         let apex_dsl::graph::NodeKind::Library(library) = &lower.graph.nodes[node].kind else { return };
         let signature = &lower.catalog.signatures[library.signature];
-        let (Some(mut made), Some(old)) = (self.library.make(signature, library), self.state.nodes.get(&node)) else {
-            return;
-        };
+        let made = self.library.make(self.number(node), signature, library);
+        let (Some(mut made), Some(old)) = (made, self.state.nodes.get_mut(&node)) else { return };
         for param in 0..signature.params.len() {
             if let Some(value) = old.param(param) {
-                made.set_param(param, &value);
+                made.put_param(param, &value);
             }
         }
         self.state.nodes.insert(node, made);
@@ -207,13 +223,11 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     }
 
     /// Duration of a silence: the shortest of its nodes.
-    pub fn silence(&self, silence: usize) -> Duration {
-        let lower = self.code.program.lower;
+    pub fn silence(&mut self, silence: usize) -> Duration {
         let wiring = &self.code.program.wiring;
-        let times = wiring.missed_by(&wiring.silences[silence]).filter_map(|node| {
-            let param = silence_parameter(lower.graph, lower.catalog, node)?;
-            Some(self.state.nodes.get(&node)?.silence(param))
-        });
+        let state = &mut *self.state;
+        let times =
+            wiring.missed_by(&wiring.silences[silence]).filter_map(|node| Some(state.nodes.get_mut(&node)?.silence()));
         times.min().unwrap_or(Duration::MAX)
     }
 }

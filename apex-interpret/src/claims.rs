@@ -28,9 +28,6 @@ impl<O: Observer> Run<'_, '_, O> {
 
     /// Returns `true` if a place has activity.
     pub fn has(&self, spot: Spot) -> bool {
-        match spot {
-            Spot::Flag(flag) => self.state.flags.contains(&flag),
-            Spot::Held(delay) => self.state.held_activity.get(&delay).is_some_and(crate::delay::Delay::holds_any),
-        }
+        self.state.has(spot)
     }
 }

@@ -18,11 +18,6 @@ enum Scalar {
     Float(f64),
 }
 
-/// Returns `true` if tokens of a type can be compared here.
-pub fn can_compare(ty: &Type) -> bool {
-    ty.is_integer() || ty.is_time() || matches!(ty.without_unit().name(), "f32" | "f64" | "bool" | "Duration")
-}
-
 /// Returns `true` if a condition holds for a token of a type.
 pub fn holds(condition: &Condition, token: &Value, ty: &Type) -> bool {
     let Some(token) = scalar(token) else { return false };
@@ -133,7 +128,7 @@ impl Computing<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use apex_dsl::graph::Number;
+    use apex_dsl::{codegen::can_compute, graph::Number};
     use std::rc::Rc;
 
     fn token() -> Condition {
@@ -157,7 +152,7 @@ mod tests {
     }
 
     fn holds_for(token: impl std::any::Any, ty: &Type, condition: &Condition) -> bool {
-        assert!(can_compare(ty), "{ty}");
+        assert!(can_compute(condition, ty), "{ty}");
         let token: Value = Rc::new(token);
         holds(condition, &token, ty)
     }

@@ -33,7 +33,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             ports.filter(move |(_, port)| port.kind == kind).map(|(port, _)| port)
         };
         let mut results: BTreeMap<usize, Vec<Value>> = of_kind(PortKind::Output).map(|port| (port, vec![])).collect();
-        for item in self.library.items(&tokens) {
+        for item in self.library.items((number, list), &tokens) {
             let mut given: BTreeMap<PortId, Value> = BTreeMap::new();
             for port in of_kind(PortKind::Input) {
                 let token =
@@ -57,8 +57,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         }
         for (port, items) in results {
             let end = PortId { node, port };
-            let list = self.library.list(items, &graph.port(end).ty);
-            local.write(self.state, end, Some(list));
+            let list = self.library.list((number, port), items);
+            local.write(self.state, end, list);
         }
         self.state.bodies.insert(node, inner);
         self.observer.finished(number);

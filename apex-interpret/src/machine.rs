@@ -1,7 +1,10 @@
 //! State machines: their transitions are looked up in the table from which their code is generated.
 
 use crate::{Library, Value, condition};
-use apex_dsl::machine::{Arm, Machine, Move, Sending, Slot, Token};
+use apex_dsl::{
+    codegen::can_compute,
+    machine::{Arm, Machine, Move, Sending, Slot, Token},
+};
 use std::rc::Rc;
 
 /// Tokens of events, by the numbers of their ports.
@@ -27,7 +30,7 @@ impl<'a> Running<'a> {
     pub fn new(machine: &'a Machine, library: &'a dyn Library) -> Result<Self, String> {
         let slots = machine.slots.iter().chain(machine.waits.iter().map(|wait| &wait.slot));
         for slot in slots {
-            if slot.arms.iter().any(|arm| arm.guard.is_some()) && !condition::can_compare(&slot.ty) {
+            if slot.arms.iter().filter_map(|arm| arm.guard.as_ref()).any(|guard| !can_compute(guard, &slot.ty)) {
                 return Err(format!("a guard of `{}` compares tokens of type `{}`", machine.name, slot.ty));
             }
         }

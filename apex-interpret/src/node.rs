@@ -34,18 +34,21 @@ pub trait Node {
     fn turned(&mut self, _active: bool) {}
 
     /// Returns the value of a parameter.
-    fn param(&self, param: usize) -> Option<Value>;
+    fn param(&mut self, param: usize) -> Option<Value>;
 
-    /// Returns `true` if a value of a parameter is in its range.
-    fn accepts(&self, _param: usize, _value: &Value) -> bool {
-        true
+    /// Accepts a value of a parameter.
+    ///
+    /// # Errors
+    /// Returns the name of the parameter and the value as text, if it is out of range.
+    fn accepts(&self, _param: usize, _value: &Value) -> Result<(), (&'static str, String)> {
+        Ok(())
     }
 
-    /// Sets a parameter, unless the value is out of range.
-    fn set_param(&mut self, param: usize, value: &Value);
+    /// Sets a parameter to a value that it accepts.
+    fn put_param(&mut self, param: usize, value: &Value);
 
-    /// Returns a parameter as the time without tokens after which the node is called with ⊥.
-    fn silence(&self, _param: usize) -> Duration {
+    /// Returns the time without tokens after which the node is called with ⊥.
+    fn silence(&mut self) -> Duration {
         Duration::MAX
     }
 }
@@ -62,17 +65,17 @@ pub struct Args {
     pub events: Vec<(usize, Value)>,
 }
 
-/// Knowledge of node types and token types.
+/// Knowledge of node types and token types. Nodes have their numbers among all nodes of the program.
 pub trait Library {
     /// Makes a node; `None` if its type is not known.
-    fn make(&self, signature: &Signature, library: &graph::Library) -> Option<Box<dyn Node>>;
+    fn make(&self, node: usize, signature: &Signature, library: &graph::Library) -> Option<Box<dyn Node>>;
 
     /// Returns a token of a type: the constant of the text, or the default of the type.
     fn token(&self, value: Option<&graph::Value>, ty: &Type) -> Option<Value>;
 
-    /// Returns the elements of a list.
-    fn items(&self, list: &Value) -> Vec<Value>;
+    /// Returns the elements of a list that comes to a port of an `each`.
+    fn items(&self, end: (usize, usize), list: &Value) -> Vec<Value>;
 
-    /// Returns the list of some elements, for an output of a type.
-    fn list(&self, items: Vec<Value>, ty: &Type) -> Value;
+    /// Returns the list of some elements, for an output of an `each`.
+    fn list(&self, end: (usize, usize), items: Vec<Value>) -> Option<Value>;
 }

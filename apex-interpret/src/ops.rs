@@ -118,8 +118,12 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                     self.call_slot(*slot, call, token, ctx);
                 }
             }
-            // Nothing looks at probes yet.
-            Op::SeeSlot { .. } => {}
+            Op::SeeSlot { slot, taken } => {
+                let node = self.code.program.wiring.slots[*slot].node;
+                if let Some(token) = self.slot_token(*slot, *taken, place) {
+                    self.state.probes.entry(node).or_default().push(token);
+                }
+            }
             Op::PutOut { slot, taken, room } => {
                 let node = self.code.program.wiring.slots[*slot].node;
                 if let Some(token) = self.slot_token(*slot, *taken, place) {

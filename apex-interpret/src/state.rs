@@ -5,7 +5,7 @@ use apex_dsl::{
     analyse::ClusterId,
     graph::{ConnectionId, NodeId, NodeKind, PortId},
     machine::Machines,
-    program::Flag,
+    program::{Flag, Spot},
 };
 use apex_rt::{ProgramTime, Time, Timeout, Timer};
 use std::{
@@ -62,6 +62,8 @@ pub struct State<'a> {
     pub exit: Option<u8>,
     /// Tokens that were put into inputs and slots of the program, in the order of their numbers.
     pub inputs: BTreeMap<NodeId, (u64, Value)>,
+    /// Tokens that probes have seen.
+    pub probes: BTreeMap<NodeId, Vec<Value>>,
     /// Tokens at outputs of the program.
     pub outputs: BTreeMap<NodeId, Value>,
     /// Events of the program that wait to be taken.
@@ -89,7 +91,7 @@ impl<'a> State<'a> {
                     Some(machine) => drop(running.insert(node, Running::new(machine, library)?)),
                     None => {
                         let signature = &lower.catalog.signatures[made.signature];
-                        let boxed = library.make(signature, made);
+                        let boxed = library.make(code.numbers.own[node], signature, made);
                         nodes.insert(node, boxed.ok_or_else(|| format!("`{}` is not known", signature.name))?);
                     }
                 },
@@ -140,10 +142,19 @@ impl<'a> State<'a> {
             started: false,
             exit: None,
             inputs: BTreeMap::new(),
+            probes: BTreeMap::new(),
             outputs: BTreeMap::new(),
             events: BTreeMap::new(),
             bodies: bodies.collect::<Result<_, String>>()?,
         })
+    }
+
+    /// Returns `true` if a place has activity.
+    pub fn has(&self, spot: Spot) -> bool {
+        match spot {
+            Spot::Flag(flag) => self.flags.contains(&flag),
+            Spot::Held(delay) => self.held_activity.get(&delay).is_some_and(Delay::holds_any),
+        }
     }
 
     /// Clears a flag. Returns `true` if it was set.

@@ -5,13 +5,12 @@ mod feed;
 mod study;
 mod timeline;
 
-pub use course::Until;
+pub use course::{Course, Tested, Until};
 pub use study::{Study, recorded, serve};
 pub use timeline::Timeline;
 
 use crate::{Next, Program, Time};
 use core::time::Duration;
-use course::{Course, Tested};
 
 /// Tokens at a place that a test observes, in one reaction.
 #[derive(Debug)]
@@ -84,7 +83,7 @@ impl<P: Program + 'static> Test<P> {
     pub fn new(name: &'static str, mut program: P, drain: fn(&mut P, &mut Timeline)) -> Self {
         study::set(&mut |visitor| program.visit_params(visitor));
         let subject = Subject { program, drain, tokens: vec![], states: vec![] };
-        Self { subject, course: Course::new(name, const { &P::INFO }) }
+        Self { subject, course: Course::new(name, const { &P::INFO }.nodes.iter().map(|node| node.name).collect()) }
     }
 
     /// Returns one run of the study `name` of `program`, with this number of goals; `drain` empties its probes.

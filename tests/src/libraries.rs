@@ -9,7 +9,7 @@ use std::{
 };
 
 /// Crates that these programs use.
-const USED: [&str; 4] = ["apex_macros", "apex_nodes", "apex_rt", "apex_tests"];
+const USED: [&str; 5] = ["apex_interpret", "apex_macros", "apex_nodes", "apex_rt", "apex_tests"];
 
 /// Compiled libraries. In a package made for a test, cargo would compile all of them again, including the compiler.
 pub struct Libraries {

@@ -160,25 +160,40 @@ fn check(libraries: &Libraries, slot: usize, shape: Shape) -> Vec<Message> {
     }
 }
 
-/// Runs the tests of a package that is a library, each time in the same order. Returns what they write, without times;
-/// `None` if they do not end.
-pub fn run_tests(slot: usize, times: usize) -> Vec<Option<String>> {
-    let (folder, name) = (folder().join(package(slot, Shape::Library)), package(slot, Shape::Library));
-    let program = folder.join("tests");
+/// Compiles the tests of a package that is a library, with the code of a module `interpreted` beside them.
+///
+/// # Errors
+/// Returns what rustc says.
+pub fn compile_tests(slot: usize, interpreted: &str) -> Result<PathBuf, String> {
+    let (folder, name) = (package_folder(slot), package(slot, Shape::Library));
+    let (program, root) = (folder.join("tests"), folder.join("src/tests.rs"));
+    let library = fs::read_to_string(folder.join("src/lib.rs")).expect("the case was written");
+    write(&root, &format!("{library}\n#[cfg(test)]\nmod interpreted {{ {interpreted} }}\n"));
     let mut command = LIBRARIES.rustc(&folder, &name);
-    command.current_dir(&folder).args(["--test", "-o"]).arg(&program).arg(folder.join("src/lib.rs"));
+    command.current_dir(&folder).args(["--test", "-o"]).arg(&program).arg(root);
     let output = command.output().expect("rustc runs");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    (0..times).map(|_| run(&program)).collect()
+    if output.status.success() { Ok(program) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
+}
+
+/// Folder of the package of a case that is a library.
+pub fn package_folder(slot: usize) -> PathBuf {
+    folder().join(package(slot, Shape::Library))
 }
 
 /// Time limit of a program: far more than its simulated seconds take, also on a busy machine, to detect hangs.
 const GUARD: Duration = Duration::from_secs(60);
 
-fn run(program: &Path) -> Option<String> {
+/// Runs the tests of a program, each time in the same order. Returns what they write, without times; `None` if they do
+/// not end.
+pub fn run(program: &Path, args: &[&str]) -> Option<String> {
     let (reads, writes) = io::pipe().expect("there is a pipe");
     let mut command = Command::new(program);
-    command.args(["--test-threads=1"]).stdout(writes.try_clone().expect("it has two ends")).stderr(writes);
+    command
+        .args(["--test-threads=1"])
+        .args(args)
+        .env("RUST_BACKTRACE", "0")
+        .stdout(writes.try_clone().expect("it has two ends"))
+        .stderr(writes);
     let mut child = command.spawn().expect("it starts");
     drop(command);
     let said = thread::spawn(|| io::read_to_string(reads).unwrap_or_default());

@@ -1,6 +1,9 @@
 //! Runs rustc on source files that the compiler accepted.
 
-use crate::cargo::{Message, check_all, run_tests};
+use crate::{
+    cargo::{Message, check_all, compile_tests, run},
+    interpreted::{self, MODULE},
+};
 use apex_tests::texts::{Case, Shape};
 use std::fmt;
 
@@ -108,14 +111,28 @@ fn is_named(message: &Message, names: &[String]) -> bool {
     (lines || inline) && named
 }
 
-/// Runs the tests of a text twice. They may fail, but say the same each time, and for their own reasons.
-pub fn judge_run(slot: usize) -> Option<Failure> {
-    let said = run_tests(slot, 2);
-    let [Some(first), Some(second)] = said.as_slice() else { return Some(Failure::Run("it does not end".to_owned())) };
+/// Runs the tests of a text twice. They may fail, but say the same each time, for their own reasons, and when they are
+/// interpreted.
+pub fn judge_run(slot: usize, case: &Case) -> Option<Failure> {
+    let pieces = interpreted::module(slot, case);
+    let program = match compile_tests(slot, pieces.as_deref().unwrap_or("")) {
+        Ok(program) => program,
+        Err(said) => return Some(Failure::Run(format!("its pieces do not compile\n{said}"))),
+    };
+    let said = [(); 2].map(|()| run(&program, &["--skip", MODULE]));
+    let [Some(first), Some(second)] = &said else { return Some(Failure::Run("it does not end".to_owned())) };
     if first != second {
         return Some(Failure::Run(format!("it differs from run to run\n{first}\n{second}")));
     }
     let reasons = first.split("panicked at ").skip(1).map(|text| text.split_once('\n').unwrap_or((text, "")));
     let foreign = reasons.clone().find(|(_, reason)| !reason.starts_with("test `"));
-    foreign.map(|(place, reason)| Failure::Run(format!("{reason}\n{place}\n{first}")))
+    if let Some((place, reason)) = foreign {
+        return Some(Failure::Run(format!("{reason}\n{place}\n{first}")));
+    }
+    let interpreted = pieces.map(|_| run(&program, &[MODULE, "--nocapture"]));
+    match interpreted {
+        None => None,
+        Some(None) => Some(Failure::Run("it does not end when it is interpreted".to_owned())),
+        Some(Some(said)) => interpreted::difference(first, &said).map(Failure::Run),
+    }
 }

@@ -7,6 +7,7 @@
 mod cargo;
 mod check;
 mod forms;
+mod interpreted;
 mod judge;
 
 use apex_tests::texts::{Case, Kind, Shape, generate};
@@ -66,7 +67,7 @@ impl Found {
             }
         }
         self.run += runs.len();
-        let judged: Vec<Option<Failure>> = runs.par_iter().map(|(slot, _)| judge_run(*slot)).collect();
+        let judged: Vec<Option<Failure>> = runs.par_iter().map(|(slot, case)| judge_run(*slot, case)).collect();
         let failures = runs.iter().zip(judged).filter_map(|((_, case), failure)| Some(((*case).clone(), failure?)));
         self.failures.extend(failures);
     }

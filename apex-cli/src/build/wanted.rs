@@ -12,4 +12,6 @@ pub struct Wanted {
     pub root: PathBuf,
     /// Target folder.
     pub target: PathBuf,
+    /// Name of a crate whose messages are not shown: code that is made for it may be wrong, and is not the user's.
+    pub hushed: Option<String>,
 }

@@ -1,15 +1,17 @@
 //! Results of tests, read from the output of Rust's tests.
 
 use serde_json::{Value, json};
+use std::time::Duration;
 
 /// Result of a test.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Tested {
     /// Name in the source file.
-    name: String,
-    passed: bool,
+    pub name: String,
+    /// `true` if it passed.
+    pub passed: bool,
     /// Output of a failed test.
-    output: String,
+    pub output: String,
 }
 
 /// Results in the output of a program with tests, in the order of `names`: tests end in any order.
@@ -47,6 +49,21 @@ pub fn failed(output: &str) -> Vec<&str> {
 /// Name of a test in the source file, from its path in Rust.
 fn name_of(path: &str) -> &str {
     path.rsplit("::").next().unwrap_or(path).trim_start_matches("r#")
+}
+
+/// The end of the output of `apex test`, in the form of Rust's tests.
+pub fn text(tests: &[Tested], time: Duration) -> String {
+    let mut text = "\n".to_owned();
+    let failed: Vec<&Tested> = tests.iter().filter(|test| !test.passed).collect();
+    if !failed.is_empty() {
+        text += "\nfailures:\n";
+        failed.iter().for_each(|test| text += &format!("\n---- {} ----\n{}\n", test.name, test.output));
+        text += "\nfailures:\n";
+        failed.iter().for_each(|test| text += &format!("    {}\n", test.name));
+    }
+    let (passed, failed) = (tests.len() - failed.len(), failed.len());
+    let is = if failed == 0 { "ok" } else { "FAILED" };
+    text + &format!("\ntest result: {is}. {passed} passed; {failed} failed; finished in {:.2}s\n", time.as_secs_f64())
 }
 
 /// Result of `apex test --format json`.

@@ -21,6 +21,7 @@ mod import;
 mod import_files;
 mod import_msg;
 mod import_runs;
+mod interpreted;
 mod json;
 mod memory;
 #[path = "../../../robots/moved.rs"]

@@ -153,9 +153,17 @@ fn nothing_is_built_twice() {
     assert_eq!(of_building(ended(started(&["run"], &file))), (Some(0), "mine\n".to_owned(), String::new()));
     let (code, said, errors) = ended(started(&["test"], &file));
     assert!(code == Some(0) && said.contains("1 passed"), "{said}{errors}");
+    let crates = compiled(&errors);
+    assert!(crates.len() == 2 && crates[0] == "once" && crates[1].starts_with("apex-interpret-robot-"), "{errors}");
+    let (code, said, errors) = ended(started(&["test", "--compiled"], &file));
+    assert!(code == Some(0) && said.contains("1 passed"), "{said}{errors}");
     assert_eq!(compiled(&errors), ["once"], "{errors}");
     // A source file that no Rust code compiles: only its package and the package made for it are built.
-    for (command, what) in [(&["test"][..], "apex-test-other-"), (&["run", "--robot", "Other"], "apex-run-other-")] {
+    for (command, what) in [
+        (&["test"][..], "apex-interpret-other-"),
+        (&["test", "--compiled"], "apex-test-other-"),
+        (&["run", "--robot", "Other"], "apex-run-other-"),
+    ] {
         let (code, _, errors) = ended(started(command, &other));
         let crates = compiled(&errors);
         assert!(code == Some(0) && crates.iter().all(|name| *name == "once" || name.starts_with(what)), "{errors}");

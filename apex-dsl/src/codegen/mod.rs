@@ -1,6 +1,7 @@
 //! Graph + analysis → Rust. The text that comes out is meant to be read (`apex expand`).
 
 mod activity;
+mod boxed;
 mod bugs;
 mod call;
 mod cells;
@@ -50,6 +51,7 @@ mod types;
 mod view;
 mod witness;
 
+pub use boxed::{Boxed, BoxedNode, Constant, Key, boxed, can_compute, constant_of};
 pub use listing::listing;
 pub use memory::{Piece, memory};
 pub use text::{module_name, text};

@@ -298,7 +298,7 @@ fn checks(script: &Script, probe: NodeId) -> BTreeMap<&[String], Vec<TokenStream
 }
 
 /// A reference to what is observed of `token`.
-fn part_of_token(of: &Observed) -> TokenStream {
+pub fn part_of_token(of: &Observed) -> TokenStream {
     let fields = of.fields.iter().map(|field| ident(field));
     if of.fields.is_empty() { quote!(token) } else { quote!((&token #(.#fields)*)) }
 }

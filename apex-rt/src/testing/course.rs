@@ -5,7 +5,7 @@ use super::{
     feed::{Feed, Times},
     timeline::{Sighting, Timeline},
 };
-use crate::{Info, Next, Time};
+use crate::{Next, Time};
 use core::time::Duration;
 
 /// Time between two reactions of a program that has sources without a period.
@@ -67,6 +67,7 @@ struct Window {
 /// token that is fed, in the order of feeding.
 pub struct Course {
     name: &'static str,
+    /// Time of this instant.
     pub now: Time,
     /// Time of the next reaction that the program asked for.
     wake: Option<Time>,
@@ -78,6 +79,7 @@ pub struct Course {
     /// `true` after a `wait`, until something happens at its end.
     is_waiting: bool,
     nevers: Vec<(Forbidden, &'static str, &'static str)>,
+    /// Events until now.
     pub timeline: Timeline,
     /// Number of reactions.
     reactions: u64,
@@ -94,8 +96,8 @@ pub struct Course {
 }
 
 impl Course {
-    /// Returns the beginning of the test `name` of a program.
-    pub fn new(name: &'static str, info: &'static Info) -> Self {
+    /// Returns the beginning of the test `name` of a program with nodes of these names.
+    pub fn new(name: &'static str, nodes: Vec<&'static str>) -> Self {
         Self {
             name,
             now: Time::ZERO,
@@ -105,7 +107,7 @@ impl Course {
             feed_count: 0,
             is_waiting: false,
             nevers: vec![],
-            timeline: Timeline::new(info.nodes.iter().map(|n| n.name).collect()),
+            timeline: Timeline::new(nodes),
             reactions: 0,
             fed: 0,
             sightings: vec![],

@@ -90,11 +90,11 @@ impl Node for Scripted {
         self.call(vec![None]);
     }
 
-    fn param(&self, _param: usize) -> Option<Value> {
+    fn param(&mut self, _param: usize) -> Option<Value> {
         None
     }
 
-    fn set_param(&mut self, _param: usize, _value: &Value) {}
+    fn put_param(&mut self, _param: usize, _value: &Value) {}
 }
 
 /// The scripted nodes.
@@ -103,7 +103,7 @@ struct Scripts {
 }
 
 impl Library for Scripts {
-    fn make(&self, signature: &Signature, library: &graph::Library) -> Option<Box<dyn Node>> {
+    fn make(&self, _node: usize, signature: &Signature, library: &graph::Library) -> Option<Box<dyn Node>> {
         let (id, parameters) = super::judge::script(signature, library).unwrap_or_default();
         let records = self.records.clone();
         Some(Box::new(Scripted { signature: signature.clone(), id, parameters, calls: 0, records }))
@@ -115,12 +115,12 @@ impl Library for Scripts {
         Some(Rc::new(number))
     }
 
-    fn items(&self, list: &Value) -> Vec<Value> {
+    fn items(&self, _end: (usize, usize), list: &Value) -> Vec<Value> {
         list.downcast_ref::<Vec<Value>>().cloned().unwrap_or_default()
     }
 
-    fn list(&self, items: Vec<Value>, _ty: &Type) -> Value {
-        Rc::new(items)
+    fn list(&self, _end: (usize, usize), items: Vec<Value>) -> Option<Value> {
+        Some(Rc::new(items))
     }
 }
 

@@ -68,11 +68,11 @@ impl Node for OfKind {
         self.fire(&vec![None; self.kind.inputs.len()]);
     }
 
-    fn param(&self, _param: usize) -> Option<Value> {
+    fn param(&mut self, _param: usize) -> Option<Value> {
         Some(Rc::new(self.parameter))
     }
 
-    fn set_param(&mut self, _param: usize, _value: &Value) {}
+    fn put_param(&mut self, _param: usize, _value: &Value) {}
 }
 
 /// The kinds of nodes.
@@ -81,7 +81,7 @@ struct Kinds {
 }
 
 impl Library for Kinds {
-    fn make(&self, signature: &Signature, library: &graph::Library) -> Option<Box<dyn Node>> {
+    fn make(&self, _node: usize, signature: &Signature, library: &graph::Library) -> Option<Box<dyn Node>> {
         let mut kinds = OPERATIONS.iter().chain(SINKS).chain([&COUNT, &ONE_BASED]);
         let kind = kinds.find(|kind| kind.name.split('<').next() == Some(&signature.name))?;
         let parameter = library.params.first().and_then(|value| match value {
@@ -99,12 +99,12 @@ impl Library for Kinds {
         }
     }
 
-    fn items(&self, _list: &Value) -> Vec<Value> {
+    fn items(&self, _end: (usize, usize), _list: &Value) -> Vec<Value> {
         vec![]
     }
 
-    fn list(&self, items: Vec<Value>, _ty: &Type) -> Value {
-        Rc::new(items)
+    fn list(&self, _end: (usize, usize), items: Vec<Value>) -> Option<Value> {
+        Some(Rc::new(items))
     }
 }
 
