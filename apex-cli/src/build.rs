@@ -125,11 +125,10 @@ fn cargo_for(wanted: &Wanted, verb: &[&str], how: How) -> Command {
     let mut command = cargo();
     command.args(verb).args(&wanted.select).current_dir(&wanted.root).env("CARGO_TARGET_DIR", &wanted.target);
     command.args(how.release.then_some("--release")).args(how.quiet.then_some("--quiet"));
-    let (format, is_terminal) = (&wanted.hushed, io::stderr().is_terminal());
-    command.arg(match format {
-        Some(_) if is_terminal => "--message-format=json-diagnostic-rendered-ansi",
-        Some(_) => "--message-format=json",
+    command.arg(match &wanted.hushed {
         None => "--message-format=json-render-diagnostics",
+        Some(_) if io::stderr().is_terminal() => "--message-format=json-diagnostic-rendered-ansi",
+        Some(_) => "--message-format=json",
     });
     command.stdin(Stdio::null()).stdout(Stdio::piped());
     command

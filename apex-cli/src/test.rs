@@ -1,4 +1,4 @@
-//! `apex test`: the tests of a source file, as Rust tests.
+//! `apex test`: the tests of a source file, interpreted or as Rust tests.
 
 mod interpreted;
 mod results;
@@ -99,7 +99,7 @@ fn interpreted(
     }
     let start = std::time::Instant::now();
     drop(turn);
-    let tests = runner.run(&folder, |test| match is_json {
+    let tests = runner.run(&folder, names, |test| match is_json {
         true => Ok(()),
         false => project::write(if test.passed { "." } else { "F" }),
     })?;

@@ -67,6 +67,25 @@ impl Numbers {
     }
 }
 
+/// Names of all nodes and states of a program, by their numbers.
+pub fn names(graph: &Graph, catalog: &Catalog) -> Vec<String> {
+    let mut names = vec![];
+    add_names(graph, "", &mut names);
+    for (node, machine) in machines(graph, catalog) {
+        names.extend(machine.states.iter().map(|state| format!("{}.{state}", graph.path(node))));
+    }
+    names
+}
+
+fn add_names(graph: &Graph, prefix: &str, names: &mut Vec<String>) {
+    names.extend(graph.nodes.ids().map(|id| format!("{prefix}{}", graph.path(id))));
+    for (id, node) in graph.nodes.iter_enumerated() {
+        if let NodeKind::Each(each) = &node.kind {
+            add_names(&each.body, &format!("{prefix}{}.", graph.path(id)), names);
+        }
+    }
+}
+
 /// A program, the part of a thread group, or the body of an `each`.
 pub struct Code<'a> {
     /// The program.

@@ -10,8 +10,8 @@ use crate::{
 use apex_dsl::{
     catalog::Catalog,
     checked::CheckedProgram,
-    graph::{Graph, NodeId, NodeKind, ScopeId},
-    machine::{Machines, machines},
+    graph::{NodeId, ScopeId},
+    machine::Machines,
     program::{Flag, Lower},
     threads::Part,
 };
@@ -63,37 +63,18 @@ impl<'a> Interpreter<'a> {
         let cells = Cells::new(cells, parts.len());
         Ok(Self { parts, cells, library })
     }
-}
-
-impl<'a> Interpreter<'a> {
-    /// Names of all nodes and states, by their numbers for observers.
-    pub fn names(&self, graph: &Graph, catalog: &Catalog) -> Vec<String> {
-        let mut names = vec![];
-        add_names(graph, "", &mut names);
-        for (node, machine) in machines(graph, catalog) {
-            names.extend(machine.states.iter().map(|state| format!("{}.{state}", graph.path(node))));
-        }
-        names
-    }
 
     /// The part in which a node of the whole graph is, and its number there.
     fn place(&self, node: NodeId) -> Option<(usize, NodeId)> {
-        let parts = self.parts.iter().enumerate();
-        parts
-            .filter_map(|(part, (code, _))| Some((part, code.numbers.own.position(|own| *own == node.index())?)))
-            .next()
+        let place = |(part, (code, _)): (usize, &(Code<'_>, _))| {
+            Some((part, code.numbers.own.position(|own| *own == node.index())?))
+        };
+        self.parts.iter().enumerate().find_map(place)
     }
 
     /// Puts a token into an input or slot of the program. Returns `false` if one waits there.
     pub fn put_at(&mut self, port: NodeId, token: Value) -> bool {
-        let Some((part, node)) = self.place(port) else { return false };
-        let inputs = &mut self.parts[part].1.inputs;
-        if inputs.contains_key(&node) {
-            return false;
-        }
-        let arrival = inputs.values().map(|(arrival, _)| arrival + 1).max().unwrap_or(0);
-        inputs.insert(node, (arrival, token));
-        true
+        self.place(port).is_some_and(|(part, node)| self.parts[part].1.put(node, token))
     }
 
     /// Takes the tokens that a probe has seen.
@@ -127,14 +108,5 @@ impl<'a> Interpreter<'a> {
     pub fn state_of(&self, machine: NodeId) -> Option<usize> {
         let (part, node) = self.place(machine)?;
         self.parts[part].1.machines.get(&node).map(Running::state)
-    }
-}
-
-fn add_names(graph: &Graph, prefix: &str, names: &mut Vec<String>) {
-    names.extend(graph.nodes.ids().map(|id| format!("{prefix}{}", graph.path(id))));
-    for (id, node) in graph.nodes.iter_enumerated() {
-        if let NodeKind::Each(each) = &node.kind {
-            add_names(&each.body, &format!("{prefix}{}.", graph.path(id)), names);
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{Library, Value, condition};
 use apex_dsl::{
-    codegen::can_compute,
+    codegen::compute_guards,
     machine::{Arm, Machine, Move, Sending, Slot, Token},
 };
 use std::rc::Rc;
@@ -28,12 +28,7 @@ impl<'a> Running<'a> {
     /// # Errors
     /// Returns what the interpreter does not know.
     pub fn new(machine: &'a Machine, library: &'a dyn Library) -> Result<Self, String> {
-        let slots = machine.slots.iter().chain(machine.waits.iter().map(|wait| &wait.slot));
-        for slot in slots {
-            if slot.arms.iter().filter_map(|arm| arm.guard.as_ref()).any(|guard| !can_compute(guard, &slot.ty)) {
-                return Err(format!("a guard of `{}` compares tokens of type `{}`", machine.name, slot.ty));
-            }
-        }
+        compute_guards(machine)?;
         let mut running = Self { machine, library, now: first(machine), left: None, waits: vec![] };
         running.time_all();
         Ok(running)

@@ -42,9 +42,7 @@ impl Interpreter<'_> {
     /// `false` if there is no such port.
     pub fn put(&mut self, port: &str, token: Value) -> bool {
         let Some(node) = self.port(port, |kind| matches!(kind, PortKind::Input | PortKind::Slot)) else { return false };
-        let inputs = &mut self.parts[0].1.inputs;
-        let arrival = inputs.values().map(|(arrival, _)| arrival + 1).max().unwrap_or(0);
-        inputs.entry(node).or_insert((arrival, token));
+        self.parts[0].1.put(node, token);
         true
     }
 

@@ -157,6 +157,16 @@ impl<'a> State<'a> {
         }
     }
 
+    /// Puts a token into an input or slot of the program. Returns `false` if one waits there.
+    pub fn put(&mut self, port: NodeId, token: Value) -> bool {
+        if self.inputs.contains_key(&port) {
+            return false;
+        }
+        let arrival = self.inputs.values().map(|(arrival, _)| arrival + 1).max().unwrap_or(0);
+        self.inputs.insert(port, (arrival, token));
+        true
+    }
+
     /// Clears a flag. Returns `true` if it was set.
     pub fn take(&mut self, flag: Flag) -> bool {
         self.flags.remove(&flag)

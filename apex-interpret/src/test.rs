@@ -1,9 +1,9 @@
 //! Tests of a program that is interpreted.
 
-use crate::{Interpreter, Value, compiled::Compiled, condition};
+use crate::{Interpreter, Library as _, Value, code::names, compiled::Compiled, condition};
 use apex_dsl::{
     checked::CheckedProgram,
-    graph::{Condition, Graph, NodeId, Subject},
+    graph::{self, Condition, Graph, NodeId, Subject},
     machine::Machines,
     script::{Observed, Script, Seen, Step, Until, What},
     source::Span,
@@ -12,7 +12,7 @@ use apex_rt::{
     Next, Time,
     testing::{self, Course, Tested, Timeline},
 };
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, time::Duration};
 
 /// Runs a test.
 ///
@@ -29,9 +29,10 @@ pub fn run(
     place: &dyn Fn(Span) -> String,
 ) -> Result<(), String> {
     let running = Interpreter::new(program, machines, library.catalog, library)?;
-    let nodes = running.names(&program.graph, library.catalog).into_iter().map(forever).collect();
     let graph = &program.graph;
-    let mut subject = Tried { running, graph, probes: probes(graph, script), library, feeds: vec![], states: vec![] };
+    let nodes = names(graph, library.catalog).into_iter().map(forever).collect();
+    let (probes, test) = (probes(graph, script), &*script.name);
+    let mut subject = Tried { test, running, graph, probes, library, feeds: vec![], states: vec![] };
     let mut course = Course::new(forever(script.name.clone()), nodes);
     let place = |span| forever(place(span));
     for (number, step) in script.steps.iter().enumerate() {
@@ -82,14 +83,12 @@ struct Probe<'a> {
     /// It is inside of the graph, and only other tests look at it.
     is_other: bool,
     checks: Vec<Vec<Check<'a>>>,
-    /// The test, for checks that need Rust.
-    test: &'a str,
 }
 
 /// The probes of a graph, with the checks of a test.
 fn probes<'a>(graph: &'a Graph, script: &'a Script) -> Vec<Probe<'a>> {
     let nodes = graph.nodes.iter_enumerated().filter(|(_, node)| node.kind.is_probe());
-    let probe = |(id, node): (NodeId, &'a apex_dsl::graph::Node)| {
+    let probe = |(id, node): (NodeId, &'a graph::Node)| {
         let mut checks: BTreeMap<&[String], Vec<Check<'a>>> = BTreeMap::new();
         for (step, s) in script.steps.iter().enumerate() {
             if let Step::Expect(seen, _) | Step::Never(seen) = s
@@ -102,13 +101,15 @@ fn probes<'a>(graph: &'a Graph, script: &'a Script) -> Vec<Probe<'a>> {
         let inside = node.name.strip_prefix("probe ");
         let is_other = checks.is_empty() && inside.is_some();
         let name = inside.unwrap_or(&node.name);
-        Probe { node: id, name, is_other, checks: checks.into_values().collect(), test: &script.name }
+        Probe { node: id, name, is_other, checks: checks.into_values().collect() }
     };
     nodes.map(probe).collect()
 }
 
 /// The program of a test.
 struct Tried<'a, 'l> {
+    /// Name of the test.
+    test: &'a str,
     running: Interpreter<'a>,
     graph: &'a Graph,
     probes: Vec<Probe<'a>>,
@@ -124,15 +125,15 @@ impl<'a> Tried<'a, '_> {
         &mut self,
         course: &mut Course,
         port: NodeId,
-        values: &[apex_dsl::graph::Value],
-        every: Option<std::time::Duration>,
+        values: &[graph::Value],
+        every: Option<Duration>,
         place: &'static str,
     ) -> Result<(), String> {
         if values.is_empty() {
             return Ok(());
         }
         let node = &self.graph.nodes[port];
-        let token = |value| crate::Library::token(self.library, Some(value), &node.ports[0].ty);
+        let token = |value| self.library.token(Some(value), &node.ports[0].ty);
         let tokens: Option<Vec<Value>> = values.iter().map(token).collect();
         self.feeds.push((port, tokens.ok_or_else(|| format!("a token for `{}` is not known", node.name))?));
         course.feed((forever(node.name.clone()), place), values.len(), every);
@@ -149,9 +150,9 @@ impl<'a> Tried<'a, '_> {
     }
 
     /// Returns `true` if a token meets a check.
-    fn meets(&self, test: &str, (step, of, condition): Check<'_>, token: &Value) -> bool {
+    fn meets(&self, (step, of, condition): Check<'_>, token: &Value) -> bool {
         let Some(condition) = condition else { return true };
-        let checked = self.library.check(test, step, token);
+        let checked = self.library.check(self.test, step, token);
         checked.unwrap_or_else(|| condition::holds(condition, token, &of.ty))
     }
 }
@@ -171,7 +172,7 @@ impl Tested for Tried<'_, '_> {
             for token in tokens {
                 for (group, checks) in (number..).zip(&probe.checks) {
                     timeline.arrives(group);
-                    let met = checks.iter().filter(|check| self.meets(probe.test, **check, &token));
+                    let met = checks.iter().filter(|check| self.meets(**check, &token));
                     met.for_each(|(step, ..)| timeline.meets(*step));
                 }
                 timeline.token(probe.name, &self.library.shown(probe.node, &token));

@@ -49,18 +49,20 @@ pub fn difference(compiled: &str, interpreted: &str) -> Option<String> {
     (!interpreted.contains("test result: ok")).then(|| format!("it is not interpreted to the end\n{interpreted}"))
 }
 
+/// Name of a test in its source file, from its path in Rust.
+fn name_of(path: &str) -> &str {
+    path.rsplit("::").next().unwrap_or(path).trim_start_matches("r#")
+}
+
 fn compiled_tests(said: &str) -> Said<'_> {
-    let mut tests = Said::new();
-    let name = |path: &'_ str| path.rsplit("::").next().unwrap_or(path).trim_start_matches("r#").len();
-    for (path, _) in said.lines().filter_map(|line| line.strip_prefix("test ")?.split_once(" ... ")) {
-        tests.insert(&path[path.len() - name(path)..], "");
-    }
+    let results = said.lines().filter_map(|line| line.strip_prefix("test ")?.split_once(" ... "));
+    let mut tests: Said = results.map(|(path, _)| (name_of(path), "")).collect();
     for part in said.split("\n---- ").skip(1) {
         let Some((path, output)) = part.split_once(" stdout ----\n") else { continue };
         let message = output.find("test `").map_or(output, |at| &output[at..]);
         let message = message.split("\nnote: run with").next().unwrap_or(message);
         let message = message.split("\n\nfailures:\n").next().unwrap_or(message);
-        tests.insert(&path[path.len() - name(path)..], message.trim_end());
+        tests.insert(name_of(path), message.trim_end());
     }
     tests
 }

@@ -24,12 +24,11 @@ const FILE: &str = "src/main.rs";
 pub struct Runner {
     built: Built,
     command: Command,
-    names: Vec<String>,
 }
 
 /// Answer to the question if tests can be interpreted.
 pub enum Interpretation {
-    /// By this program.
+    /// The program that interprets them.
     Of(Box<Runner>),
     /// The crates of the nodes do not compile. Cargo has printed why.
     Broken,
@@ -72,8 +71,7 @@ pub fn build(text: &Path, workspace: &Workspace, names: &[&str], how: How) -> Re
     };
     let mut command = built.command();
     command.arg(&folder).arg(name).args([text, &workspace.root, &cache]).args(names);
-    let names = names.iter().map(|name| (*name).to_owned()).collect();
-    Ok(Interpretation::Of(Box::new(Runner { built, command, names })))
+    Ok(Interpretation::Of(Box::new(Runner { built, command })))
 }
 
 /// Builds the program `name`, unless only source files of Apex have changed: where a library has graphs, cargo would
@@ -86,20 +84,21 @@ fn built(wanted: &Wanted, name: &str, workspace: &Workspace, how: How) -> Result
     if let Some(built) = earlier::built(wanted, name, how, &manifests) {
         return Ok(Outcome::Built(built));
     }
-    let begun = earlier::begin(wanted);
+    let begun = earlier::begin(wanted, how);
     let outcome = build::build(wanted, build::PROGRAM, how)?;
     if begun.is_ok() && matches!(outcome, Outcome::Built(_)) {
         // Without the note, cargo is asked the next time.
-        let _ = earlier::end(wanted);
+        let _ = earlier::end(wanted, how);
     }
     Ok(outcome)
 }
 
 impl Runner {
-    /// Runs the tests in a folder. Each is passed on when it has ended.
+    /// Runs the tests with these names in a folder. Each is passed on when it has ended.
     pub fn run(
         mut self,
         folder: &Path,
+        names: &[&str],
         mut ended: impl FnMut(&Tested) -> Result<(), String>,
     ) -> Result<Vec<Tested>, String> {
         let mut child =
@@ -135,7 +134,7 @@ impl Runner {
         let status = child.wait().map_err(|e| format!("cannot wait for the tests: {e}"))?;
         match running {
             _ if status.success() => {
-                tests.sort_by_key(|test| self.names.iter().position(|name| *name == test.name));
+                tests.sort_by_key(|test| names.iter().position(|name| *name == test.name));
                 Ok(tests)
             }
             Some(test) => Err(format!("`{}` ended the program that runs the tests ({status})", test.name)),

@@ -147,6 +147,18 @@ impl Signature {
         self.params.iter().position(|param| param.is_silence)
     }
 
+    /// Returns `true` for an output that `process` writes in place, through an argument.
+    pub fn writes_in_place(&self, port: usize) -> bool {
+        let is_output = self.ports.get(port).is_some_and(|port| port.kind == PortKind::Output);
+        is_output && self.process.as_ref().is_some_and(|args| args.contains(&ArgSig::Port(port)))
+    }
+
+    /// The outputs whose tokens `process` returns, with their numbers.
+    pub fn returned(&self) -> impl Iterator<Item = (usize, &PortSig)> {
+        let outputs = self.ports.iter().enumerate().filter(|(_, port)| port.kind == PortKind::Output);
+        outputs.filter(|(port, _)| !self.writes_in_place(*port))
+    }
+
     /// Returns `true` if the tokens of a firing at this port are in an array.
     pub fn is_batched(&self, port: usize) -> bool {
         self.ports[port].rate > 1

@@ -4,19 +4,12 @@
 mod node;
 mod types;
 
-use super::{
-    bugs::Bugs,
-    condition,
-    generator::Generator,
-    names::Names,
-    test::part_of_token,
-    tokens::{constant, to_rust},
-};
+use super::{bugs::Bugs, condition, generator::Generator, names::Names, test::part_of_token, tokens::constant};
 use crate::{
     catalog::{Catalog, Type},
     checked::CheckedProgram,
     graph::{Condition, Graph, Library, NodeId, NodeKind, PortId, Value},
-    machine::{Machine, Machines, Token},
+    machine::{Machine, Machines, Slot, Token},
     report::Diagnostics,
     script::{Observed, Script, Step, What},
     source::Sources,
@@ -25,7 +18,7 @@ use crate::{
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::collections::{BTreeMap, BTreeSet};
-use types::{is_inferred, token_type};
+use types::{constant_type, is_inferred, token_type};
 
 /// Number of a piece of Rust: a hash of its text.
 pub type Key = u64;
@@ -33,7 +26,7 @@ pub type Key = u64;
 /// Needs of the interpreter for a program.
 #[derive(Debug, Default)]
 pub struct Boxed {
-    /// The pieces of Rust: expressions of the type `apex_interpret::Piece`.
+    /// The pieces of Rust: expressions of the type `apex_interpret::glue::Piece`.
     pub pieces: BTreeMap<Key, TokenStream>,
     /// The nodes of the catalog, by their numbers among all nodes.
     pub nodes: BTreeMap<usize, BoxedNode>,
@@ -96,12 +89,7 @@ pub fn constant_of(value: Option<&Value>, ty: &Type, catalog: &Catalog) -> Resul
         return Ok((Constant::Plain(value.clone(), ty.clone()), quote!()));
     }
     let value = value.unwrap_or(&Value::RustDefault);
-    let rust = match (value, to_rust(ty, catalog)) {
-        (_, Some(rust)) => rust,
-        (Value::Text(_), None) => quote!(&'static str),
-        (_, None) => return Err(format!("only rustc knows the type of the constant `{}`", value.text())),
-    };
-    let piece = value_piece(&rust, &constant(value, ty));
+    let piece = value_piece(&constant_type(value, ty, catalog)?, &constant(value, ty));
     Ok((Constant::Piece(key(&piece)), piece))
 }
 
@@ -276,19 +264,28 @@ impl Collector<'_> {
 
     /// The constants of the events of a state machine.
     fn machine(&mut self, machine: &Machine) -> Result<(), String> {
-        let arms = machine.slots.iter().chain(machine.waits.iter().map(|wait| &wait.slot)).flat_map(|slot| &slot.arms);
+        compute_guards(machine)?;
+        let arms = machine.all_slots().flat_map(|slot| &slot.arms);
         let sendings = machine.entries.iter().chain(&machine.exits).flatten().chain(arms.flat_map(|arm| &arm.sends));
-        for slot in machine.slots.iter().chain(machine.waits.iter().map(|wait| &wait.slot)) {
-            if slot.arms.iter().filter_map(|arm| arm.guard.as_ref()).any(|guard| !can_compute(guard, &slot.ty)) {
-                return Err(format!("a guard of `{}` compares tokens of type `{}`", machine.name, slot.ty));
-            }
-        }
         for sending in sendings {
             if let Token::Value(value) = &sending.token {
                 self.add_constant(Some(value), &machine.events[sending.event].1)?;
             }
         }
         Ok(())
+    }
+}
+
+/// Checks that the interpreter can compute the guards of a state machine.
+///
+/// # Errors
+/// Returns the type of tokens that one of them compares.
+pub fn compute_guards(machine: &Machine) -> Result<(), String> {
+    let is_beyond =
+        |slot: &&Slot| slot.arms.iter().filter_map(|arm| arm.guard.as_ref()).any(|guard| !can_compute(guard, &slot.ty));
+    match machine.all_slots().find(is_beyond) {
+        Some(slot) => Err(format!("a guard of `{}` compares tokens of type `{}`", machine.name, slot.ty)),
+        None => Ok(()),
     }
 }
 

@@ -51,7 +51,7 @@ mod types;
 mod view;
 mod witness;
 
-pub use boxed::{Boxed, BoxedNode, Constant, Key, boxed, can_compute, constant_of};
+pub use boxed::{Boxed, BoxedNode, Constant, Key, boxed, can_compute, compute_guards, constant_of};
 pub use listing::listing;
 pub use memory::{Piece, memory};
 pub use text::{module_name, text};

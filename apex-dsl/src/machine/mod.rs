@@ -145,6 +145,11 @@ pub enum Token {
 impl Machine {
     /// The slot that is called at the start. The parentheses keep its name apart from all names that can be written.
     pub const BEGIN: &str = "(begin)";
+
+    /// Its slots, and those of the times after which it leaves states.
+    pub fn all_slots(&self) -> impl Iterator<Item = &Slot> {
+        self.slots.iter().chain(self.waits.iter().map(|wait| &wait.slot))
+    }
 }
 
 impl Machine {

@@ -16,7 +16,7 @@ pub fn translation(machine: &Machine) -> String {
             let _ = writeln!(text, "  {} -> [{}];", slot.name, consumers.join(", "));
         }
     }
-    for slot in machine.slots.iter().chain(machine.waits.iter().map(|wait| &wait.slot)) {
+    for slot in machine.all_slots() {
         for (number, arm) in slot.arms.iter().enumerate() {
             let state = &machine.states[arm.state];
             let guard = machine.condition(slot, arm).map(|condition| format!("   // if {condition}"));

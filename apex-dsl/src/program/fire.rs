@@ -270,10 +270,7 @@ impl Lowering<'_> {
 
 /// Results of a call that something uses.
 fn results(node: NodeId, signature: &Signature, plan: &Plan) -> Vec<CallResult> {
-    let in_place = |port: usize| signature.process.as_ref().is_some_and(|args| args.contains(&ArgSig::Port(port)));
-    let ports = signature.ports.iter().enumerate();
-    let outputs = ports.filter(|(port, p)| p.kind == PortKind::Output && !in_place(*port));
-    let results = outputs.map(|(port, p)| CallResult {
+    let results = signature.returned().map(|(port, p)| CallResult {
         output: PortId { node, port },
         field: p.field.as_ref().map(|(_, name)| (name.clone(), p.field_is_option)),
         is_optional: p.optional,

@@ -4,7 +4,7 @@
 use super::Lower;
 use crate::{
     analyse::{Block, ClusterId, Step, handles_absence, is_mandatory, may_be_missing},
-    catalog::{ArgSig, Catalog},
+    catalog::Catalog,
     graph::{Graph, NodeId, NodeKind, PortId},
     index::{IdVec, id},
     syntax::tree::PortKind,
@@ -60,11 +60,7 @@ pub struct Plan {
 /// Returns `true` if a node writes its token in place.
 pub fn is_buffer(graph: &Graph, catalog: &Catalog, end: PortId) -> bool {
     match &graph.nodes[end.node].kind {
-        NodeKind::Library(library) => {
-            let args = catalog.signatures[library.signature].process.as_deref().unwrap_or_default();
-            let port = graph.port(end);
-            port.kind == PortKind::Output && port.parameter.is_none() && args.contains(&ArgSig::Port(end.port))
-        }
+        NodeKind::Library(library) => catalog.signatures[library.signature].writes_in_place(end.port),
         NodeKind::Each(_) => true,
         _ => false,
     }

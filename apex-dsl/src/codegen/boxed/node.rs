@@ -1,13 +1,13 @@
 //! The adapter of a node of the catalog: `apex_interpret::Node` for its type, with the types of the tokens that come.
 
-use super::types::token_type;
+use super::types::{constant_type, token_type};
 use crate::{
-    catalog::{ArgSig, Signature},
+    catalog::{ArgSig, Signature, SlotSig},
     codegen::{
         generator::Generator,
-        tokens::{ident, path, to_rust},
+        tokens::{ident, path},
     },
-    graph::{Given, Graph, NodeId, PortId, Value},
+    graph::{Graph, NodeId, PortId},
     syntax::tree::PortKind,
 };
 use proc_macro2::{Literal, TokenStream};
@@ -81,9 +81,7 @@ impl<'a, 'g> Adapter<'a, 'g> {
 
     /// The outputs that the node writes in place.
     fn in_place(&self) -> impl Iterator<Item = usize> {
-        let args = self.signature.process.iter().flatten();
-        let ports = args.filter_map(|arg| if let ArgSig::Port(port) = arg { Some(*port) } else { None });
-        ports.filter(|port| self.signature.ports[*port].kind == PortKind::Output)
+        (0..self.signature.ports.len()).filter(|port| self.signature.writes_in_place(*port))
     }
 
     fn process(&self) -> Result<TokenStream, String> {
@@ -144,9 +142,8 @@ impl<'a, 'g> Adapter<'a, 'g> {
     /// The type of what `process` returns, as far as the ports say it. Nothing else tells rustc the types of a function
     /// that takes no tokens.
     fn returned(&self) -> Result<TokenStream, String> {
-        let (returns, in_place): (_, Vec<usize>) = (self.signature.returns, self.in_place().collect());
-        let mut outputs = self.signature.ports.iter().enumerate().filter(|(_, p)| p.kind == PortKind::Output);
-        let Some((port, p)) = outputs.find(|(port, _)| !in_place.contains(port)).filter(|_| !returns.several) else {
+        let returns = self.signature.returns;
+        let Some((port, p)) = self.signature.returned().next().filter(|_| !returns.several) else {
             return Ok(quote!());
         };
         let (mut ty, rate) = (self.token_type(PortId { node: self.node, port })?, p.rate);
@@ -201,14 +198,8 @@ impl<'a, 'g> Adapter<'a, 'g> {
 
     /// Code that puts what was returned into `sent`.
     fn sent(&self) -> TokenStream {
-        let (signature, in_place): (_, Vec<usize>) = (self.signature, self.in_place().collect());
-        let returns = signature.returns;
-        let outputs = signature
-            .ports
-            .iter()
-            .enumerate()
-            .filter(|(port, p)| p.kind == PortKind::Output && !in_place.contains(port));
-        let puts = outputs.map(|(port, p)| match &p.field {
+        let returns = self.signature.returns;
+        let puts = self.signature.returned().map(|(port, p)| match &p.field {
             Some((_, field)) if returns.several => {
                 let (field, value) = (ident(field), self.value(port, &quote!(token)));
                 match p.field_is_option {
@@ -236,59 +227,56 @@ impl<'a, 'g> Adapter<'a, 'g> {
     fn slots(&self) -> Result<TokenStream, String> {
         let mut arms = vec![];
         for slot in &self.signature.slots {
-            let (port, method) = (slot.port, ident(&slot.method));
-            let mut types: BTreeMap<String, TokenStream> = BTreeMap::new();
-            let end = PortId { node: self.node, port };
-            for connection in self.graph.connections.iter().filter(|connection| connection.to == end) {
-                let ty = match &connection.given {
-                    Some(given) => self.given_type(given, end)?,
-                    None => self.token_type(connection.from)?,
-                };
-                types.insert(ty.to_string(), ty);
-            }
-            let takes_token = slot.args.contains(&ArgSig::Port(port));
-            let calls = types.values().map(|ty| {
-                let mut call = CallCode::default();
-                for arg in &slot.args {
-                    let arg = match *arg {
-                        ArgSig::Port(own) if own == port => quote!(token),
-                        ArgSig::Port(event) => call.event(event),
-                        ArgSig::Ctx | ArgSig::Param(_) => quote!(&args.ctx),
-                    };
-                    call.args.push(arg);
-                }
-                let CallCode { before, args, after, .. } = call;
-                let fails = slot.fallible.then(|| quote!(.map_err(|error| ::apex_rt::Failure::new(&error))));
-                let ends =
-                    if slot.fallible { quote!(return result.map(drop)) } else { quote!(let _ = result; return Ok(())) };
-                let body = quote! { #(#before)* let result = self.node.#method(#(#args),*) #fails; #(#after)* #ends; };
-                match takes_token {
-                    true => quote! { if let Ok(Some(token)) = token::<#ty>(&args.tokens[0].clone()) { #body } },
-                    false => body,
-                }
-            });
-            // Without a token all calls are the same.
-            let calls: Vec<TokenStream> = calls.take(if takes_token { usize::MAX } else { 1 }).collect();
-            let otherwise = takes_token.then(|| quote!(Err(missing())));
-            let otherwise = otherwise.or_else(|| calls.is_empty().then(|| quote!(Ok(()))));
-            arms.push(quote! { #port => { #(#calls)* #otherwise } });
+            let (port, call) = (slot.port, self.slot_call(slot));
+            let types = self.slot_types(port)?;
+            let call = match slot.args.contains(&ArgSig::Port(port)) {
+                true => types.iter().rev().fold(quote!(Err(missing())), |otherwise, ty| {
+                    quote!(if let Ok(Some(token)) = token::<#ty>(&args.tokens[0]) { #call } else { #otherwise })
+                }),
+                false if types.is_empty() => quote!(Ok(())),
+                false => call,
+            };
+            arms.push(quote! { #port => { #call } });
         }
         Ok(quote! {
-            #[allow(unused_mut, unused_variables, unreachable_code, clippy::let_unit_value, clippy::needless_return)]
+            #[allow(unused_mut, unused_variables, clippy::let_unit_value)]
             fn slot(&mut self, port: usize, args: &mut Args) -> Result<(), ::apex_rt::Failure> {
                 match port { #(#arms)* _ => Ok(()) }
             }
         })
     }
 
-    /// The type of a value that a slot gets in place of tokens.
-    fn given_type(&self, given: &Given, slot: PortId) -> Result<TokenStream, String> {
-        let ty = &self.graph.port(slot).ty;
-        match to_rust(ty, self.generator.catalog) {
-            Some(rust) => Ok(rust),
-            None if matches!(given.value, Value::Text(_)) => Ok(quote!(&'static str)),
-            None => Err(format!("only rustc knows the type of `{}`", self.graph.end_name(slot))),
+    /// The call of the method of a slot with `token`.
+    fn slot_call(&self, slot: &SlotSig) -> TokenStream {
+        let mut call = CallCode::default();
+        for arg in &slot.args {
+            let arg = match *arg {
+                ArgSig::Port(own) if own == slot.port => quote!(token),
+                ArgSig::Port(event) => call.event(event),
+                ArgSig::Ctx | ArgSig::Param(_) => quote!(&args.ctx),
+            };
+            call.args.push(arg);
         }
+        let CallCode { before, args, after, .. } = call;
+        let method = ident(&slot.method);
+        let ends = match slot.fallible {
+            true => quote!(result.map(drop).map_err(|error| ::apex_rt::Failure::new(&error))),
+            false => quote!(Ok(())),
+        };
+        quote! { #(#before)* let result = self.node.#method(#(#args),*); #(#after)* #ends }
+    }
+
+    /// The types of the tokens and constants that come to a slot, each once.
+    fn slot_types(&self, port: usize) -> Result<Vec<TokenStream>, String> {
+        let end = PortId { node: self.node, port };
+        let connections = self.graph.connections.iter().filter(|connection| connection.to == end);
+        let types = connections.map(|connection| match &connection.given {
+            Some(given) => constant_type(&given.value, &self.graph.port(end).ty, self.generator.catalog),
+            None => self.token_type(connection.from),
+        });
+        let types: Result<BTreeMap<String, TokenStream>, String> =
+            types.map(|ty| ty.map(|ty| (ty.to_string(), ty))).collect();
+        Ok(types?.into_values().collect())
     }
 
     /// The methods for ⊥ and for changes of activity.

@@ -1,10 +1,12 @@
 //! The types of tokens, as far as they can be written down.
 
 use crate::{
-    codegen::generator::Generator,
-    graph::{Graph, PortId},
+    catalog::{Catalog, Type},
+    codegen::{generator::Generator, tokens::to_rust},
+    graph::{Graph, PortId, Value},
 };
 use proc_macro2::{TokenStream, TokenTree};
+use quote::quote;
 
 /// The type of the tokens at a port.
 ///
@@ -15,6 +17,18 @@ pub fn token_type(generator: &Generator<'_>, graph: &Graph, end: PortId) -> Resu
     match is_inferred(&ty) || ty.is_empty() {
         true => Err(format!("only rustc knows the type of `{}`", graph.end_name(end))),
         false => Ok(ty),
+    }
+}
+
+/// The type of a constant that stands for a token of type `ty`.
+///
+/// # Errors
+/// Only rustc can infer it.
+pub fn constant_type(value: &Value, ty: &Type, catalog: &Catalog) -> Result<TokenStream, String> {
+    match to_rust(ty, catalog) {
+        Some(rust) => Ok(rust),
+        None if matches!(value, Value::Text(_)) => Ok(quote!(&'static str)),
+        None => Err(format!("only rustc knows the type of the constant `{}`", value.text())),
     }
 }
 
