@@ -1,11 +1,17 @@
 mod runs;
 mod stripes;
+mod symbology;
 
-use self::{runs::LAYOUTS, stripes::Raster};
+pub use symbology::Symbology;
+
+use self::{
+    runs::LAYOUTS,
+    stripes::{DIRECTIONS, LINES, Raster},
+};
 use super::{GrayImage, window::gather};
 use apex_rt::node;
 use rxing::{
-    BarcodeFormat, DecodeHints,
+    DecodeHints,
     common::BitArray,
     oned::{Code39Reader, Code128Reader, ITFReader, MultiFormatUPCEANReader, OneDReader},
 };
@@ -19,41 +25,6 @@ pub struct BarCode {
     /// Symbology of the code.
     pub symbology: Symbology,
 }
-
-/// Supported kinds of bar codes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Symbology {
-    /// Code 128.
-    Code128,
-    /// Code 39.
-    Code39,
-    /// EAN-13. UPC-A is an EAN-13 that begins with 0.
-    Ean13,
-    /// EAN-8.
-    Ean8,
-    /// Interleaved two of five.
-    Itf,
-}
-
-impl Symbology {
-    const ALL: [(BarcodeFormat, Self); 5] = [
-        (BarcodeFormat::CODE_128, Self::Code128),
-        (BarcodeFormat::CODE_39, Self::Code39),
-        (BarcodeFormat::EAN_13, Self::Ean13),
-        (BarcodeFormat::EAN_8, Self::Ean8),
-        (BarcodeFormat::ITF, Self::Itf),
-    ];
-
-    fn of(format: BarcodeFormat) -> Option<Self> {
-        Self::ALL.iter().find(|(f, _)| *f == format).map(|(_, symbology)| *symbology)
-    }
-}
-
-/// Number of directions of the lines through an image, and of parallel lines in each direction, spread over its
-/// diagonal.
-const DIRECTIONS: usize = 12;
-const LINES: usize = 100;
 
 /// Samples per pixel of a line, so that the widths of narrow bars can be distinguished.
 const FINENESS: usize = 3;

@@ -1,12 +1,6 @@
-use super::{GrayImage, Region, light};
+use super::{GrayImage, MAX_REGIONS, Region, Regions, light};
 use apex_rt::{Out, node};
 use std::cmp::Reverse;
-
-/// Maximum number of regions of an image.
-pub const MAX_REGIONS: usize = 64;
-
-/// Regions of one image.
-pub type Regions = heapless::Vec<Region, MAX_REGIONS>;
 
 /// Finds the objects in an image (thesis 4.3.1): connected components of light pixels, with the 8 neighbours of a
 /// pixel.

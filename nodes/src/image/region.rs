@@ -1,4 +1,4 @@
-use super::{GrayImage, Regions};
+use super::GrayImage;
 use ::image::{GenericImageView, Luma};
 use apex_rt::{Out, node};
 
@@ -17,6 +17,12 @@ pub struct Region {
     /// Number of pixels that belong to the object.
     pub area: u32,
 }
+
+/// Maximum number of regions of an image.
+pub const MAX_REGIONS: usize = 64;
+
+/// Regions of one image.
+pub type Regions = heapless::Vec<Region, MAX_REGIONS>;
 
 impl Region {
     /// Smallest rectangle around both objects.

@@ -14,6 +14,7 @@ mod error;
 #[cfg(feature = "figure")]
 mod figure;
 mod lines;
+mod log_entry;
 mod lzf;
 mod map_file;
 mod pcd;
@@ -21,6 +22,7 @@ mod pcd;
 mod picture;
 mod pixels;
 mod plan;
+mod plan_file;
 mod plan_map;
 mod scan_log;
 #[cfg(feature = "dxf")]
@@ -34,11 +36,13 @@ pub use error::ReadError;
 pub use figure::{ScanFigure, WriteError};
 #[cfg(feature = "slam")]
 pub(crate) use lines::{Lines, shown};
+pub use log_entry::LogEntry;
 pub use map_file::{MapFile, SaveMap, SaveMapError, read_map_file, write_map_file};
 pub use pcd::{RecordedCloud, read_cloud};
 #[cfg(feature = "figure")]
 pub use picture::ScanPicture;
 pub use pixels::read_map;
-pub use plan::{Plan, PlanOptions, read_plan};
+pub use plan::{Plan, PlanOptions};
+pub use plan_file::read_plan;
 pub use plan_map::{PlanMap, PlanMapError, draw_plan};
-pub use scan_log::{LogEntry, LogGeometry, ScanLog, ScanLogReader};
+pub use scan_log::{LogGeometry, ScanLog, ScanLogReader};

@@ -1,10 +1,10 @@
 use super::{
-    ReadError,
+    LogEntry, ReadError,
     carmen::{ScanLine, fill, parse},
     lines::{Ending, Lines},
 };
-use crate::scan::{Pose2, Scan};
-use apex_rt::{Ctx, Event, Out, Time, node};
+use crate::scan::Scan;
+use apex_rt::{Ctx, Event, Out, node};
 use core::f32::consts::PI;
 use std::path::Path;
 
@@ -19,19 +19,6 @@ pub struct LogGeometry {
     pub range_min: f32,
     /// Maximum range that counts as measured, in m.
     pub range_max: f32,
-}
-
-/// Information of a log about a scan besides its ranges.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct LogEntry {
-    /// Number of the scan: the first column of a table, or counted from 0 in a CARMEN log.
-    pub id: u64,
-    /// Pose of the scanner, if the log contains it.
-    pub pose: Option<Pose2>,
-    /// Pose of the robot by its odometry, if the log contains it.
-    pub odometry: Option<Pose2>,
-    /// Time of the scan since the zero of the recording's clock, if the log contains it.
-    pub time: Option<Time>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -211,6 +198,8 @@ impl ScanLog {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scan::Pose2;
+    use apex_rt::Time;
     use std::io::Write;
 
     const GEOMETRY: LogGeometry =

@@ -1,4 +1,4 @@
-use super::filter::Particle;
+use super::particle::Particle;
 use core::f32::consts::PI;
 
 /// Sizes of a bin in m and rad.

@@ -1,4 +1,4 @@
-use super::{bins::Bins, filter::Particle};
+use super::{bins::Bins, particle::Particle};
 use crate::scan::{Point2, Pose2, wrap_angle};
 
 /// Radius of a cluster of particles, in m and rad.

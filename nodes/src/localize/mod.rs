@@ -8,6 +8,7 @@ mod estimate;
 mod filter;
 mod motion;
 mod node;
+mod particle;
 mod search;
 mod shadow;
 mod table;

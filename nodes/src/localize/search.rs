@@ -1,4 +1,4 @@
-use super::{VisibilityTable, filter::Particle};
+use super::{VisibilityTable, particle::Particle};
 use crate::{
     math::Random,
     scan::{Point2, Pose2, Scan},

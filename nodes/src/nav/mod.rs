@@ -41,7 +41,6 @@ mod open;
 #[cfg(feature = "std")]
 mod outline;
 #[cfg(feature = "std")]
-#[cfg(feature = "std")]
 mod path;
 mod payload;
 #[cfg(feature = "std")]
@@ -90,7 +89,6 @@ pub use lattice::{CurveDrive, CurvePlanner, CurveSearch, Floor, Goal, Ground, Se
 pub use law::FollowingLaw;
 pub use look::LookAround;
 pub use motion::{MoveRobot, MoveToObstacle, PositionToTarget};
-#[cfg(feature = "std")]
 #[cfg(feature = "std")]
 pub use path::{Path, Projection};
 pub use payload::{Articulated, BackUp, ReactiveApproach};

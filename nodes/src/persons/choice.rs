@@ -1,5 +1,7 @@
-use super::{MAX_DEPTH, MAX_HYPOTHESES};
-use super::{MAX_DETECTIONS, MAX_PERSONS, hypotheses::Leaf};
+use super::{
+    MAX_DETECTIONS, MAX_PERSONS,
+    leaf::{Leaf, MAX_DEPTH, MAX_HYPOTHESES},
+};
 use core::ops::Range;
 use heapless::Vec;
 

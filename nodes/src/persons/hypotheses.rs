@@ -1,15 +1,13 @@
-use super::{Detections, MAX_DETECTIONS, MAX_PERSONS, Motion, Person, Persons, choice::Choice};
+use super::{
+    Detections, MAX_DETECTIONS, MAX_PERSONS, Motion, Person, Persons,
+    choice::Choice,
+    leaf::{Leaf, MAX_DEPTH, MAX_HYPOTHESES},
+};
 use apex_rt::Time;
 use heapless::Vec;
 
-/// Maximum number of hypotheses over all persons.
-pub const MAX_HYPOTHESES: usize = 1024;
-
 /// Maximum number of hypotheses about one person.
 pub const MAX_BRANCHES: usize = 16;
-
-/// Maximum number of measurements after which an assignment is final.
-pub const MAX_DEPTH: usize = 8;
 
 /// Hypotheses of a score below this are dropped: about two missed detections after a first one.
 const MIN_SCORE: f32 = -7.0;
@@ -50,40 +48,6 @@ pub struct Model {
     pub branches: usize,
     /// Number of measurements after which an assignment is final, up to [`MAX_DEPTH`].
     pub depth: usize,
-}
-
-/// Hypothesis about one person: a leaf of its tree, in which each level assigns one measurement.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Leaf {
-    /// Number of the person, and thus of the tree.
-    pub person: u32,
-    pub motion: Motion,
-    /// Logarithm of the likelihood ratio of this person to false detections.
-    pub score: f32,
-    /// Probability that the person is still there.
-    pub presence: f32,
-    /// Time of the last detection.
-    pub seen: Time,
-    /// Number of the assigned detection, from 1, in each of the last measurements, newest first; 0 for none.
-    pub trail: [u8; MAX_DEPTH],
-}
-
-impl Leaf {
-    fn child(&self, detection: u8) -> Self {
-        let mut child = *self;
-        child.trail.copy_within(..MAX_DEPTH - 1, 1);
-        child.trail[0] = detection;
-        child
-    }
-
-    /// Hypothesis that the person was not detected.
-    fn missed(&self, rate: f32) -> Self {
-        let unseen = 1.0 - self.presence * rate;
-        let mut child = self.child(0);
-        child.score += libm::logf(unseen.max(f32::MIN_POSITIVE));
-        child.presence = self.presence * (1.0 - rate) / unseen.max(f32::MIN_POSITIVE);
-        child
-    }
 }
 
 /// Tracks of persons by many hypotheses (Reid 1979): for each person a tree, whose leaves are Kalman filters that

@@ -5,6 +5,7 @@
 mod choice;
 mod detection;
 mod hypotheses;
+mod leaf;
 mod legs;
 mod motion;
 mod place;
@@ -15,7 +16,8 @@ mod walkers;
 mod wheels;
 
 pub use detection::{Detections, MAX_DETECTIONS, MAX_PERSONS, Person, Persons, View};
-pub use hypotheses::{Hypotheses, MAX_BRANCHES, MAX_DEPTH, MAX_HYPOTHESES, Model, Sensor};
+pub use hypotheses::{Hypotheses, MAX_BRANCHES, Model, Sensor};
+pub use leaf::{MAX_DEPTH, MAX_HYPOTHESES};
 pub use legs::{Leg, LegDetector, LegPairs, Legs};
 pub use motion::Motion;
 pub use place::PlaceDetections;

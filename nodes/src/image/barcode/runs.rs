@@ -1,4 +1,4 @@
-use super::Symbology;
+use super::symbology::Symbology;
 
 /// Structure of a symbology: white, a start, and characters of the same width. Widths are in times of that of the
 /// start.

@@ -1,6 +1,10 @@
-use super::{DIRECTIONS, LINES};
 use crate::image::GrayImage;
 use std::f32::consts::PI;
+
+/// Number of directions of the lines through an image, and of parallel lines in each direction, spread over its
+/// diagonal.
+pub const DIRECTIONS: usize = 12;
+pub const LINES: usize = 100;
 
 /// Rows and columns of pixels in a block, and samples of a line that count as one.
 const BLOCK: usize = 8;

@@ -1,4 +1,4 @@
-use super::{Place, SIDE};
+use super::ends::Place;
 use crate::{
     map::{Cell, Grid, Occupancy, Raster},
     nav::{Terrain, open::Open},
@@ -6,6 +6,9 @@ use crate::{
 };
 use core::f32::consts::SQRT_2;
 use std::collections::BinaryHeap;
+
+/// Side of a state, in m.
+const SIDE: f32 = 0.2;
 
 /// Estimated distances from the nearest goal, without regard to headings.
 #[derive(Debug, Clone, Default)]

@@ -1,4 +1,4 @@
-use super::{CurveDrive, SQUEEZED, Start};
+use super::{CurveDrive, Start};
 use crate::{
     map::{Cell, DistanceTransform, Grid, Occupancy, Raster},
     nav::{
@@ -9,6 +9,8 @@ use crate::{
 };
 use libm::{fabsf, fmaxf, fminf, hypotf};
 
+/// Part of the margin that is kept in a fine search.
+pub(super) const SQUEEZED: f32 = 0.7;
 /// Distance between the checked points of the outline, in m.
 const STEP: f32 = 0.1;
 /// Distance from the start up to which a vehicle may be as near to something as it is there, in m.

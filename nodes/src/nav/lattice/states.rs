@@ -1,4 +1,3 @@
-use super::{FINE_STEP, STEP};
 use crate::{
     map::Raster,
     math::normalize_angle,
@@ -6,6 +5,9 @@ use crate::{
 };
 use core::f32::consts::TAU;
 
+/// Length of a step, in m, and of one near the start of a fine search.
+const STEP: f32 = 0.3;
+const FINE_STEP: f32 = 0.1;
 /// Number of headings of the states.
 const HEADINGS: usize = 32;
 /// Distance from the start, along both axes, up to which a fine search has finer states, in m.

@@ -1,4 +1,4 @@
-use super::{CHECK, Node};
+use super::{drive::CHECK, node::Node};
 use crate::{
     nav::{
         BackPath, BackPiece, Path,
@@ -6,26 +6,6 @@ use crate::{
     },
     scan::Pose2,
 };
-
-/// Start of a way.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Start {
-    /// Pose of the vehicle.
-    pub pose: Pose2,
-    /// Heading of the trailer, in rad.
-    pub trailer: f32,
-    /// `true` if the way has to begin backward.
-    pub is_back: bool,
-}
-
-/// Goal of a way.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Goal {
-    /// Pose at the end.
-    pub pose: Pose2,
-    /// Cost of this goal in addition to that of the way, in m.
-    pub cost: f32,
-}
 
 /// Part of a way up to where the direction changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
