@@ -1,10 +1,6 @@
-//! Live picture of a drawn world with a moving robot.
-
-mod svg;
-mod terminal;
-
+use super::{picture::Picture, svg, terminal};
 use crate::{FloorPlan, PlanError};
-use apex_nodes::scan::{Point2, Pose2, Scan};
+use apex_nodes::scan::{Pose2, Scan};
 use apex_rt::{Ctx, Time, node};
 use core::{fmt, time::Duration};
 use std::{
@@ -13,35 +9,14 @@ use std::{
     path::Path,
 };
 
-/// Distance between points of the trail, in m.
-const TRAIL_STEP: f32 = 0.08;
-/// Maximum number of points of the trail. Beyond it, every second point is removed.
-const TRAIL_LENGTH: usize = 2000;
 /// Period of writing the file.
 const FILE_PERIOD: Duration = Duration::from_secs(1);
-
-/// Content of the view.
-#[derive(Debug, Clone)]
-struct Picture {
-    plan: FloorPlan,
-    /// Pose of the robot in the world.
-    pose: Pose2,
-    /// Points of the last scan, in the world.
-    hits: Vec<Point2>,
-    /// Previous positions of the robot.
-    trail: Vec<Point2>,
-    /// Time of the view.
-    now: Time,
-    /// Last note.
-    note: String,
-}
 
 /// Shows a drawn world ([`FloorPlan`](crate::FloorPlan)) with the robot, its trail and the points of its scan.
 ///
 /// On a terminal the picture is redrawn in place, with the last note below. If the output is redirected, each note is a
 /// line with its time, and no picture is drawn. The picture is also written to a file, once per second and with each
 /// note.
-/// with each note.
 #[node]
 #[derive(Debug, Clone)]
 pub struct LiveView {
@@ -140,28 +115,6 @@ impl LiveView {
     }
 }
 
-impl Picture {
-    fn new(plan: FloorPlan) -> Self {
-        let pose = plan.start;
-        Self { plan, pose, hits: vec![], trail: vec![], now: Time::ZERO, note: String::new() }
-    }
-
-    fn come_to(&mut self, pose: &Pose2) {
-        self.pose = *pose;
-        let far = |last: &Point2| (*last - pose.position()).norm() >= TRAIL_STEP;
-        if self.trail.last().is_none_or(far) {
-            if self.trail.len() >= TRAIL_LENGTH {
-                let mut keep = false;
-                self.trail.retain(|_| {
-                    keep = !keep;
-                    keep
-                });
-            }
-            self.trail.push(pose.position());
-        }
-    }
-}
-
 /// Draws over the last picture of `lines` lines. Returns the number of lines of the new one.
 fn draw_on_terminal(picture: &Picture, lines: usize) -> io::Result<usize> {
     let (columns, rows) = picture.plan.size();
@@ -192,36 +145,8 @@ fn write_whole(path: &Path, text: &str) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::picture::tests::ROOM, *};
     use apex_rt::Construct;
-
-    pub(super) const ROOM: &str = "\
-##########
-#        #
-# >    o #
-##########";
-
-    /// The room with a robot that has driven half a metre and sees the wall ahead.
-    pub(super) fn picture() -> Picture {
-        let mut picture = Picture::new(FloorPlan::parse(ROOM).expect("a room"));
-        for step in 0..=5 {
-            picture.come_to(&Pose2::new(0.625 + 0.1 * step as f32, 0.75, 0.0));
-        }
-        picture.hits = vec![Point2::new(2.25, 1.0), Point2::new(1.8, 0.75)];
-        picture.now = Time::from_millis(1250);
-        picture.note = "drives <on>".to_owned();
-        picture
-    }
-
-    #[test]
-    fn the_trail_stays_short() {
-        let mut picture = picture();
-        for step in 0..20_000 {
-            picture.come_to(&Pose2::new(0.1 * step as f32, 0.0, 0.0));
-        }
-        assert!((TRAIL_LENGTH / 2..=TRAIL_LENGTH).contains(&picture.trail.len()), "{}", picture.trail.len());
-        assert!((picture.trail.last().expect("a place").x - 1999.9).abs() < 0.1);
-    }
 
     #[test]
     fn the_file_is_written_once_a_second_and_with_each_note() {
@@ -257,7 +182,8 @@ mod tests {
         // Only another process has another environment.
         let own = std::env::current_exe().expect("a path");
         let mut shadow = std::process::Command::new(own);
-        let output = shadow.args(["--exact", "view::tests::a_shadow_writes_no_file"]).env("APEX_REPLAY_FOLLOW", "1");
+        let output =
+            shadow.args(["--exact", "view::live::tests::a_shadow_writes_no_file"]).env("APEX_REPLAY_FOLLOW", "1");
         let output = output.output().expect("it starts");
         assert!(output.status.success() && String::from_utf8_lossy(&output.stdout).contains("1 passed"), "{output:?}");
     }

@@ -1,6 +1,6 @@
 //! The picture as SVG.
 
-use super::Picture;
+use super::picture::Picture;
 use crate::plan::{CELL_HEIGHT, CELL_WIDTH};
 use apex_nodes::scan::Point2;
 use std::fmt::Write as _;
@@ -96,7 +96,7 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::tests::picture, *};
+    use super::{super::picture::tests::picture, *};
 
     #[test]
     fn all_that_there_is_to_see_is_drawn() {

@@ -1,6 +1,6 @@
 //! The picture in characters: the drawing itself, with Braille dots for finer details.
 
-use super::Picture;
+use super::picture::Picture;
 use crate::plan::{CELL_HEIGHT, CELL_WIDTH};
 use apex_nodes::scan::Point2;
 use core::f32::consts::FRAC_PI_4;
@@ -96,7 +96,7 @@ fn arrow(theta: f32) -> char {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::tests::picture, *};
+    use super::{super::picture::tests::picture, *};
 
     /// Text without its colours.
     fn plain(text: &str) -> String {
