@@ -1,4 +1,4 @@
-use super::seeds_and_out;
+use super::options::seeds_and_out;
 use apex_sim::{
     experiment::{Options, Seeds},
     say,

@@ -5,8 +5,8 @@ use apex_sim::{
 };
 use patsy::{
     experiments::missions::{
-        BudgetTable, Row, activity_table, fault_at, faults_table, picture, prices, prices_table, run, run_with_outages,
-        summary, timeline,
+        Budget, BudgetTable, Row, activity_table, fault_at, faults_table, picture, prices, prices_table, run,
+        run_with_outages, summary, timeline,
     },
     world::clinic::{self, Conditions, Fault, FaultKind, PEOPLE, words},
 };
@@ -54,7 +54,9 @@ pub fn missions(options: &mut Options) -> Result<ExitCode, String> {
     let work = |options: &clinic::Options| run(options, missions.duration, record(options));
     let runs = rows("runs", &jobs, missions.seeds.jobs, work, |_, run| Some(Row(run).to_string()))?;
     let (without, with) = runs.split_at(seeds.len());
-    say(&format!("\n{}\n{}\nActive nodes:\n{}\n", summary(without), BudgetTable(without), activity_table(without)))?;
+    let budgets: Vec<&Budget> = without.iter().map(|run| &run.budget).collect();
+    let (summary, budget) = (summary(without), BudgetTable(&budgets));
+    say(&format!("\n{summary}\n{budget}\nActive nodes:\n{}\n", activity_table(without)))?;
     if missions.faults {
         say(&format!("{}\n", faults_table(without, with)))?;
     }

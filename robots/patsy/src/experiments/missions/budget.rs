@@ -1,4 +1,3 @@
-use super::Run;
 use crate::vehicle::Patsy;
 use apex_rt::Program as _;
 use apex_sim::experiment::Spell;
@@ -78,12 +77,12 @@ pub(super) fn phases() -> Vec<Option<usize>> {
     Patsy::INFO.nodes.iter().map(|node| phase_of(node.name)).collect()
 }
 
-/// Table of the time of the mean run, with a line for each phase.
+/// Table of the time of the mean run, with a line for each phase, from the budgets of all runs.
 ///
 /// `slow` is the time that the node of the phase itself takes from its highest speed, and the other losses are what the
 /// limiters take from it.
 #[derive(Debug)]
-pub struct BudgetTable<'a>(pub &'a [Run]);
+pub struct BudgetTable<'a>(pub &'a [&'a Budget]);
 
 impl fmt::Display for BudgetTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -103,9 +102,9 @@ impl fmt::Display for BudgetTable<'_> {
 }
 
 /// Time, way and losses of a phase in the mean run. The number of times is that of all runs.
-fn mean(runs: &[Run], phase: usize) -> Spent {
+fn mean(runs: &[&Budget], phase: usize) -> Spent {
     let count = runs.len().max(1) as f32;
-    runs.iter().map(|run| &run.budget.phases[phase]).fold(Spent::default(), |mut sum, spent| {
+    runs.iter().map(|run| &run.phases[phase]).fold(Spent::default(), |mut sum, spent| {
         sum.time += spent.time / count;
         sum.times += spent.times;
         sum.top = sum.top.max(spent.top);
