@@ -1,4 +1,4 @@
-use super::read_setup;
+use super::setup::read_setup;
 use apex_sim::{
     OutageTable,
     experiment::{Options, Progress, Seeds, broken_promises, rows},

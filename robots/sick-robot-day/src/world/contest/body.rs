@@ -1,4 +1,4 @@
-use super::{Obstacle, world::ROBOTS};
+use super::{Obstacle, rules::ROBOTS};
 use crate::world::{Arena, Cube, arena::nearest};
 use apex_nodes::{
     nav::Twist,

@@ -9,6 +9,7 @@ mod operator;
 mod referee;
 mod report;
 mod rival;
+mod rules;
 mod standing;
 mod steering;
 mod world;
@@ -17,5 +18,6 @@ pub use drivers::{Base, Drivers, FrontCamera, FrontLaser, HopperCamera, Lamp, Re
 pub use fault::{Fault, FaultKind};
 pub use hall::Hall;
 pub use report::{Collision, Delivery, Obstacle, Report, Rivalry};
+pub use rules::{DURATION, RIVALS, START};
 pub use standing::{OpenHall, Scoreboard, Standing};
-pub use world::{Contest, DURATION, RADIUS, RIVALS, Robot, START};
+pub use world::{Contest, RADIUS, Robot};

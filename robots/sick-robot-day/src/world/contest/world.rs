@@ -1,9 +1,10 @@
 use super::{
-    Collision, Delivery, Fault, FaultKind, Obstacle, Report,
+    Collision, Delivery, Fault, FaultKind, Obstacle, RIVALS, Report, START,
     body::{self, Bodies, Body},
     operator::Operator,
     referee::{Crash, Referee},
     rival::Rival,
+    rules::ROBOTS,
 };
 use crate::world::{Arena, Cube, Hopper, hall_light};
 use apex_nodes::{
@@ -16,19 +17,8 @@ use apex_sim::{
 };
 use std::{f32::consts::PI, time::Duration};
 
-/// Time of the start command, at which the rivals start.
-pub const START: Time = Time::from_secs(1);
-
-/// Duration of the competition from the start on.
-pub const DURATION: Duration = Duration::from_secs(600);
-
 /// Radius of our robot, in m.
 pub const RADIUS: f32 = 0.3;
-
-/// Number of the other robots.
-pub const RIVALS: usize = 3;
-
-pub(super) const ROBOTS: usize = 1 + RIVALS;
 
 const STEP: Duration = Duration::from_millis(10);
 
