@@ -1,6 +1,6 @@
 //! Statements that a source file gets at the end: claims, records, and what a robot is tuned for.
 
-use super::{case::Item, graph::Interface, maker::Maker};
+use super::{case::Item, interface::Interface, maker::Maker};
 
 /// Adds some of them. A node without the feature that a statement needs makes it a mistake, which is to be found.
 pub fn add(maker: &mut Maker) {

@@ -2,10 +2,10 @@
 
 use super::{
     case::Item,
+    interface::{Node, Port, port},
     kinds::Kind,
     maker::Maker,
     names,
-    nodes::{Node, Port, port},
     types::Type,
 };
 

@@ -3,18 +3,21 @@
 
 mod case;
 mod extra;
+mod generate;
 mod graph;
+mod interface;
 mod kinds;
 mod machine;
 mod maker;
 mod names;
 mod nodes;
 mod script;
+mod sheet;
 mod steps;
 mod types;
 mod values;
 mod variant;
 
 pub use case::{Call, Case, Item, Shape, Text};
+pub use generate::generate;
 pub use kinds::Kind;
-pub use maker::generate;

@@ -1,40 +1,13 @@
 //! Rust nodes of many forms, visible or hidden in many ways. Those whose types allow it can run: they pass on what they
 //! get.
 
-use super::{kinds::Kind, maker::Maker, names::KEYWORDS, types::Type, values::Param};
-
-/// A node type as seen by a source file.
-#[derive(Debug, Clone)]
-pub struct Node {
-    /// Name in the source file.
-    pub name: String,
-    /// Type arguments that are allowed.
-    pub generic: Option<String>,
-    /// Inputs that must be connected.
-    pub inputs: Vec<Port>,
-    /// Outputs.
-    pub outputs: Vec<Port>,
-    /// Slots.
-    pub slots: Vec<Port>,
-    /// Events.
-    pub events: Vec<Port>,
-    /// Parameters.
-    pub params: Vec<(String, &'static Param)>,
-}
-
-/// A port with its type.
-#[derive(Debug, Clone)]
-pub struct Port {
-    /// Name.
-    pub name: String,
-    /// Type of the tokens.
-    pub ty: &'static Type,
-}
-
-/// A port with this name and type.
-pub fn port(name: &str, ty: &'static Type) -> Port {
-    Port { name: name.trim_start_matches("r#").to_owned(), ty }
-}
+use super::{
+    interface::{Node, port},
+    kinds::Kind,
+    maker::Maker,
+    names::KEYWORDS,
+    types::Type,
+};
 
 /// Form of a node. `{N}` is its name, `{T}` the type of its tokens, `{P}` that of its parameter with `{D}` as its
 /// default; `{I} {O} {S} {E}` are an input, an output, a slot and an event, and `⟨…⟩` are bodies. Characters after
@@ -384,10 +357,5 @@ impl Node {
     /// `true` if it takes or sends several tokens per firing.
     fn has_rates(&self) -> bool {
         self.name.starts_with("pair") || self.name.starts_with("double")
-    }
-
-    /// `true` if its first input or slot takes this type.
-    pub fn takes(&self, ty: &Type) -> bool {
-        self.inputs.iter().chain(&self.slots).next().is_some_and(|p| p.ty == ty)
     }
 }

@@ -1,6 +1,6 @@
 //! Random tests of the graphs of a source file.
 
-use super::{case::Item, graph::Interface, kinds::Kind, maker::Maker};
+use super::{case::Item, interface::Interface, kinds::Kind, maker::Maker};
 
 /// Names of tests that are difficult for code generation.
 const NAMES: &[&str] = &[

@@ -1,10 +1,10 @@
 //! Random steps in the construction of a graph.
 
 use super::{
-    graph::{Interface, Sheet, Wire},
+    interface::{Interface, Node, Port, port},
     kinds::Kind,
     maker::Maker,
-    nodes::{Node, Port, port},
+    sheet::{Sheet, Wire},
     types::PLAIN,
     values::PARAMS,
 };
@@ -59,11 +59,11 @@ impl Maker {
             let wire = wires.into_iter().next().unwrap_or_else(|| self.wire(sheet, ty));
             let output = node.outputs.first().filter(|_| node.outputs.len() + node.events.len() == 1).cloned();
             match output {
-                Some(port) => {
+                Some(out) => {
                     let name = self.port_name(&mut sheet.used);
-                    let written = self.written(port.ty);
+                    let written = self.written(out.ty);
                     sheet.port_lines.push(format!("out {name}: {written};"));
-                    sheet.ports.push(("out", super::nodes::port(&name, port.ty)));
+                    sheet.ports.push(("out", port(&name, out.ty)));
                     sheet.links.push(format!("{} -> {call} -> {name};", wire.from));
                 }
                 None => sheet.links.push(format!("{} -> {call};", wire.from)),
@@ -96,7 +96,7 @@ impl Maker {
                 }
             }
         }
-        let sends = |ports: &[super::nodes::Port], event: bool| -> Vec<Wire> {
+        let sends = |ports: &[Port], event: bool| -> Vec<Wire> {
             ports.iter().map(|p| Wire { from: format!("{name}.{}", p.name), ty: p.ty, event }).collect()
         };
         sheet.wires.extend(sends(&node.outputs, false));
