@@ -1,11 +1,16 @@
 //! Costs of compilation: checks, a rebuild after an edit, large graphs of one kind.
 
+mod commands;
+mod edited;
 mod growth;
 
+use crate::report::met;
+use commands::{cargo, cpu_seconds, output};
+use edited::Edited;
 use std::{
     env, fs,
     path::{Path, PathBuf},
-    process::{Command, ExitCode, Stdio},
+    process::{Command, ExitCode},
     time::{Duration, Instant},
 };
 
@@ -66,55 +71,6 @@ fn rebuild(root: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// A file with a change, which is undone when the value is dropped.
-struct Edited {
-    path: PathBuf,
-    original: String,
-}
-
-impl Edited {
-    fn new(path: PathBuf, edit: impl Fn(&str) -> String) -> Result<Self, String> {
-        let failed = |e| format!("cannot edit `{}`: {e}", path.display());
-        let original = fs::read_to_string(&path).map_err(failed)?;
-        fs::write(&path, edit(&original)).map_err(failed)?;
-        Ok(Self { path, original })
-    }
-}
-
-impl Drop for Edited {
-    fn drop(&mut self) {
-        if let Err(e) = fs::write(&self.path, &self.original) {
-            eprintln!("error: cannot restore `{}`: {e}", self.path.display());
-        }
-    }
-}
-
-/// User and system time in s of all children that have ended (Linux).
-fn cpu_seconds() -> Result<f64, String> {
-    const TICKS_PER_SECOND: f64 = 100.0;
-    let stat = fs::read_to_string("/proc/self/stat").map_err(|e| format!("CPU time needs Linux: {e}"))?;
-    // Fields 16 and 17; the name in field 2 may contain blanks.
-    let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
-    let ticks: f64 = fields.get(13..15).unwrap_or_default().iter().filter_map(|f| f.parse::<f64>().ok()).sum();
-    Ok(ticks / TICKS_PER_SECOND)
-}
-
 fn graph(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("graphs").join(name)
-}
-
-fn cargo(root: &Path, arguments: &[&str]) -> Result<(), String> {
-    output(Command::new(env!("CARGO")).args(arguments).current_dir(root)).map(|_| ())
-}
-
-fn output(command: &mut Command) -> Result<String, String> {
-    let output = command.stderr(Stdio::inherit()).output().map_err(|e| format!("cannot run {command:?}: {e}"))?;
-    if !output.status.success() {
-        return Err(format!("{command:?} failed"));
-    }
-    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
-}
-
-fn met(yes: bool) -> &'static str {
-    if yes { "met" } else { "missed" }
 }

@@ -4,11 +4,13 @@
 mod cost;
 mod plot;
 mod program;
+mod row;
 mod table;
 
 use crate::measure::{Round, median, ticks_in, timed};
 use apex_bench::{CASES, Run, graphs::stamped, tworegion};
 use program::Program;
+use row::{Other, Row};
 use std::{
     fs,
     io::{self, IsTerminal},
@@ -42,24 +44,6 @@ struct Graph {
     hand: Run,
     apex: Option<Run>,
     stamped: Option<Run>,
-}
-
-/// Results of a graph.
-struct Row {
-    graph: &'static str,
-    /// Nanoseconds per tick by hand, median.
-    hand_ns: f64,
-    /// Results of all other participants, the fastest first.
-    others: Vec<Other>,
-}
-
-/// Result of a participant.
-struct Other {
-    name: String,
-    /// Ratio to the time of the hand-written program, median of the rounds.
-    ratio: f64,
-    /// `true` if its checksum always equals that of the hand-written program.
-    equal: bool,
 }
 
 /// Measures and prints all comparisons.

@@ -97,6 +97,11 @@ impl Report {
     }
 }
 
+/// Word for a goal that is met, or not.
+pub const fn met(is_met: bool) -> &'static str {
+    if is_met { "met" } else { "missed" }
+}
+
 fn goal(m: &Measurement) -> String {
     m.goal.map_or_else(|| "—".to_owned(), |goal| format!("{goal:.2}"))
 }
@@ -106,8 +111,7 @@ fn verdicts(m: &Measurement) -> [&'static str; 2] {
         if m.equal { "equal" } else { "DIFFERENT" },
         match m.goal {
             None => "",
-            Some(_) if m.meets_goal() => "met",
-            Some(_) => "missed",
+            Some(_) => met(m.meets_goal()),
         },
     ]
 }

@@ -1,6 +1,10 @@
 //! Costs of large graphs of one kind for rustc: lines of generated code, and CPU time of a release build.
 
-use super::{Edited, cargo, cpu_seconds, met, output};
+use super::{
+    commands::{cargo, cpu_seconds, output},
+    edited::Edited,
+};
+use crate::report::met;
 use std::{fmt::Write as _, path::Path, process::Command};
 
 /// Numbers of nodes.

@@ -1,6 +1,6 @@
 //! Picture of the ratios: a row for each graph, a dot for each participant, on a logarithmic axis.
 
-use super::{Row, table::is_apex};
+use super::row::Row;
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 860.0;
@@ -52,7 +52,7 @@ pub fn svg(rows: &[Row]) -> String {
 fn names(rows: &[Row]) -> Vec<&str> {
     let mut names: Vec<&str> = vec!["apex"];
     let all = || rows.iter().flat_map(|row| &row.others);
-    let apex = all().filter(|other| other.name.starts_with("apex") && !is_apex(other));
+    let apex = all().filter(|other| other.name.starts_with("apex") && !other.is_apex());
     for other in apex.chain(all()) {
         if index(&names, &other.name).is_none() {
             names.push(&other.name);

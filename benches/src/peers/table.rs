@@ -1,8 +1,8 @@
 //! Tables of the results.
 
 use super::{
-    Other, Row,
     cost::{Both, Cost, Costs, Size},
+    row::{Other, Row},
 };
 use std::fmt::Write as _;
 
@@ -30,7 +30,7 @@ pub fn markdown(rows: &[Row], costs: &Costs, missing: &[String]) -> String {
     let mut text = "| graph | hand, ns per tick | in times of that |\n|---|--:|---|\n".to_owned();
     for row in rows {
         let bold = |other: &Other| {
-            if is_apex(other) { format!("**{}**", entry(other)) } else { entry(other) }
+            if other.is_apex() { format!("**{}**", entry(other)) } else { entry(other) }
         };
         let others: Vec<String> = row.others.iter().map(bold).collect();
         let _ = writeln!(text, "| {} | {:.2} | {} |", row.graph, row.hand_ns, others.join(", "));
@@ -40,11 +40,6 @@ pub fn markdown(rows: &[Row], costs: &Costs, missing: &[String]) -> String {
         let _ = writeln!(text, "| {} | {} |", cost.graph, columns(cost).join(" | "));
     }
     text + "\n" + &sizes(&costs.sizes) + "\n" + &lines(missing)
-}
-
-/// `true` for the plain compiled program of Apex.
-pub fn is_apex(other: &Other) -> bool {
-    other.name == "apex"
 }
 
 fn entry(other: &Other) -> String {
