@@ -3,7 +3,6 @@
 use crate::{
     Args, Carrier, Distribution, Endpoint, Error, Kind, NO_HASH, Qos, Token,
     name::{Scope, wire_type},
-    ros::Tell,
     silence::{Ours, Watch},
     time::RosTime,
     voice::Voice,
@@ -18,6 +17,9 @@ use std::{
     thread::{self, JoinHandle},
     time::{Duration, Instant},
 };
+
+/// Function that is told reasons for silence, and of messages that cannot be read.
+pub type Tell = Arc<dyn Fn(&str) + Send + Sync>;
 
 /// The endpoints of a node, and what they share.
 pub struct Endpoints {

@@ -40,11 +40,14 @@ pub struct Publisher<M> {
 /// Time between two complaints about lost messages.
 const PAUSE: Duration = Duration::from_secs(10);
 
-impl<'a> Publishing<'a> {
-    pub(crate) fn new(ros: &'a Ros, topic: &str) -> Self {
-        Self { ros, topic: topic.to_owned(), qos: Qos::DEFAULT, frame: None, is_quiet: false }
+impl Ros {
+    /// Begins a publisher of a topic.
+    pub fn publish(&self, topic: &str) -> Publishing<'_> {
+        Publishing { ros: self, topic: topic.to_owned(), qos: Qos::DEFAULT, frame: None, is_quiet: false }
     }
+}
 
+impl<'a> Publishing<'a> {
     /// Offers this quality of service.
     pub fn qos(self, qos: Qos) -> Self {
         Self { qos, ..self }

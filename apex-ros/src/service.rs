@@ -3,8 +3,8 @@
 use crate::{
     Error, Kind, Payload, Qos, Ros,
     carrier::{Answer, Ask},
+    endpoint::Tell,
     ring::Ring,
-    ros::Tell,
     time::RosTime,
 };
 use apex_messages::Service;

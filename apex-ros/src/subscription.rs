@@ -2,9 +2,8 @@
 
 use crate::{
     Error, Kind, Payload, Qos, Ros,
-    endpoint::Declared,
+    endpoint::{Declared, Tell},
     ring::{Entrance, Ring},
-    ros::Tell,
     silence::Ours,
     time::RosTime,
 };
@@ -46,12 +45,16 @@ impl Subscription {
 /// Most bytes after a message, which some writers add to align it.
 const PADDING: usize = 3;
 
-impl<'a> Subscribing<'a> {
-    pub(crate) fn new(ros: &'a Ros, topic: &str) -> Self {
+impl Ros {
+    /// Begins a subscription of a topic. Names are those of ROS: `scan` is in the namespace of the node, `~/scan` below
+    /// the node, `/scan` absolute; remappings hold.
+    pub fn subscribe(&self, topic: &str) -> Subscribing<'_> {
         let (topic, qos, part) = (topic.to_owned(), Qos::DEFAULT, String::new());
-        Self { ros, topic, qos, message: None, part, frame: None, is_quiet: false }
+        Subscribing { ros: self, topic, qos, message: None, part, frame: None, is_quiet: false }
     }
+}
 
+impl Subscribing<'_> {
     /// Asks for this quality of service.
     pub fn qos(self, qos: Qos) -> Self {
         Self { qos, ..self }

@@ -2,9 +2,9 @@
 
 use crate::{
     Vendor,
-    carrier::{Inner, Writer, payload},
     listen::{Listening, Sample},
     name,
+    participant::{Participant, Writer},
     qos::policies,
     raw::Raw,
     serve::{NAME, join, split},
@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Client of a service.
 pub struct Client {
-    inner: Arc<Inner>,
+    participant: Arc<Participant>,
     /// Kind, name and type of a server.
     server: Endpoint,
     vendor: Vendor,
@@ -42,16 +42,21 @@ pub struct Client {
 struct Waiting(Mutex<HashMap<i64, (Instant, HearResponse)>>);
 
 impl Client {
-    pub fn open(inner: &Arc<Inner>, endpoint: &Endpoint, vendor: Vendor, timeout: Duration) -> Result<Self, Error> {
+    pub fn open(
+        participant: &Arc<Participant>,
+        endpoint: &Endpoint,
+        vendor: Vendor,
+        timeout: Duration,
+    ) -> Result<Self, Error> {
         let [requests, responses] = name::service(endpoint);
         let policies = policies(&endpoint.qos);
-        let (writer, reader) = (inner.writer(&requests, &policies)?, inner.reader(&responses, &policies)?);
+        let (writer, reader) = (participant.writer(&requests, &policies)?, participant.reader(&responses, &policies)?);
         let (waiting, id) = (Arc::new(Waiting::default()), reader.guid());
         let (hearing, looking, writer_id) = (Arc::clone(&waiting), Arc::clone(&waiting), guid(&writer));
         let hear = move |sample: Sample| hearing.hear(vendor, writer_id, sample);
         let listening = Listening::start(&endpoint.name, reader, hear, move || looking.forget())?;
         Ok(Self {
-            inner: Arc::clone(inner),
+            participant: Arc::clone(participant),
             server: Endpoint { kind: Kind::Server, ..endpoint.clone() },
             vendor,
             writer,
@@ -85,7 +90,7 @@ fn within(writer: GUID, number: i64) -> [u8; NAME] {
 
 impl Ask for Client {
     fn ask(&self, request: Vec<u8>, hear: HearResponse) -> Result<(), String> {
-        if !self.inner.known.is_served(&self.server, guid(&self.writer), self.reader, PATIENCE) {
+        if !self.participant.known.is_served(&self.server, guid(&self.writer), self.reader, PATIENCE) {
             // Without a server, `hear` is dropped.
             return Ok(());
         }
@@ -111,8 +116,8 @@ impl Ask for Client {
 
 impl Drop for Client {
     fn drop(&mut self) {
-        self.inner.remove(guid(&self.writer));
-        self.inner.remove(self.reader);
+        self.participant.remove(guid(&self.writer));
+        self.participant.remove(self.reader);
     }
 }
 
@@ -138,7 +143,7 @@ impl Waiting {
         };
         let found = self.all().remove(&number);
         if let Some((_, hear)) = found {
-            hear(Ok(payload(response)));
+            hear(Ok(response.into()));
         }
     }
 

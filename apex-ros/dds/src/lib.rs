@@ -9,6 +9,7 @@ mod known;
 mod listen;
 mod name;
 mod nodes;
+mod participant;
 mod qos;
 mod raw;
 mod serve;

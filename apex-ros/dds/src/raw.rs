@@ -1,5 +1,6 @@
 //! Messages as bytes: they are encoded and decoded elsewhere.
 
+use apex_ros::Payload;
 use rustdds::{
     RepresentationIdentifier,
     bytes::Bytes,
@@ -19,6 +20,12 @@ pub struct Plain;
 /// Decoder of [`Plain`].
 #[derive(Clone)]
 pub struct Whole;
+
+impl From<Raw> for Payload {
+    fn from(raw: Raw) -> Self {
+        Vec::from(raw.0).into()
+    }
+}
 
 const ENCODINGS: [RepresentationIdentifier; 2] = [RepresentationIdentifier::CDR_LE, RepresentationIdentifier::CDR_BE];
 

@@ -2,8 +2,8 @@
 
 use crate::{
     Vendor,
-    carrier::{Writer, payload},
     listen::{Listening, Reader, Sample},
+    participant::Writer,
     raw::{HEAD, Raw},
 };
 use apex_ros::{Answer, Error, HearRequest};
@@ -43,7 +43,7 @@ pub fn start(
                 None => return,
             },
         };
-        hear(payload(Raw(request)), Box::new(Asked { name, writer: back }));
+        hear(Raw(request).into(), Box::new(Asked { name, writer: back }));
     };
     Listening::start(name, reader, take, || {})
 }

@@ -6,7 +6,7 @@ use super::{
     id::Ids,
     wire::{FeedbackMessage, GetResult, GoalRequest, ResultRequest, SendGoal},
 };
-use crate::{Client, Error, Kind, Ros, graph::Graph, ros::Tell, token::Endpoint};
+use crate::{Client, Error, Kind, Ros, endpoint::Tell, graph::Graph, token::Endpoint};
 use apex_messages::{
     Action, Service,
     action_msgs::{CancelGoal, CancelGoalRequest, GoalInfo},
