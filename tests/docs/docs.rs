@@ -18,6 +18,7 @@ mod book;
 mod circles;
 mod embedding;
 mod examples;
+mod files;
 mod from;
 mod generated;
 mod language;

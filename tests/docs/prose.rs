@@ -1,10 +1,7 @@
 //! Habits of the prose in comments and pages: one test for each. A failure lists file and line.
 
-use crate::root;
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use crate::{files::names, root};
+use std::fs;
 
 /// Largest number of characters in a line of a comment or of a page; code has the width of rustfmt.
 const WIDTH: usize = 120;
@@ -30,9 +27,6 @@ const GENERATED: &str = "docs/nodes-index.md";
 const COMPARATIVES: [&str; 9] =
     ["longer", "more", "less", "better", "worse", "faster", "slower", "greater", "different"];
 
-/// Folders whose files were not written for this project, or are wrong on purpose.
-const SKIPPED: [&str; 3] = ["target", "node_modules", "tests/errors/texts"];
-
 /// Line of prose with its number. A paragraph is a list of them.
 type Line<'a> = (usize, &'a str);
 
@@ -47,33 +41,13 @@ struct File {
 
 /// All files of the repository with this extension, in the order of their names.
 fn files(extension: &str) -> Vec<File> {
-    let mut found = vec![];
-    collect(&root(), "", extension, &mut found);
-    found.sort();
+    let found = names(extension);
     assert!(found.len() > 10, "only {} files `*.{extension}` were found", found.len());
     let read = |name: String| {
         let text = fs::read_to_string(root().join(&name)).unwrap_or_else(|e| panic!("{name}: {e}"));
         File { name, text }
     };
     found.into_iter().map(read).collect()
-}
-
-/// Adds the names of the files below `folder`, whose path from the root is `path`.
-fn collect(folder: &Path, path: &str, extension: &str, found: &mut Vec<String>) {
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    entries.sort();
-    for entry in entries {
-        let Some(name) = entry.file_name().and_then(|name| name.to_str()) else { continue };
-        let below = if path.is_empty() { name.to_owned() } else { format!("{path}/{name}") };
-        if name.starts_with('.') || SKIPPED.contains(&name) || SKIPPED.contains(&below.as_str()) {
-            continue;
-        }
-        if entry.is_dir() {
-            collect(&entry, &below, extension, found);
-        } else if entry.extension().is_some_and(|is| is == extension) {
-            found.push(below);
-        }
-    }
 }
 
 /// Text of a line that is a comment as a whole, with its mark (`//`, `///` or `//!`).

@@ -11,26 +11,12 @@ pub mod dfir;
 pub mod exchange;
 pub mod machines;
 pub mod pool;
+mod ran;
 pub mod reactive;
 pub mod tasks;
 
-use std::time::{Duration, Instant};
-
-/// Result of a run.
-#[derive(Clone, Copy)]
-pub struct Ran {
-    /// Time of all ticks, without initialization.
-    pub time: Duration,
-    /// Final checksum of the sink.
-    pub checksum: u64,
-}
-
-/// Time of `ticks`.
-pub(crate) fn timed(ticks: impl FnOnce()) -> Duration {
-    let start = Instant::now();
-    ticks();
-    start.elapsed()
-}
+pub use ran::Ran;
+pub(crate) use ran::timed;
 
 /// A graph in a framework.
 pub struct Peer {
