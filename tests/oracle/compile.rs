@@ -49,33 +49,33 @@ fn time(reaction: i64) -> Time {
     Time::from_nanos(reaction * 1_000_000)
 }
 
-#[allow(dead_code, reason = "a part may have no graph")]
 fn observe<P: Program>(new: fn() -> P, how: &str) {
     match how {
-        "again" => repeat(new),
-        "late" => hurry(new),
-        _ => observe_once(new(), how == "threads"),
+        WAYS
+        _ => unreachable!("it was not asked for"),
     }
 }
 
-#[allow(dead_code, reason = "a part may have no graph")]
-fn observe_once<P: Program>(mut program: P, threads: bool) {
+fn in_turn<P: Program>(new: fn() -> P) {
+    once(new(), |program, now| drop(program.react_with(now, &mut Notes)));
+}
+
+fn on_threads<P: Program>(new: fn() -> P) {
+    once(new(), |program, now| drop(apex_rt::threads::react_on_threads(program, now, |_| Notes)));
+}
+
+fn once<P: Program>(mut program: P, react: impl Fn(&mut P, Time)) {
     for reaction in 0..REACTIONS {
         let now = time(reaction);
         note(format_args!("R {}", now.as_nanos()));
-        if threads {
-            apex_rt::threads::react_on_threads(&mut program, now, |_| Notes);
-        } else {
-            program.react_with(now, &mut Notes);
-        }
+        react(&mut program, now);
         note(format_args!("E"));
     }
     println!("{}# end", take_notes());
 }
 
 /// Records a run and replays it: the same nodes fire, the same slots are served.
-#[allow(dead_code, reason = "a part may have no graph")]
-fn repeat<P: Program>(new: fn() -> P) {
+fn again<P: Program>(new: fn() -> P) {
     let steps = || take_notes().lines().filter(|line| !line.starts_with('T')).map(str::to_owned).collect::<Vec<_>>();
     let path = std::env::temp_dir().join(format!("apex-oracle-{}-{}.mcap", std::process::id(), P::INFO.name));
     let mut tap = Tap::Record(Recorder::to_file::<P>(&path, WhenFull::Wait).expect("a new file"));
@@ -99,16 +99,15 @@ fn repeat<P: Program>(new: fn() -> P) {
 }
 
 /// Runs a program in time, and with reactions that are late.
-#[allow(dead_code, reason = "a part may have no graph")]
-fn hurry<P: Program>(new: fn() -> P) {
+fn late<P: Program>(new: fn() -> P) {
     let steps = |reactions: &[i64]| {
         let mut program = new();
         reactions.iter().for_each(|reaction| drop(program.react_with(time(*reaction), &mut Notes)));
         take_notes().lines().map(str::to_owned).collect::<Vec<_>>()
     };
     let in_time = steps(&(0..REACTIONS).collect::<Vec<_>>());
-    for late in [&[0, REACTIONS - 1][..], &[0, 2, 3, 7, REACTIONS - 1]] {
-        compare(&in_time, &steps(late));
+    for reactions in [&[0, REACTIONS - 1][..], &[0, 2, 3, 7, REACTIONS - 1]] {
+        compare(&in_time, &steps(reactions));
     }
     println!("# end");
 }
@@ -123,7 +122,7 @@ fn compare(first: &[String], second: &[String]) {
 
 fn main() {
     let how = std::env::args().nth(1).unwrap_or_default();
-    if how == "threads" {
+    if how == "on_threads" {
         run_unevenly();
     }
     RUNS
@@ -143,9 +142,23 @@ pub enum How {
     Late,
 }
 
+impl How {
+    /// Name of the function that runs a program so.
+    fn function(self) -> &'static str {
+        match self {
+            How::InTurn => "in_turn",
+            How::OnThreads => "on_threads",
+            How::Again => "again",
+            How::Late => "late",
+        }
+    }
+}
+
 /// Programs that are compiled together.
 struct Part<'a> {
     programs: &'a [Program],
+    /// What they are compiled for: rustc makes code of each program for each way.
+    ways: &'a [How],
     file: PathBuf,
 }
 
@@ -161,7 +174,7 @@ pub fn run(folder: &str, programs: &[Program], ways: &[How]) -> Result<Vec<Vec<S
     let parts = thread::available_parallelism().map_or(1, usize::from);
     let size = programs.len().div_ceil(parts).max(LEAST);
     let run = |(number, programs): (usize, &[Program])| {
-        let part = Part { programs, file: folder.join(format!("part{number}")) };
+        let part = Part { programs, ways, file: folder.join(format!("part{number}")) };
         part.compile(&LIBRARIES)?;
         ways.iter().map(|how| part.run(*how)).collect::<Result<Vec<_>, String>>()
     };
@@ -188,8 +201,10 @@ impl Part<'_> {
             ));
             runs.push_str(&format!("observe({module}::{name}::new, &how);\n    "));
         }
+        let ways: String =
+            self.ways.iter().map(|how| how.function()).map(|f| format!("{f:?} => {f}(new),\n        ")).collect();
         let source = self.file.with_extension("rs");
-        write(&source, &MAIN.replace("GRAPHS", &graphs).replace("RUNS", &runs))?;
+        write(&source, &MAIN.replace("GRAPHS", &graphs).replace("WAYS", &ways).replace("RUNS", &runs))?;
         // The graphs have access to the crates of this test.
         let mut rustc = libraries.rustc(Path::new(env!("CARGO_MANIFEST_DIR")), "oracle");
         rustc.args(["-C", "codegen-units=1", "--cap-lints", "allow", "-o"]).args([&self.file, &source]);
@@ -202,14 +217,10 @@ impl Part<'_> {
 
     /// The record of each program.
     fn run(&self, how: How) -> Result<Vec<String>, String> {
-        let mut command = Command::new(&self.file);
-        command.args(match how {
-            How::InTurn => None,
-            How::OnThreads => Some("threads"),
-            How::Again => Some("again"),
-            How::Late => Some("late"),
-        });
-        let ran = command.output().map_err(|e| format!("cannot run the program: {e}"))?;
+        let ran = Command::new(&self.file)
+            .arg(how.function())
+            .output()
+            .map_err(|e| format!("cannot run the program: {e}"))?;
         let text = String::from_utf8_lossy(&ran.stdout);
         let records: Vec<String> = text.split_inclusive("# end\n").map(|t| t.replace("# end\n", "")).collect();
         if ran.status.success() && records.len() == self.programs.len() {
