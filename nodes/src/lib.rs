@@ -1,11 +1,11 @@
 //! Node library of Apex, with one module per field.
 //!
-//! `action`, `flow`, `frames`, `lifecycle`, `math`, `persons`, `scan` and the inference of `learn` need neither the
-//! standard library nor a heap. The feature `std` (on by default) adds `io` (readers, writers and pictures), `map`
-//! (grid maps), `cloud` (point clouds of depth cameras), and path planning and following in `nav`. Further features add
-//! `image` (camera images), `learn` (training, and networks), `optim` (optimization of parameters), `slam`
-//! (localization and mapping), `localize` (localization on a plan), `dxf` (plans from DXF files) and `urdf` (models of
-//! robots).
+//! `action`, `flow`, `frames`, `lifecycle`, `math`, `persons`, `scan`, the inference of `learn` and the packets of
+//! `lidar` need neither the standard library nor a heap. The feature `std` (on by default) adds `io` (readers, writers
+//! and pictures), `map` (grid maps), `cloud` (point clouds of depth cameras and of scanners with rings), the turns of
+//! `lidar`, and path planning and following in `nav`. Further features add `image` (camera images), `learn` (training,
+//! and networks), `optim` (optimization of parameters), `slam` (localization and mapping), `localize` (localization on a
+//! plan), `dxf` (plans from DXF files) and `urdf` (models of robots).
 //!
 //! Units are SI (metres, radians, seconds). Axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.
@@ -21,6 +21,7 @@ pub mod image;
 #[cfg(feature = "std")]
 pub mod io;
 pub mod learn;
+pub mod lidar;
 pub mod lifecycle;
 #[cfg(feature = "localize")]
 pub mod localize;

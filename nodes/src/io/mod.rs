@@ -6,6 +6,7 @@
 
 #[cfg(feature = "record")]
 mod bag;
+mod capture;
 mod carmen;
 mod csv;
 #[cfg(feature = "dxf")]
@@ -13,10 +14,12 @@ mod dxf;
 mod error;
 #[cfg(feature = "figure")]
 mod figure;
+mod kitti;
 mod lines;
 mod log_entry;
 mod lzf;
 mod map_file;
+mod pcap;
 mod pcd;
 #[cfg(feature = "figure")]
 mod picture;
@@ -30,10 +33,12 @@ mod spline;
 
 #[cfg(feature = "record")]
 pub use bag::{BagError, BagTopic};
+pub use capture::VelodyneCapture;
 pub use csv::{CsvLog, CsvReader};
 pub use error::ReadError;
 #[cfg(feature = "figure")]
 pub use figure::{ScanFigure, WriteError};
+pub use kitti::read_kitti;
 #[cfg(feature = "slam")]
 pub(crate) use lines::{Lines, shown};
 pub use log_entry::LogEntry;
