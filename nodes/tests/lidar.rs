@@ -2,6 +2,7 @@
 //!
 //! The files are those of `../shared/data/lidar3d`. Without them, the tests are skipped; with `CI=true` they fail.
 
+use apex_macros::graph;
 use apex_nodes::{
     cloud::{CloudPoint, Label, RingClassifier, RingCloud},
     io::{BagTopic, read_cloud, read_kitti},
@@ -13,7 +14,26 @@ use std::{
     f32::consts::PI,
     fs,
     path::{Path, PathBuf},
+    time::Duration,
 };
+
+graph! {
+    use apex_nodes::{cloud::RingCloud, io::{BagTopic, VelodyneCapture}, lidar::{VelodynePackets, VelodyneTurns}};
+
+    /// Turns from a recording, and from a capture of the network with the same packets.
+    graph Play {
+        out   recorded: RingCloud;
+        out   captured: RingCloud;
+
+        node bag      = BagTopic<VelodynePackets>(file = "", topic = "/velodyne_packets") every 1ms;
+        node capture  = VelodyneCapture(file = "") every 1ms;
+        node of_bag   = VelodyneTurns();
+        node of_other = VelodyneTurns();
+
+        bag     -> of_bag -> recorded;
+        capture -> of_other -> captured;
+    }
+}
 
 /// Distance below which the other program drops points, in m, and ends of its turn, in degrees.
 const NEAREST: f32 = 0.5;
@@ -217,6 +237,48 @@ fn points_of_a_turn_are_those_of_another_program() {
     // The reader of the project reads the same file.
     let cloud = read_cloud(&file).expect("a cloud").cloud;
     assert!(cloud.points().iter().zip(&theirs).all(|(a, b)| [a.x, a.y, a.z] == b.place));
+}
+
+/// Capture of the network with packets at their times.
+fn capture(packets: &[VelodynePackets]) -> Vec<u8> {
+    let words = |words: &[u32]| words.iter().flat_map(|word| word.to_be_bytes()).collect::<Vec<u8>>();
+    let mut bytes = words(&[0xa1b2_3c4d, 0x0002_0004, 0, 0, 65_535, 1]);
+    for packet in packets.iter().flat_map(|token| &token.packets) {
+        let (time, size) = (packet.stamp.as_nanos() + 1_000_000_000, packet.bytes().len() as u16);
+        let frame = u32::from(size) + 42;
+        bytes.extend(words(&[(time / 1_000_000_000) as u32, (time % 1_000_000_000) as u32, frame, frame]));
+        bytes.extend([[0xff; 12].as_slice(), &[0x08, 0x00, 0x45, 0], &(size + 28).to_be_bytes()].concat());
+        bytes.extend([0, 1, 0x40, 0, 64, 17, 0, 0, 192, 168, 1, 201, 255, 255, 255, 255, 9, 64, 9, 64]);
+        bytes.extend([&(size + 8).to_be_bytes(), [0, 0].as_slice(), packet.bytes()].concat());
+    }
+    bytes
+}
+
+#[test]
+fn a_program_runs_on_a_recording_and_on_a_capture() {
+    let (Some(packets), Some(recording)) = (recorded(), file("1673400471837873222_0.db3")) else { return };
+    let path = std::env::temp_dir().join(format!("apex-lidar-{}.pcap", std::process::id()));
+    fs::write(&path, capture(&packets)).expect("a temporary file");
+    let mut program = Play::new();
+    for (name, file) in [("bag.file", &recording), ("capture.file", &path)] {
+        program.set_param(name, file.to_string_lossy().into_owned()).expect("a parameter");
+    }
+    let (mut recorded, mut captured) = (vec![], vec![]);
+    for millis in 0..600 {
+        program.react(Time::from_millis(millis));
+        let out = program.outputs();
+        recorded.extend(out.recorded.clone());
+        captured.extend(out.captured.clone());
+    }
+    let _ = fs::remove_file(&path);
+    assert_eq!((recorded.len(), captured.len()), (3, 3));
+    for (a, b) in recorded.iter().zip(&captured) {
+        let same = |a: &CloudPoint, b: &CloudPoint| a == b || !a.is_measured() && !b.is_measured();
+        assert!(a.points().len() == b.points().len() && a.points().iter().zip(b.points()).all(|(a, b)| same(a, b)));
+    }
+    // Times of the recording count from its first message, those of the capture from its first packet.
+    let apart: Vec<Duration> = recorded.iter().zip(&captured).map(|(a, b)| b.stamp.since(a.stamp)).collect();
+    assert!(apart.iter().all(|time| *time == apart[0]), "{apart:?}");
 }
 
 /// Labels of the points of a turn, of a scanner at a height above the ground, in m, that stands.

@@ -12,6 +12,7 @@ use apex_messages::{
 use apex_nodes::{
     frames::{Pose3, Transforms},
     io::BagTopic,
+    lidar::{PACKET, VelodynePacket, VelodynePackets},
     nav::Twist,
     scan::{Pose2, Scan},
 };
@@ -330,4 +331,27 @@ fn a_transform_that_is_not_there_is_missed() {
     // Each transform is in the frame of its own header.
     assert!(play_in::<Pose2>("odom", file, "/tf: odom -> base").0[0].is_ok());
     assert!(play_in::<Pose2>("map", file, "/tf: odom -> base").0[0].is_err());
+}
+
+#[test]
+fn packets_of_a_scanner_are_played() {
+    let mut bytes = vec![0; PACKET];
+    bytes.chunks_exact_mut(100).for_each(|block| block[..2].copy_from_slice(&[0xff, 0xee]));
+    bytes[PACKET - 2..].copy_from_slice(&[0x37, 0x22]);
+    let folder = Folder::new();
+    let path = folder.file("packets.mcap");
+    let mut writer = WriteOptions::new().create(fs::File::create(&path).expect("room")).expect("a file");
+    let definition = VelodynePackets::DEFINITION.as_bytes();
+    let schema = writer.add_schema("velodyne_msgs/msg/VelodyneScan", "ros2msg", definition).expect("room");
+    let channel_id = writer.add_channel(schema, "/packets", "cdr", &BTreeMap::new()).expect("room");
+    for millis in [0, 100] {
+        let time = BEGIN + millis * 1_000_000;
+        let header = MessageHeader { channel_id, sequence: 0, log_time: time, publish_time: time };
+        let packet = VelodynePacket::new(Time::from_nanos(time as i64), &bytes).expect("a packet");
+        writer.write_to_known_channel(&header, &VelodynePackets { packets: vec![packet; 3] }.to_bytes()).expect("room");
+    }
+    writer.finish().expect("room");
+    let (sent, ended) = play::<VelodynePackets>(path.to_str().expect("a readable path"), "/packets");
+    let stamps: Vec<Time> = sent.into_iter().map(|token| token.expect("packets").stamp()).collect();
+    assert_eq!((stamps, ended), (vec![Time::ZERO, Time::from_millis(100)], true));
 }

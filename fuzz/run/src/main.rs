@@ -23,7 +23,7 @@ use worker::Target;
 pub type Make = fn() -> Box<dyn Target>;
 
 /// All targets, by name.
-pub const TARGETS: [(&str, Make); 14] = [
+pub const TARGETS: [(&str, Make); 16] = [
     ("texts", texts::texts),
     ("catalog", catalog::catalog),
     ("recordings", recordings::recordings),
@@ -33,6 +33,8 @@ pub const TARGETS: [(&str, Make); 14] = [
     ("scans", readers::scans),
     ("bags", bags::bags),
     ("clouds", readers::clouds),
+    ("packets", readers::packets),
+    ("captures", readers::captures),
     ("maps", readers::maps),
     ("plans", readers::plans),
     ("models", readers::models),

@@ -7,15 +7,19 @@ use crate::{
 use apex_macros::graph;
 use apex_nodes::{
     cloud::PointCloud,
-    io::{CsvReader, LogGeometry, PlanOptions, ScanLogReader, read_cloud, read_map, read_plan},
+    io::{
+        CsvReader, LogGeometry, PlanOptions, ScanLogReader, VelodyneCapture, read_cloud, read_kitti, read_map,
+        read_plan,
+    },
     learn::{Mlp, Model},
+    lidar::{PACKET, VelodynePacket, VelodynePackets, VelodyneTurns},
     map::{Grid, Occupancy, Raster},
     math::Random,
     nav,
     scan::{Point2, Pose2, Scan},
     slam::PoseGraph,
 };
-use apex_rt::{__codec, Time, params, record::Codec};
+use apex_rt::{__codec, Construct, Ctx, Out, Time, event, params, record::Codec};
 use apex_tune::{Axis, Follower, Goal, Journal, Method, Objective, Parameter, Scale, Study, Summary};
 use std::{env, fmt::Write as _, fs, path::PathBuf, process};
 
@@ -99,6 +103,7 @@ pub fn messages() -> Box<dyn Target> {
         written(__codec!(Grid<Occupancy>), &Grid::new(raster, Occupancy::Free).expect("small")),
         written(__codec!(Grid<f32>), &Grid::new(raster, 0.5).expect("small")),
         written(__codec!(PointCloud), &cloud),
+        written(__codec!(VelodynePackets), &turning(3)),
         written(__codec!(String), &"a text".to_owned()),
     ];
     reader(texts, &[], |input| {
@@ -108,6 +113,7 @@ pub fn messages() -> Box<dyn Target> {
         again(__codec!(Grid<Occupancy>), input);
         again(__codec!(Grid<f32>), input);
         again(__codec!(PointCloud), input);
+        again(__codec!(VelodynePackets), input);
         again(__codec!(String), input);
     })
 }
@@ -190,6 +196,63 @@ pub fn clouds() -> Box<dyn Target> {
         if let Ok(read) = read_cloud(&file) {
             let (width, height) = read.cloud.size();
             assert_eq!(read.cloud.points().len(), width * height);
+        }
+        let _ = fs::remove_file(file);
+    })
+}
+
+/// Packets of a scanner that turns.
+fn turning(count: usize) -> VelodynePackets {
+    let packet = |number: usize| {
+        let mut bytes = vec![number as u8; PACKET];
+        for block in 0..12 {
+            let azimuth = (480 * number + 40 * block) as u16 % 36_000;
+            bytes[100 * block..][..4].copy_from_slice(&[0xff, 0xee, azimuth as u8, (azimuth >> 8) as u8]);
+        }
+        bytes[1200..].copy_from_slice(&[0, number as u8, 0, 0, [0x37, 0x38, 0x39][number % 3], 0x22]);
+        VelodynePacket::new(Time::from_millis(number as i64), &bytes).expect("a packet")
+    };
+    VelodynePackets { packets: (0..count).map(packet).collect() }
+}
+
+/// The target with packets of a scanner: many of them in sequence, without what tells where they begin.
+pub fn packets() -> Box<dyn Target> {
+    let bytes: Vec<u8> = turning(200).packets.iter().flat_map(|packet| *packet.bytes()).collect();
+    reader(vec![bytes], &[], |input| {
+        let packets = input.chunks(PACKET).filter_map(|bytes| VelodynePacket::new(Time::ZERO, bytes).ok()).collect();
+        let mut node = VelodyneTurns::construct((1.0, input.len() % 2 == 0, 0.5));
+        let packets = VelodynePackets { packets };
+        for token in [Some(&packets), None, Some(&packets), None] {
+            let mut out = Out::new();
+            node.process(token, &mut out);
+            if let Some(turn) = out.get() {
+                assert_eq!(turn.points().len(), turn.rings() * turn.columns());
+            }
+        }
+    })
+}
+
+/// The target with captures of the network, and with clouds of KITTI.
+pub fn captures() -> Box<dyn Target> {
+    let number = |n: u32| n.to_le_bytes();
+    let mut capture: Vec<u8> = [0xa1b2_c3d4, 0x0004_0002, 0, 0, 65_535, 1].into_iter().flat_map(number).collect();
+    for packet in turning(4).packets {
+        let length = PACKET as u16;
+        capture.extend([7, packet.stamp.as_nanos() as u32 / 1000, 42 + PACKET as u32, 0].into_iter().flat_map(number));
+        capture.extend([[0xff; 12].as_slice(), &[0x08, 0x00, 0x45, 0], &(length + 28).to_be_bytes()].concat());
+        capture.extend([0, 1, 0x40, 0, 64, 17, 0, 0, 192, 168, 1, 201, 255, 255, 255, 255]);
+        capture.extend([9, 64, 9, 64]);
+        capture.extend((length + 8).to_be_bytes());
+        capture.extend([0, 0]);
+        capture.extend(packet.bytes());
+    }
+    reader(vec![capture, vec![64; 160]], &[], |input| {
+        let file = file("pcap", input);
+        let _ = read_kitti(&file);
+        let mut node = VelodyneCapture::construct((file.to_string_lossy().into_owned(), 2368, input.len() % 2 == 0));
+        for second in 0..20 {
+            let mut out = Out::new();
+            let _ = node.process(&Ctx::new(Time::from_secs(100 * second)), &mut out, event(&mut None));
         }
         let _ = fs::remove_file(file);
     })
