@@ -147,6 +147,12 @@ impl VelodynePacket {
         u64::from(micros) * 1000
     }
 
+    /// Time from its first firing to the end of the last one, in ns.
+    pub const fn duration(&self) -> u64 {
+        let blocks = if self.is_dual() { 2 } else { 1 };
+        (BLOCKS / blocks * FIRINGS) as u64 * FIRING as u64
+    }
+
     /// Returns `true` if it has two returns of each laser.
     pub const fn is_dual(&self) -> bool {
         self.bytes[PACKET - 2] == DUAL
@@ -204,14 +210,6 @@ impl VelodynePacket {
     /// First angle that is not a gap; 0 if there is none.
     fn first_step(&self, blocks: usize) -> u16 {
         (0..BLOCKS).step_by(blocks).find_map(|block| self.step(block, blocks)).unwrap_or(0)
-    }
-}
-
-impl VelodynePacket {
-    /// Time from the first firing of a packet to the end of the last one, in ns.
-    pub(super) fn duration(&self) -> u64 {
-        let firings = BLOCKS * FIRINGS / if self.is_dual() { 2 } else { 1 };
-        firings as u64 * u64::from(FIRING)
     }
 }
 
