@@ -45,7 +45,7 @@ struct Player {
     begun: Time,
     /// Time of the first packet, in ns.
     start: Option<u64>,
-    /// What comes next: a packet, or a datagram that is not one.
+    /// Next packet, or the error of a datagram that is not one.
     next: Option<Result<VelodynePacket, ReadError>>,
 }
 

@@ -10,8 +10,8 @@ const POINT: usize = 16;
 /// little-endian `f32`), as a cloud with a single row.
 ///
 /// The points are in the frame of the scanner, an HDL-64E, with the axes of a robot, and corrected for its motion. They
-/// are not those of a turn with rings: the file does not say which laser and which firing a point belongs to, and leaves
-/// out directions without a measurement.
+/// are not those of a turn with rings: the file does not say which laser and which firing a point belongs to, and
+/// leaves out directions without a measurement.
 ///
 /// # Errors
 /// If the file cannot be read, has no points, more than [`MAX_POINTS`], or a part of one.

@@ -4,6 +4,7 @@ use super::ReadError;
 use std::{
     fs::File,
     io::{BufReader, ErrorKind, Read},
+    ops::Range,
     path::{Path, PathBuf},
 };
 
@@ -79,9 +80,7 @@ impl Capture {
             }
             if let Some(content) = datagram(&self.frame, port) {
                 let time = u64::from(seconds) * 1_000_000_000 + u64::from(fraction) * self.fraction;
-                // Once more, as the borrow of a return in a loop would last.
-                let start = self.frame.len() - content.1;
-                return Ok(Some((time, &self.frame[start..start + content.0])));
+                return Ok(self.frame.get(content).map(|content| (time, content)));
             }
         }
     }
@@ -137,9 +136,9 @@ fn kind(head: &[u8; 24]) -> Result<(bool, u64), &'static str> {
     }
 }
 
-/// Length of the content of a UDP datagram to a port in an Ethernet frame, and number of bytes from its beginning to
-/// the end of the frame. `None` for other frames, and for parts of datagrams.
-fn datagram(frame: &[u8], port: u16) -> Option<(usize, usize)> {
+/// Place of the content of a UDP datagram to a port in an Ethernet frame. `None` for other frames, and for parts of
+/// datagrams.
+fn datagram(frame: &[u8], port: u16) -> Option<Range<usize>> {
     let mut rest = frame.get(12..)?;
     while TAGGED.iter().any(|tag| rest.starts_with(tag)) {
         rest = rest.get(4..)?;
@@ -156,7 +155,8 @@ fn datagram(frame: &[u8], port: u16) -> Option<(usize, usize)> {
     let [_, _, to_high, to_low, high, low, _, _, content @ ..] = udp else { return None };
     let length = usize::from(u16::from_be_bytes([*high, *low])).checked_sub(8)?;
     let is_wanted = u16::from_be_bytes([*to_high, *to_low]) == port && length <= content.len();
-    is_wanted.then_some((length, content.len()))
+    let start = frame.len() - content.len();
+    is_wanted.then_some(start..start + length)
 }
 
 #[cfg(test)]

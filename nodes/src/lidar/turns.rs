@@ -28,7 +28,7 @@ const HOUR: u64 = 3_600_000_000_000;
 /// Times within a turn are by the clock of the scanner. The stamp of a turn, which is that of its end, is by the time
 /// at which its last packet came.
 ///
-/// Cost: O(n) for n points; about 1 ms for 28,800. Allocates for the first turns.
+/// Cost: O(n) for n points. Allocates for the first turns.
 #[node]
 #[derive(Debug)]
 pub struct VelodyneTurns {
