@@ -9,6 +9,8 @@ use std::{collections::VecDeque, vec::Vec};
 
 /// Maximum number of columns of a turn: a VLP-16 has 3617 at five turns in a second, its slowest speed.
 const MAX_COLUMNS: usize = 4096;
+/// Minimum number of columns of a turn: 904 at 20 turns in a second, its highest speed.
+const MIN_COLUMNS: usize = 800;
 /// Maximum number of turns that wait.
 const MAX_READY: usize = 16;
 /// Time after which the clock of the scanner begins again, in ns.
@@ -22,8 +24,9 @@ const HOUR: u64 = 3_600_000_000_000;
 /// column that is lost with its packet has no measurements.
 ///
 /// Turns are cut in the direction `cut`. The turn in which packets begin to come is left out, as it is not whole, and
-/// so is one with more than 4096 columns, or with a gap as long as these. A firing sends one turn at most; another one
-/// in the same packets follows in the next firing, also in one without packets.
+/// so is one with fewer than 800 or more than 4096 columns, which no speed of the scanner gives, or with packets that
+/// are not in the order of their times. A firing sends one turn at most; another one in the same packets follows in the
+/// next firing, also in one without packets.
 ///
 /// Times within a turn are by the clock of the scanner. The stamp of a turn, which is that of its end, is by the time
 /// at which its last packet came.
@@ -117,7 +120,7 @@ impl VelodyneTurns {
 
     /// Ends a turn at a time, which is also given by the clock of the scanner.
     fn end(&mut self, stamp: Time, nanos: u64) {
-        if self.is_whole {
+        if self.is_whole && self.turn.columns() >= MIN_COLUMNS {
             self.turn.stamp = stamp;
             let times = self.nanos.iter().map(|time| -(since(*time, nanos) as f32 * 1e-9));
             self.turn.times_mut().iter_mut().zip(times).for_each(|(out, time)| *out = time);
@@ -283,6 +286,6 @@ mod tests {
         };
         let all = VelodynePackets { packets: (0..2000).map(wild).collect() };
         node.process(Some(&all), &mut Out::new());
-        assert!(node.ready.len() <= MAX_READY);
+        assert!(node.ready.is_empty(), "no turn has two columns");
     }
 }
