@@ -157,7 +157,7 @@ impl How {
 /// Programs that are compiled together.
 struct Part<'a> {
     programs: &'a [Program],
-    /// What they are compiled for: rustc makes code of each program for each way.
+    /// Ways in which they are run: rustc makes code of each program for each of them.
     ways: &'a [How],
     file: PathBuf,
 }
