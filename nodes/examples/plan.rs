@@ -73,7 +73,7 @@ fn parse(words: &[String]) -> Result<Request, Failure> {
     let [map, resolution, start, goal, picture] = words else { return Err(Failure::command(USAGE)) };
     let number = |word: &str| {
         let value = word.parse::<f32>().ok().filter(|value| value.is_finite());
-        value.ok_or_else(|| Failure::command(format!("`{word}` is no number\n{USAGE}")))
+        value.ok_or_else(|| Failure::command(format!("`{word}` is not a number\n{USAGE}")))
     };
     let pose = |word: &str| {
         let (x, y) =

@@ -65,23 +65,20 @@ impl VelodyneCapture {
         if is_empty {
             packets.clear();
         }
-        let is_over = match result {
-            Ok(is_over) => is_over && is_empty,
+        match result {
             Err(error) => {
                 self.state = State::Ended;
-                return Err(error);
+                Err(error)
             }
-        };
-        if is_over {
-            let has_packets = player.start.is_some();
-            let none = player.capture.error(&format!("it has no data packet of a VLP-16 to port {}", self.port));
-            self.state = if self.repeat && has_packets { State::Closed } else { State::Ended };
-            done.emit(());
-            return if has_packets { Ok(()) } else { Err(none) };
-        }
-        match player.next.take_if(|next| next.is_err() && is_empty) {
-            Some(Err(error)) => Err(error),
-            _ => Ok(()),
+            // The end, or an error, has a firing of its own.
+            Ok(_) if !is_empty => Ok(()),
+            Ok(true) => {
+                let end = player.end(self.port);
+                self.state = if self.repeat && end.is_ok() { State::Closed } else { State::Ended };
+                done.emit(());
+                end
+            }
+            Ok(false) => player.next.take_if(|next| next.is_err()).map_or(Ok(()), |next| next.map(drop)),
         }
     }
 }
@@ -105,6 +102,12 @@ impl Player {
             self.next = None;
         }
         Ok(false)
+    }
+
+    /// Returns an error if the capture had no packet.
+    fn end(&self, port: u16) -> Result<(), ReadError> {
+        let none = || self.capture.error(&format!("it has no data packet of a VLP-16 to port {port}"));
+        self.start.map(drop).ok_or_else(none)
     }
 
     fn read_next(&mut self, port: u16) -> Result<Option<Result<VelodynePacket, ReadError>>, ReadError> {

@@ -41,7 +41,7 @@ impl CsvReader {
                 Err(_) if cell.is_empty() => row.push(f64::NAN),
                 Err(_) => {
                     let cell = shown(cell);
-                    return Err(self.lines.error(format_args!("column {}: `{cell}` is no number", column + 1)));
+                    return Err(self.lines.error(format_args!("column {}: `{cell}` is not a number", column + 1)));
                 }
             }
         }
@@ -134,7 +134,7 @@ mod tests {
         let mut row = Vec::new();
         assert_eq!(reader.read(&mut row), Ok(true));
         let error = reader.read(&mut row).expect_err("a bad cell");
-        assert_eq!((error.line, error.message.as_str()), (Some(2), "column 2: `x` is no number"));
+        assert_eq!((error.line, error.message.as_str()), (Some(2), "column 2: `x` is not a number"));
         assert_eq!((reader.read(&mut row), row.as_slice()), (Ok(true), &[5.0, 6.0][..]));
         assert_eq!(reader.read(&mut row), Ok(false));
     }

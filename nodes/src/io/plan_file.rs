@@ -68,12 +68,12 @@ mod tests {
         for (name, text, scale, message) in [
             ("a.csv", "0,0,1,1\n1,2,3\n", 1.0, "a.csv:2: 3 numbers where `x1,y1,x2,y2` are expected"),
             ("b.csv", "", 1.0, "b.csv: the table has no segment"),
-            ("c.csv", "0,0,x,1\n", 1.0, "c.csv:1: column 3: `x` is no number"),
+            ("c.csv", "0,0,x,1\n", 1.0, "c.csv:1: column 3: `x` is not a number"),
             (
                 "d.csv",
                 "0,0,,1\n",
                 1.0,
-                "d.csv:1: a coordinate is no number or more than 100 km from the origin: \
+                "d.csv:1: a coordinate is not a number or more than 100 km from the origin: \
               move the plan to the origin, or scale it",
             ),
             ("e.csv", "0,0,1,1\n", 0.0, "e.csv: a scale of 0 m per unit is not positive"),

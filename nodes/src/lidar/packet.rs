@@ -32,6 +32,9 @@ const UNIT: f32 = 0.002;
 /// Time from a firing to the next one, and from a laser to the next one, in ns (9.4).
 const FIRING: u32 = 55_296;
 const LASER: u32 = 2_304;
+/// Time after which the clock of the scanner begins again, in ns (9.3.1).
+#[cfg(feature = "std")]
+const HOUR: u64 = 3_600_000_000_000;
 /// Bytes that say which returns are measured, and which scanner it is (9.3.1).
 const STRONGEST: u8 = 0x37;
 const LAST: u8 = 0x38;
@@ -247,6 +250,12 @@ impl Firing {
         let (up, level) = sincosf(elevation(laser));
         [echo.distance * level * cos, -echo.distance * level * sin, echo.distance * up]
     }
+}
+
+/// Time from one time of the scanner to a later one, in ns.
+#[cfg(feature = "std")]
+pub(super) const fn since(from: u64, to: u64) -> u64 {
+    (to % HOUR + HOUR - from % HOUR) % HOUR
 }
 
 /// Elevation of a laser, in rad (9.2). Lasers with even numbers look down, others up; they are 2° apart.

@@ -1,4 +1,4 @@
-use super::{MAX_PACKETS, PACKET, PacketError, VelodynePacket, VelodynePackets};
+use super::{MAX_PACKETS, PACKET, PacketError, VelodynePacket, VelodynePackets, packet::since};
 use apex_rt::{Ctx, Out, Time, node};
 use std::{
     fmt,
@@ -90,8 +90,7 @@ impl ReceiveVelodyne {
 fn set_stamps(packets: &mut [VelodynePacket], now: Time) {
     let Some(last) = packets.last().map(VelodynePacket::nanos) else { return };
     for packet in packets {
-        // The clock may have begun another hour; then the stamp is a little late.
-        let age = last.checked_sub(packet.nanos()).filter(|age| *age < RECENT).unwrap_or(0);
+        let age = Some(since(packet.nanos(), last)).filter(|age| *age < RECENT).unwrap_or(0);
         packet.stamp = Time::from_nanos(now.as_nanos().saturating_sub(age as i64));
     }
 }
@@ -134,6 +133,15 @@ mod tests {
         let (packets, error) = fire(&mut node, 30);
         let error = error.expect("an error");
         assert!(packets.is_none() && error.ends_with("a packet has 512 bytes, and a data packet of a VLP-16 1206"));
+    }
+
+    #[test]
+    fn stamps_go_on_when_the_clock_of_the_scanner_begins_again() {
+        let packet = |micros| bytes((0x38, micros), |block| 40 * block as u16, |_, _, _| (500, 1));
+        let mut packets =
+            [3_599_999_500, 827].map(|micros| VelodynePacket::new(Time::ZERO, &packet(micros)).expect("a packet"));
+        set_stamps(&mut packets, Time::from_millis(20));
+        assert_eq!(packets.map(|packet| packet.stamp.as_nanos()), [20_000_000 - 1_327_000, 20_000_000]);
     }
 
     #[test]

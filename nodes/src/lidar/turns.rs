@@ -1,4 +1,4 @@
-use super::{Echo, Firing, LASERS, VelodynePacket, VelodynePackets};
+use super::{Echo, Firing, LASERS, VelodynePacket, VelodynePackets, packet::since};
 use crate::cloud::{CloudPoint, RingCloud};
 use apex_rt::{Out, Time, node};
 use core::{
@@ -13,8 +13,6 @@ const MAX_COLUMNS: usize = 4096;
 const MIN_COLUMNS: usize = 800;
 /// Maximum number of turns that wait.
 const MAX_READY: usize = 16;
-/// Time after which the clock of the scanner begins again, in ns.
-const HOUR: u64 = 3_600_000_000_000;
 
 /// Makes turns of the packets of a VLP-16, as the nodes for scanners with rings take them.
 ///
@@ -139,11 +137,6 @@ impl VelodyneTurns {
 fn begin_of(packet: &VelodynePacket, firing: &Firing) -> Time {
     let before = packet.duration().saturating_sub(since(packet.nanos(), firing.nanos));
     Time::from_nanos(packet.stamp.as_nanos().saturating_sub(before as i64))
-}
-
-/// Time from one time of the scanner to a later one, in ns.
-fn since(from: u64, to: u64) -> u64 {
-    (to % HOUR + HOUR - from % HOUR) % HOUR
 }
 
 /// Laser of a ring, counted from the uppermost one.

@@ -38,7 +38,8 @@ impl fmt::Display for MapError {
                 write!(f, "the plan has more than {MAX_SEGMENTS} line segments: select the layers of the walls")
             }
             Self::TooFar => f.write_str(
-                "a coordinate is no number or more than 100 km from the origin: move the plan to the origin, or scale it",
+                "a coordinate is not a number or more than 100 km from the origin: move the plan to the origin, or \
+                 scale it",
             ),
         }
     }
