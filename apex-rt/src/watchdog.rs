@@ -121,6 +121,7 @@ fn is_well((health, seen): &mut (Weak<Health>, usize)) -> bool {
 
 /// The watchdogs of the environment.
 struct Outside {
+    #[cfg_attr(not(target_os = "linux"), expect(dead_code, reason = "systemd is on Linux alone"))]
     socket: Option<OsString>,
     device: Option<File>,
 }
