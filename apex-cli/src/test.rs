@@ -83,7 +83,7 @@ fn interpreted(
     run::has_apex(&folder, &workspace)?;
     let turn = Turn::wait(&workspace, how)?;
     let text = run::absolute(file)?;
-    let runner = match interpreted::build(&text, &workspace, names, how)? {
+    let runner = match interpreted::build(&text, &workspace, names, features(checked), how)? {
         Interpretation::Of(runner) => runner,
         Interpretation::Broken => return answer.not_built().map(Some),
         Interpretation::None(reason) => {
@@ -160,16 +160,8 @@ pub fn built(file: &Path, checked: &Checked, names: &[&str], how: How) -> Result
     let folder = run::package(file)?;
     let workspace = Workspace::load(&folder)?;
     run::has_apex(&folder, &workspace)?;
-    let is_recorded = |step: &Step| matches!(step, Step::FeedRecorded { .. });
-    let scripts = checked.programs.iter().flat_map(|p| &p.scripts);
-    let recorded = scripts.flat_map(|script| &script.steps).any(is_recorded);
-    let tests = Tests {
-        text: &run::absolute(file)?,
-        folder: &folder,
-        workspace: &workspace,
-        features: if recorded { &[made::RECORD] } else { &[] },
-        how,
-    };
+    let tests =
+        Tests { text: &run::absolute(file)?, folder: &folder, workspace: &workspace, features: features(checked), how };
     let turn = Turn::wait(&workspace, how)?;
     let found = match tests.own(names)? {
         Own::Found(built, tests) => Some((built, tests)),
@@ -177,6 +169,13 @@ pub fn built(file: &Path, checked: &Checked, names: &[&str], how: How) -> Result
         Own::None => tests.made(names)?,
     };
     Ok(found.map(|(built, names)| Found { built, names, turn }))
+}
+
+/// Features of the runtime that the tests need.
+fn features(checked: &Checked) -> &'static [&'static str] {
+    let scripts = checked.programs.iter().flat_map(|p| &p.scripts);
+    let is_recorded = |step: &Step| matches!(step, Step::FeedRecorded { .. });
+    if scripts.flat_map(|script| &script.steps).any(is_recorded) { &[made::RECORD] } else { &[] }
 }
 
 /// Names of the tests to run.

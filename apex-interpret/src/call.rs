@@ -6,7 +6,7 @@ use apex_dsl::{
     program::{Arg, Call, Deadline, Failing, Fire, Flag, ParamOutput, SlotCall},
 };
 use apex_rt::{Ctx, Failure, Observer, contain};
-use std::time::Duration;
+use std::{cell::RefCell, rc::Rc, time::Duration};
 
 impl<'r, O: Observer> Run<'r, '_, O> {
     /// Fires a node.
@@ -55,11 +55,11 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 Ok(())
             });
         } else if self.accepts_all(node, call, local) {
-            let mut args = self.args(node, args, None, ctx, Some(local));
+            let args = self.args(node, args, None, ctx, Some(local));
             if let Some(event) = call.processed {
                 self.state.trigger(event);
             }
-            let result = self.called(node, call.failing, |boxed| boxed.process(&mut args));
+            let result = self.called(node, call.failing, |boxed| boxed.process(&args));
             self.all_triggered(node, args);
             self.nothing(call, local);
             for (port, token) in result.into_iter().flatten() {
@@ -127,8 +127,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             if self.state.machines.contains_key(&to.node) {
                 self.call_machine(to.node, |machine| machine.slot(to.port, token.as_ref()));
             } else {
-                let mut args = self.args(to.node, &call.args, token, ctx, None);
-                self.called(to.node, call.failing, |boxed| boxed.slot(to.port, &mut args));
+                let args = self.args(to.node, &call.args, token, ctx, None);
+                self.called(to.node, call.failing, |boxed| boxed.slot(to.port, &args));
                 self.all_triggered(to.node, args);
             }
         }
@@ -137,7 +137,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
 
     /// The events that a call has triggered.
     fn all_triggered(&mut self, node: NodeId, args: Args) {
-        args.events.into_iter().for_each(|(port, token)| self.triggered(PortId { node, port }, token));
+        args.events.into_inner().into_iter().for_each(|(port, token)| self.triggered(PortId { node, port }, token));
     }
 
     /// An event that is triggered.
@@ -150,7 +150,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     /// Arguments of a call.
     fn args(&self, node: NodeId, args: &[Arg], token: Option<Value>, ctx: &Ctx, local: Option<&Local<'r>>) -> Args {
         let is_active = self.state.flags.contains(&Flag::Active(node));
-        let mut made = Args { ctx: ctx.of_node(is_active), tokens: vec![], params: vec![], events: vec![] };
+        let mut made = Args { ctx: ctx.of_node(is_active), tokens: vec![], params: vec![], events: RefCell::default() };
         let arriving = |input: &PortId| local.and_then(|local| local.arriving(self.state, *input));
         for arg in args {
             match arg {
@@ -186,7 +186,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
                 self.observer.failed(self.number(node), &failure);
                 if let Failing::Contained { event, restart, .. } = failing {
                     if let Some(event) = event {
-                        self.state.tokens.insert(event, std::rc::Rc::new(failure));
+                        self.state.tokens.insert(event, Rc::new(failure));
                     }
                     if restart {
                         self.restart(node);

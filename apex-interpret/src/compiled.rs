@@ -1,13 +1,16 @@
 //! Nodes and values that were compiled as pieces of Rust.
 
-use crate::{Library, Node, Value, glue::Piece};
+use crate::{
+    Library, Node, Value,
+    glue::{Piece, Recorded},
+};
 use apex_dsl::{
     catalog::{Catalog, Signature, Type},
     codegen::{Boxed, Constant, Key, constant_of},
     graph::{self, NodeId},
 };
 use apex_rt::Time;
-use std::{collections::BTreeMap, rc::Rc};
+use std::{collections::BTreeMap, rc::Rc, time::Duration};
 
 /// The nodes and values of a program.
 pub struct Compiled<'a> {
@@ -35,6 +38,15 @@ impl Compiled<'_> {
         match self.pieces.get(key) {
             Some(Piece::Check(check)) => Some(check(token)),
             _ => Some(false),
+        }
+    }
+
+    /// The tokens that a port is fed from a recording, with their times.
+    pub fn recorded(&self, port: NodeId, of: Recorded<'_>) -> Option<Vec<(Duration, Value)>> {
+        let piece = self.boxed.recorded.get(&port).and_then(|key| self.pieces.get(key));
+        match piece {
+            Some(Piece::Recorded(read)) => Some(read(of)),
+            _ => None,
         }
     }
 

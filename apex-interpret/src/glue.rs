@@ -3,8 +3,8 @@
 pub use crate::node::{Args, Node, Outcome, Value};
 pub use apex_rt::shown::{ByDebug, ByType, Shown};
 
-use apex_rt::{Failure, List};
-use std::rc::Rc;
+use apex_rt::{Failure, List, Time};
+use std::{cell::RefCell, rc::Rc, time::Duration};
 
 /// A piece of Rust.
 pub enum Piece {
@@ -14,12 +14,28 @@ pub enum Piece {
     Value(fn() -> Value),
     /// Checks a token.
     Check(fn(&Value) -> bool),
+    /// Returns the tokens of a recording with their times since its beginning. Panics if it cannot be read.
+    Recorded(fn(Recorded<'_>) -> Vec<(Duration, Value)>),
     /// Returns a token as text.
     Show(fn(&Value) -> Option<String>),
     /// Returns the elements of a list.
     Items(fn(&Value) -> Vec<Value>),
     /// Collects elements in a list.
     List(fn(Vec<Value>) -> Option<Value>),
+}
+
+/// Tokens of a recording.
+pub struct Recorded<'a> {
+    /// Path of the source file.
+    pub text: &'a str,
+    /// Path of the recording, relative to the folder of the source file.
+    pub file: &'a str,
+    /// Name of the channel.
+    pub channel: &'a str,
+    /// Frame of the port.
+    pub frame: Option<&'static str>,
+    /// Time at which the recording begins.
+    pub begun: Time,
 }
 
 /// A value of any type.
@@ -58,6 +74,29 @@ pub fn batch<T: Clone + 'static, const N: usize>(tokens: &Option<Value>) -> Resu
 /// The tokens of an output with a rate.
 pub fn batched<T: 'static, const N: usize>(tokens: [T; N]) -> Value {
     Rc::new(tokens.into_iter().map(value).collect::<Vec<Value>>())
+}
+
+/// The place of an event: what is in it when the call has ended is triggered, also if it has ended with a panic.
+pub struct Event<'a, T: 'static> {
+    port: usize,
+    triggered: &'a RefCell<Vec<(usize, Value)>>,
+    /// The token.
+    pub token: Option<T>,
+}
+
+impl<'a, T> Event<'a, T> {
+    /// An empty place for the event at this port.
+    pub fn new(port: usize, args: &'a Args) -> Self {
+        Self { port, triggered: &args.events, token: None }
+    }
+}
+
+impl<T> Drop for Event<'_, T> {
+    fn drop(&mut self) {
+        if let Some(token) = self.token.take() {
+            self.triggered.borrow_mut().push((self.port, value(token)));
+        }
+    }
 }
 
 /// The value of a function's parameter: the one that has arrived, or the one of the text.

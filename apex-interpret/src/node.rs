@@ -5,7 +5,7 @@ use apex_dsl::{
     graph,
 };
 use apex_rt::{Ctx, Failure};
-use std::{any::Any, rc::Rc, time::Duration};
+use std::{any::Any, cell::RefCell, rc::Rc, time::Duration};
 
 /// A token. Copies share it. The tokens of a firing at a port with a rate are a `Vec<Value>`.
 pub type Value = Rc<dyn Any>;
@@ -19,13 +19,13 @@ pub trait Node {
     ///
     /// # Errors
     /// Returns the failure of the node.
-    fn process(&mut self, args: &mut Args) -> Outcome;
+    fn process(&mut self, args: &Args) -> Outcome;
 
     /// Calls the method of a slot, by its port in the signature.
     ///
     /// # Errors
     /// Returns the failure of the node.
-    fn slot(&mut self, port: usize, args: &mut Args) -> Result<(), Failure>;
+    fn slot(&mut self, port: usize, args: &Args) -> Result<(), Failure>;
 
     /// Calls the method for ⊥ at a mandatory input.
     fn absent(&mut self) {}
@@ -61,8 +61,8 @@ pub struct Args {
     pub tokens: Vec<Option<Value>>,
     /// Values of parameters that have arrived at inputs, with their numbers.
     pub params: Vec<(usize, Value)>,
-    /// Events that were triggered, by the numbers of their ports, with their tokens.
-    pub events: Vec<(usize, Value)>,
+    /// Events that were triggered, by the numbers of their ports, with their tokens: also those before a panic.
+    pub events: RefCell<Vec<(usize, Value)>>,
 }
 
 /// Knowledge of node types and token types. Nodes have their numbers among all nodes of the program.

@@ -49,8 +49,7 @@ pub fn run_tests(source: &Source, names: &[&str], root: &Path, pieces: &'static 
         let library = Compiled { boxed: &boxed, pieces: &pieces, catalog: &source.catalog };
         for script in scripts {
             println!("{MARK}begin {}", script.name);
-            let machines = &source.checked.texts.machines;
-            let run = || test::run(program, script, &library, machines, &|span| source.place(span, root));
+            let run = || test::run(program, script, &library, source, root);
             match panic::catch_unwind(AssertUnwindSafe(run)) {
                 Ok(result) => {
                     result?;

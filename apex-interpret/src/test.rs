@@ -1,20 +1,20 @@
 //! Tests of a program that is interpreted.
 
-use crate::{Interpreter, Library as _, Value, code::names, compiled::Compiled, condition};
+use crate::{
+    Interpreter, Library as _, Value, code::names, compiled::Compiled, condition, glue::Recorded, source::Source,
+};
 use apex_dsl::{
     checked::CheckedProgram,
     graph::{self, Condition, Graph, NodeId, Subject},
-    machine::Machines,
     script::{Observed, Script, Seen, Step, Until, What},
-    source::Span,
 };
 use apex_rt::{
     Next, Time,
     testing::{self, Course, Tested, Timeline},
 };
-use std::{collections::BTreeMap, time::Duration};
+use std::{collections::BTreeMap, path::Path, time::Duration};
 
-/// Runs a test.
+/// Runs a test of a source file. The paths in messages are relative to `root`.
 ///
 /// # Errors
 /// Returns what the interpreter does not know.
@@ -25,22 +25,25 @@ pub fn run(
     program: &CheckedProgram,
     script: &Script,
     library: &Compiled<'_>,
-    machines: &Machines,
-    place: &dyn Fn(Span) -> String,
+    source: &Source,
+    root: &Path,
 ) -> Result<(), String> {
-    let running = Interpreter::new(program, machines, library.catalog, library)?;
+    let running = Interpreter::new(program, &source.checked.texts.machines, library.catalog, library)?;
     let graph = &program.graph;
+    let text = source.sources.get(graph.span.file).path.display().to_string();
     let nodes = names(graph, library.catalog).into_iter().map(forever).collect();
     let (probes, test) = (probes(graph, script), &*script.name);
     let mut subject = Tried { test, running, graph, probes, library, feeds: vec![], states: vec![] };
     let mut course = Course::new(forever(script.name.clone()), nodes);
-    let place = |span| forever(place(span));
+    let place = |span| forever(source.place(span, root));
     for (number, step) in script.steps.iter().enumerate() {
         match step {
             Step::Feed { port, values, every, span } => {
                 subject.feed(&mut course, *port, values, *every, place(*span))?
             }
-            Step::FeedRecorded { .. } => return Err("a recording is fed".to_owned()),
+            Step::FeedRecorded { port, file, channel, span } => {
+                subject.feed_recorded(&mut course, *port, (&text, file, channel), place(*span))?;
+            }
             Step::Wait(time) => course.wait(&mut subject, *time),
             Step::Expect(seen, until) => {
                 let (text, place) = (forever(seen.text.clone()), place(seen.span));
@@ -70,6 +73,11 @@ pub fn run(
 /// A text that lives as long as the process, as all texts of a compiled test do: it runs only once.
 fn forever(text: String) -> &'static str {
     text.leak()
+}
+
+/// What is said of a port whose tokens are no pieces: this is a fault of the interpreter.
+fn unknown(port: &str) -> String {
+    format!("a token for `{port}` is not known")
 }
 
 /// A check of tokens: the step that makes it, and the condition.
@@ -135,8 +143,28 @@ impl<'a> Tried<'a, '_> {
         let node = &self.graph.nodes[port];
         let token = |value| self.library.token(Some(value), &node.ports[0].ty);
         let tokens: Option<Vec<Value>> = values.iter().map(token).collect();
-        self.feeds.push((port, tokens.ok_or_else(|| format!("a token for `{}` is not known", node.name))?));
+        self.feeds.push((port, tokens.ok_or_else(|| unknown(&node.name))?));
         course.feed((forever(node.name.clone()), place), values.len(), every);
+        Ok(())
+    }
+
+    /// Feeds a channel of a recording to a port of the program in the source file `text`.
+    fn feed_recorded(
+        &mut self,
+        course: &mut Course,
+        port: NodeId,
+        (text, file, channel): (&str, &str, &str),
+        place: &'static str,
+    ) -> Result<(), String> {
+        let node = &self.graph.nodes[port];
+        let frame = node.ports[0].frame.as_ref().map(|frame| forever(frame.text.clone()));
+        let tokens = self.library.recorded(port, Recorded { text, file, channel, frame, begun: course.now });
+        let tokens = tokens.ok_or_else(|| unknown(&node.name))?;
+        if !tokens.is_empty() {
+            let (times, tokens) = tokens.into_iter().unzip();
+            self.feeds.push((port, tokens));
+            course.feed_at((forever(node.name.clone()), place), times);
+        }
         Ok(())
     }
 

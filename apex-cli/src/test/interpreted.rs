@@ -36,21 +36,19 @@ pub enum Interpretation {
     None(String),
 }
 
-/// Builds the program that runs the tests with these names.
-pub fn build(text: &Path, workspace: &Workspace, names: &[&str], how: How) -> Result<Interpretation, String> {
+/// Builds the program that runs the tests with these names, with these features of the runtime.
+pub fn build(
+    text: &Path,
+    workspace: &Workspace,
+    names: &[&str],
+    features: &[&str],
+    how: How,
+) -> Result<Interpretation, String> {
     if Made::tool(workspace, INTERPRETER).is_none() {
         return Ok(Interpretation::None(format!("the crate `{INTERPRETER}` is not beside the runtime")));
     }
-    let made = Made {
-        workspace,
-        what: "interpret",
-        text,
-        program: "",
-        features: &[],
-        tools: &[INTERPRETER],
-        file: FILE,
-        code: "",
-    };
+    let made =
+        Made { workspace, what: "interpret", text, program: "", features, tools: &[INTERPRETER], file: FILE, code: "" };
     let (folder, name) = (made.folder(), made.name());
     let file = folder.join(FILE);
     // Its crates have to be known before its code.

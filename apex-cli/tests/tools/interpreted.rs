@@ -36,6 +36,10 @@ impl Desk {
         if job.name.is_empty() {
             return Err(\"no name\".to_owned());
         }
+        if job.speed < 0.0 {
+            done.emit(7);
+            panic!(\"it breaks\");
+        }
         self.count += 1;
         done.emit(self.count);
         Ok(())
@@ -132,6 +136,11 @@ test idle: Office {
     expect done == 3 within 1ms;
 }
 
+test breaks: Office {
+    feed job = Job { name: \"fast\", speed: -1 };
+    expect done == 7 within 1ms;
+}
+
 test door: Gate {
     feed push;
     expect opened == 0.5 within 1ms;
@@ -214,7 +223,7 @@ fn tests_end_as_compiled_ones_and_most_changes_need_no_rustc() {
     changes.iter().for_each(|(from, to)| change(&folder, from, to));
     let output = run(&folder, &[]);
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success() && said.contains("test result: ok. 6 passed; 0 failed;"), "{said}");
+    assert!(output.status.success() && said.contains("test result: ok. 7 passed; 0 failed;"), "{said}");
     assert_eq!((compiled(&output), stderr(&output)), (vec![], String::new()));
 
     // Another type of a node needs rustc, but for nothing else.
@@ -267,7 +276,7 @@ fn what_cannot_be_interpreted_is_compiled() {
     let output = run(&folder, &["--format", "json"]);
     let why = "note: the tests are compiled, because in a package of its own the file has an error: `crate` has no";
     assert!(stderr(&output).contains(why), "{}", stderr(&output));
-    assert_eq!(ends(&output).len(), 6);
+    assert_eq!(ends(&output).len(), 7);
 }
 
 #[test]
@@ -281,4 +290,63 @@ fn a_node_that_ends_the_process_is_named() {
     let errors = stderr(&output);
     assert!(errors.contains("error: `panics` ended the program that runs the tests (exit status: 7)"), "{errors}");
     assert!(Path::new(TARGET).is_dir());
+}
+
+/// Numbers of a recording, the times at which they come, and what is wrong with recordings.
+const RECORDED: &str = "\
+use crate::Sum;
+
+graph Summed {
+    in x: f64;
+    out many: f64;
+    node sum = Sum();
+    x -> sum.x;
+    sum.sum -> many;
+}
+
+test sums: Summed {
+    wait 10ms;
+    feed x = recording(\"run.mcap\", \"a.out\");
+    expect many > 0;
+    wait 10ms;
+    expect many > 0 within 1ms;
+    wait 1ms;
+    never many > 0;
+    wait 1s;
+}
+
+test late: Summed {
+    feed x = recording(\"run.mcap\", \"a.out\");
+    wait 1s;
+    expect many > 0 within 1ms;
+}
+
+test no_channel: Summed {
+    feed x = recording(\"run.mcap\", \"a.in\");
+    wait 1s;
+}
+
+test no_file: Summed {
+    feed x = recording(\"none.mcap\", \"a.out\");
+    wait 1s;
+}
+";
+
+#[test]
+fn recordings_are_fed_as_to_compiled_tests() {
+    let _guard = builds_alone();
+    let folder = Folder::new("interpreted-recording");
+    package(&folder, NODES);
+    folder.file("robot.afg", RECORDED);
+    fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/record/small.mcap"), folder.0.join("run.mcap"))
+        .unwrap();
+    let interpreted = run(&folder, &["--format", "json"]);
+    assert!(!stderr(&interpreted).contains("the tests are compiled"), "{}", stderr(&interpreted));
+    let (first, other) = (ends(&interpreted), ends(&run(&folder, &["--format", "json", "--compiled"])));
+    assert_eq!(first, other);
+    let passed: Vec<&str> = first.iter().filter(|(_, (passed, _))| *passed).map(|(name, _)| name.as_str()).collect();
+    assert_eq!(passed, ["sums"]);
+    change(&folder, "wait 10ms;\n    feed", "wait 20ms;\n    feed");
+    let output = run(&folder, &[]);
+    assert_eq!(compiled(&output), Vec::<String>::new());
 }

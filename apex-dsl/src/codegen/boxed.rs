@@ -34,6 +34,8 @@ pub struct Boxed {
     pub lists: BTreeMap<(usize, usize), Key>,
     /// The pieces that show the tokens at probes.
     pub shown: BTreeMap<NodeId, Key>,
+    /// The pieces that read the tokens of ports from recordings.
+    pub recorded: BTreeMap<NodeId, Key>,
     /// The checks of tokens that only Rust can make, by test and step.
     pub checks: BTreeMap<(String, usize), Key>,
 }
@@ -112,6 +114,18 @@ fn is_plain(value: &Value, ty: &Type) -> bool {
         Value::Unit => ty.is_unit(),
         Value::List(_) | Value::Path(..) | Value::Struct(_) | Value::RustDefault => false,
     }
+}
+
+/// The piece that reads tokens of a type from a recording.
+fn recorded(ty: &TokenStream) -> TokenStream {
+    quote!(Piece::Recorded(|Recorded { text, file, channel, frame, begun }| {
+        let tokens = ::apex_rt::record::tokens::<#ty>(text, file, channel, ::apex_rt::__codec!(#ty));
+        let tokens = match frame {
+            Some(frame) => tokens.in_frame(frame),
+            None => tokens,
+        };
+        tokens.begun_at(begun).iter().map(|(time, token)| (*time, value(token.clone()))).collect()
+    }))
 }
 
 /// A hash of the text of some Rust (FNV-1a).
@@ -237,7 +251,11 @@ impl Collector<'_> {
                     let ty = &graph.nodes[*port].ports[0].ty;
                     values.iter().try_for_each(|value| self.add_constant(Some(value), ty).map(drop))?;
                 }
-                Step::FeedRecorded { .. } => return Err("it feeds a recording".to_owned()),
+                Step::FeedRecorded { port, .. } => {
+                    let ty = token_type(&self.generator, graph, PortId { node: *port, port: 0 })?;
+                    let key = self.add(recorded(&ty));
+                    self.boxed.recorded.insert(*port, key);
+                }
                 Step::Wait(_) => {}
                 Step::Expect(seen, _) | Step::Never(seen) => {
                     if let What::Token(of, Some(condition)) = &seen.what

@@ -127,7 +127,6 @@ impl Course {
     }
 
     /// Feeds the tokens of a recording, which starts now, at their times. There is at least one.
-    #[cfg(feature = "record")]
     pub fn feed_at(&mut self, port: (&'static str, &'static str), times: Vec<Duration>) {
         let start = self.now;
         let (first, last) = (start + times[0], start + times[times.len() - 1]);

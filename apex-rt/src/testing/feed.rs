@@ -12,7 +12,6 @@ pub enum Times {
         period: Option<Duration>,
     },
     /// Those of a recording, from its beginning.
-    #[cfg(feature = "record")]
     At(Time, Vec<Duration>),
 }
 
@@ -54,7 +53,6 @@ impl Feed {
             Times::Every { tokens, period } => {
                 period.filter(|_| *tokens == 1 || self.count < *tokens).map(|period| self.due + period)
             }
-            #[cfg(feature = "record")]
             Times::At(start, times) => times.get(self.count).map(|time| *start + *time),
         };
         self.due = due.unwrap_or(self.due);
@@ -65,7 +63,6 @@ impl Feed {
     fn is_open(&self) -> bool {
         match self.times {
             Times::Every { tokens, period } => tokens == 1 && period.is_some(),
-            #[cfg(feature = "record")]
             Times::At(..) => true,
         }
     }

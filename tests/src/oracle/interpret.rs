@@ -52,17 +52,17 @@ impl Scripted {
     }
 
     /// Triggers the events that the script wants.
-    fn trigger(&self, call: i64, args: &mut Args) {
+    fn trigger(&self, call: i64, args: &Args) {
         for (port, declared) in self.signature.ports.iter().enumerate().filter(|(_, p)| p.kind == PortKind::Event) {
             if let Some(value) = self.value(&declared.name, call) {
-                args.events.push((port, Rc::new(value)));
+                args.events.borrow_mut().push((port, Rc::new(value)));
             }
         }
     }
 }
 
 impl Node for Scripted {
-    fn process(&mut self, args: &mut Args) -> Outcome {
+    fn process(&mut self, args: &Args) -> Outcome {
         if self.signature.name == "pass" {
             return Ok(vec![(1, args.tokens[0].clone())]);
         }
@@ -79,7 +79,7 @@ impl Node for Scripted {
         Ok(sent.collect())
     }
 
-    fn slot(&mut self, _port: usize, args: &mut Args) -> Result<(), Failure> {
+    fn slot(&mut self, _port: usize, args: &Args) -> Result<(), Failure> {
         let tokens = if args.tokens.is_empty() { vec![Some(7)] } else { Self::numbers(&args.tokens) };
         let call = self.call(tokens);
         self.trigger(call, args);

@@ -38,7 +38,7 @@ impl OfKind {
 }
 
 impl Node for OfKind {
-    fn process(&mut self, args: &mut Args) -> Outcome {
+    fn process(&mut self, args: &Args) -> Outcome {
         let number = |token: &Value| token.downcast_ref::<i64>().copied();
         let mut arrived = args.tokens.iter().map(|token| token.as_ref().and_then(number));
         // Some inputs are ports of parameters.
@@ -60,7 +60,7 @@ impl Node for OfKind {
         Ok(results.collect())
     }
 
-    fn slot(&mut self, _port: usize, _args: &mut Args) -> Result<(), Failure> {
+    fn slot(&mut self, _port: usize, _args: &Args) -> Result<(), Failure> {
         Ok(())
     }
 

@@ -87,7 +87,7 @@ impl<'a, 'g> Adapter<'a, 'g> {
     fn process(&self) -> Result<TokenStream, String> {
         let signature = self.signature;
         let Some(args) = &signature.process else {
-            return Ok(quote! { fn process(&mut self, _: &mut Args) -> Outcome { Ok(vec![]) } });
+            return Ok(quote! { fn process(&mut self, _: &Args) -> Outcome { Ok(vec![]) } });
         };
         let mut call = CallCode::default();
         for arg in args {
@@ -108,7 +108,7 @@ impl<'a, 'g> Adapter<'a, 'g> {
             };
             call.args.push(arg);
         }
-        let CallCode { before, args, after, .. } = call;
+        let CallCode { before, args, .. } = call;
         let called = if signature.is_function {
             let function = path(&signature.path);
             quote!(#function(#(#args),*))
@@ -126,10 +126,9 @@ impl<'a, 'g> Adapter<'a, 'g> {
         });
         Ok(quote! {
             #[allow(unused_mut, unused_variables, clippy::let_unit_value)]
-            fn process(&mut self, args: &mut Args) -> Outcome {
+            fn process(&mut self, args: &Args) -> Outcome {
                 #(#before)*
                 let result #returned = #called;
-                #(#after)*
                 #fails
                 let mut sent: Vec<(usize, Option<Value>)> = vec![];
                 #sent
@@ -240,7 +239,7 @@ impl<'a, 'g> Adapter<'a, 'g> {
         }
         Ok(quote! {
             #[allow(unused_mut, unused_variables, clippy::let_unit_value)]
-            fn slot(&mut self, port: usize, args: &mut Args) -> Result<(), ::apex_rt::Failure> {
+            fn slot(&mut self, port: usize, args: &Args) -> Result<(), ::apex_rt::Failure> {
                 match port { #(#arms)* _ => Ok(()) }
             }
         })
@@ -257,13 +256,13 @@ impl<'a, 'g> Adapter<'a, 'g> {
             };
             call.args.push(arg);
         }
-        let CallCode { before, args, after, .. } = call;
+        let CallCode { before, args, .. } = call;
         let method = ident(&slot.method);
         let ends = match slot.fallible {
             true => quote!(result.map(drop).map_err(|error| ::apex_rt::Failure::new(&error))),
             false => quote!(Ok(())),
         };
-        quote! { #(#before)* let result = self.node.#method(#(#args),*); #(#after)* #ends }
+        quote! { #(#before)* let result = self.node.#method(#(#args),*); #ends }
     }
 
     /// The types of the tokens and constants that come to a slot, each once.
@@ -351,7 +350,6 @@ fn buffer(port: usize) -> Ident {
 struct CallCode {
     before: Vec<TokenStream>,
     args: Vec<TokenStream>,
-    after: Vec<TokenStream>,
     /// Number of tokens among the arguments until now.
     tokens: usize,
 }
@@ -360,8 +358,7 @@ impl CallCode {
     /// An event as an argument.
     fn event(&mut self, port: usize) -> TokenStream {
         let name = format_ident!("event_{port}");
-        self.before.push(quote! { let mut #name = None; });
-        self.after.push(quote! { if let Some(token) = #name { args.events.push((#port, value(token))); } });
-        quote!(::apex_rt::event(&mut #name))
+        self.before.push(quote! { let mut #name = Event::new(#port, args); });
+        quote!(::apex_rt::event(&mut #name.token))
     }
 }
