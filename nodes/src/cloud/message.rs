@@ -1,50 +1,85 @@
 //! ROS 2 message of point clouds, which Foxglove and Python can show.
 
-use super::{CloudPoint, MAX_POINTS, PointCloud};
+use super::{CloudPoint, MAX_POINTS, PointCloud, RingCloud};
 use crate::scan::message::FRAME;
 use apex_messages::{
     Reason, converted,
     sensor_msgs::{PointCloud2, PointField},
     std_msgs::Header,
 };
+use apex_rt::Time;
 
 /// Fields of a point, each a number of four bytes.
 const FIELDS: [&str; 4] = ["x", "y", "z", "intensity"];
-/// Size of a point, in bytes.
-const STEP: u32 = 4 * FIELDS.len() as u32;
+/// Fields of a point of a scanner with rings: the last is its time after that of the cloud, in s.
+const RING_FIELDS: [&str; 5] = ["x", "y", "z", "intensity", "time"];
 
-impl From<&PointCloud> for PointCloud2 {
-    fn from(cloud: &PointCloud) -> Self {
-        let (width, height) = cloud.size();
-        let field = |(i, name): (usize, &&str)| PointField {
-            name: (*name).to_owned(),
-            offset: 4 * i as u32,
-            datatype: PointField::FLOAT32,
-            count: 1,
-        };
-        let numbers = cloud.points().iter().flat_map(|p| [p.x, p.y, p.z, p.intensity]);
-        Self {
-            header: Header::new(cloud.stamp, FRAME),
-            height: height as u32,
-            width: width as u32,
-            fields: FIELDS.iter().enumerate().map(field).collect(),
-            is_bigendian: false,
-            point_step: STEP,
-            row_step: STEP * width as u32,
-            data: numbers.flat_map(f32::to_le_bytes).collect(),
-            is_dense: false,
-        }
+/// Message of `height` rows of points, each of some numbers.
+fn message<const N: usize>(
+    stamp: Time,
+    (width, height): (usize, usize),
+    names: [&str; N],
+    points: impl Iterator<Item = [f32; N]>,
+) -> PointCloud2 {
+    let step = 4 * N as u32;
+    let field = |(i, name): (usize, &&str)| PointField {
+        name: (*name).to_owned(),
+        offset: 4 * i as u32,
+        datatype: PointField::FLOAT32,
+        count: 1,
+    };
+    PointCloud2 {
+        header: Header::new(stamp, FRAME),
+        height: height as u32,
+        width: width as u32,
+        fields: names.iter().enumerate().map(field).collect(),
+        is_bigendian: false,
+        point_step: step,
+        row_step: step * width as u32,
+        data: points.flatten().flat_map(f32::to_le_bytes).collect(),
+        is_dense: false,
     }
 }
 
-impl TryFrom<PointCloud2> for PointCloud {
-    type Error = Reason;
+impl From<&PointCloud> for PointCloud2 {
+    fn from(cloud: &PointCloud) -> Self {
+        let points = cloud.points().iter().map(|p| [p.x, p.y, p.z, p.intensity]);
+        message(cloud.stamp, cloud.size(), FIELDS, points)
+    }
+}
 
-    fn try_from(message: PointCloud2) -> Result<Self, Reason> {
+/// A row is a ring, the uppermost first.
+impl From<&RingCloud> for PointCloud2 {
+    fn from(cloud: &RingCloud) -> Self {
+        let (rings, columns) = (cloud.rings(), cloud.columns());
+        let all = (0..rings).flat_map(|ring| (0..columns).map(move |column| (ring, column)));
+        let points = all.map(|(ring, column)| {
+            let point = cloud.points()[column * rings + ring];
+            [point.x, point.y, point.z, point.intensity, cloud.times()[column]]
+        });
+        message(cloud.stamp, (columns, rings), RING_FIELDS, points)
+    }
+}
+
+/// The points of a message, whose layout has been checked.
+struct Points {
+    stamp: Time,
+    width: usize,
+    height: usize,
+    /// Size of a point and of a row, in bytes.
+    step: usize,
+    row: usize,
+    is_bigendian: bool,
+    data: Vec<u8>,
+}
+
+impl Points {
+    /// The points of a message, and the places of some of its fields in a point: the first three have to be there.
+    fn of<const N: usize>(message: PointCloud2, names: [&str; N]) -> Result<(Self, [Option<usize>; N]), Reason> {
         let PointCloud2 { header, fields, is_bigendian, data, .. } = message;
         let (height, width) = (message.height as usize, message.width as usize);
         let (step, row) = (message.point_step as usize, message.row_step as usize);
-        let places = places(&fields)?;
+        let places = places(&fields, names)?;
         let points = width.checked_mul(height).filter(|points| *points <= MAX_POINTS);
         points.ok_or_else(|| format!("{width} x {height} points are more than {MAX_POINTS}"))?;
         let is_inside = places.iter().flatten().all(|place| place.checked_add(4).is_some_and(|end| end <= step));
@@ -54,34 +89,75 @@ impl TryFrom<PointCloud2> for PointCloud {
             let count = data.len();
             return Err(format!("it has {count} bytes for {height} rows of {row} bytes with {width} x {step}").into());
         }
+        let stamp = header.stamp.into();
+        Ok((Self { stamp, width, height, step, row, is_bigendian, data }, places))
+    }
+
+    /// The numbers of a point at these places; 0 for a field that is missing.
+    fn numbers<const N: usize>(&self, row: usize, column: usize, places: [Option<usize>; N]) -> [f32; N] {
+        let start = row * self.row + column * self.step;
+        let number = |place: usize| {
+            let bytes = self.data[start + place..].first_chunk().copied();
+            bytes.map_or(f32::NAN, if self.is_bigendian { f32::from_be_bytes } else { f32::from_le_bytes })
+        };
+        places.map(|place| place.map_or(0.0, number))
+    }
+}
+
+impl TryFrom<PointCloud2> for PointCloud {
+    type Error = Reason;
+
+    fn try_from(message: PointCloud2) -> Result<Self, Reason> {
+        let (points, places) = Points::of(message, FIELDS)?;
         let mut cloud = Self::default();
-        cloud.reset(header.stamp.into(), (width, height));
+        cloud.reset(points.stamp, (points.width, points.height));
         for (i, point) in cloud.points_mut().iter_mut().enumerate() {
-            let start = i / width * row + i % width * step;
-            let number = |place: usize| {
-                let bytes = data[start + place..].first_chunk().copied();
-                bytes.map_or(f32::NAN, if is_bigendian { f32::from_be_bytes } else { f32::from_le_bytes })
-            };
-            let [x, y, z, intensity] = places.map(|place| place.map_or(0.0, number));
+            let [x, y, z, intensity] = points.numbers(i / points.width, i % points.width, places);
             *point = CloudPoint { x, y, z, intensity };
         }
         Ok(cloud)
     }
 }
 
-converted!(PointCloud as PointCloud2);
+/// The columns have the times of their uppermost points. A cloud without times is one of a scanner that stands.
+impl TryFrom<PointCloud2> for RingCloud {
+    type Error = Reason;
 
-/// Places of the fields of a point; `intensity` may be missing.
-fn places(fields: &[PointField]) -> Result<[Option<usize>; FIELDS.len()], Reason> {
-    let mut places = [None; FIELDS.len()];
+    fn try_from(message: PointCloud2) -> Result<Self, Reason> {
+        let tells_rings = message.fields.iter().any(|field| field.name == "ring");
+        let (points, places) = Points::of(message, RING_FIELDS)?;
+        if points.height == 1 && points.width > 1 && (tells_rings || places[4].is_none()) {
+            return Err("its points are in one row, instead of a row for each ring; `PointCloud` takes them".into());
+        }
+        let mut cloud = Self::default();
+        cloud.reset(points.stamp, points.height, points.width);
+        for column in 0..points.width {
+            for ring in 0..points.height {
+                let [x, y, z, intensity, time] = points.numbers(ring, column, places);
+                cloud.points_mut()[column * points.height + ring] = CloudPoint { x, y, z, intensity };
+                if ring == 0 {
+                    cloud.times_mut()[column] = time;
+                }
+            }
+        }
+        Ok(cloud)
+    }
+}
+
+converted!(PointCloud as PointCloud2);
+converted!(RingCloud as PointCloud2);
+
+/// Places of fields of a point, of which the first three have to be there.
+fn places<const N: usize>(fields: &[PointField], names: [&str; N]) -> Result<[Option<usize>; N], Reason> {
+    let mut places = [None; N];
     for PointField { name, offset, datatype, count } in fields {
         let is_number = *datatype == PointField::FLOAT32 && *count == 1;
-        if let Some(field) = FIELDS.iter().position(|field| field == name).filter(|_| is_number) {
+        if let Some(field) = names.iter().position(|field| field == name).filter(|_| is_number) {
             places[field] = Some(*offset as usize);
         }
     }
-    match places {
-        [Some(_), Some(_), Some(_), _] => Ok(places),
+    match places[..] {
+        [Some(_), Some(_), Some(_), ..] => Ok(places),
         _ => {
             let names = fields.iter().map(|field| field.name.as_str()).collect::<Vec<_>>().join("`, `");
             Err(format!("its fields are `{names}`; `x`, `y` and `z` must be of type `float32`").into())
@@ -94,7 +170,6 @@ mod tests {
     use super::*;
     use crate::scan::message::tests::{again, bytes, reason};
     use apex_messages::Message as _;
-    use apex_rt::Time;
 
     #[test]
     fn clouds_come_back_and_parts_of_them_do_not() {
@@ -105,6 +180,34 @@ mod tests {
         let whole = bytes(&cloud);
         assert_eq!(again(&whole), Some(cloud));
         assert!((0..whole.len()).all(|len| again::<PointCloud>(&whole[..len]).is_none()));
+    }
+
+    #[test]
+    fn rings_are_rows_and_columns_keep_their_times() {
+        let mut cloud = RingCloud::default();
+        for (rings, columns) in [(0, 0), (16, 0), (1, 3), (3, 1), (2, 3)] {
+            cloud.reset(Time::from_millis(20), rings, columns);
+            for (i, point) in cloud.points_mut().iter_mut().enumerate() {
+                *point = CloudPoint { x: i as f32, y: -1.0, z: 0.5, intensity: 9.0 };
+            }
+            cloud.times_mut().iter_mut().rev().zip(1..).for_each(|(time, at)| *time = -0.01 * at as f32);
+            assert_eq!(again(&bytes(&cloud)), Some(cloud.clone()));
+        }
+        let message: PointCloud2 = again(&bytes(&cloud)).expect("a message");
+        assert_eq!((message.height, message.width, message.fields[4].name.as_str()), (2, 3, "time"));
+        let first_row = message.data.chunks(20).map(|point| f32::from_le_bytes(point[..4].try_into().expect("x")));
+        assert_eq!(first_row.take(3).collect::<Vec<_>>(), [0.0, 2.0, 4.0]);
+        assert!(again::<PointCloud>(&bytes(&cloud)).is_some_and(|cloud| cloud.size() == (3, 2)));
+    }
+
+    #[test]
+    fn points_in_one_row_are_no_rings() {
+        let float = |name| (name, PointField::FLOAT32);
+        let plain = foreign(&["x", "y", "z"].map(float), 12, &[1.0; 6]);
+        let told = foreign(&[float("x"), float("y"), float("z"), float("time"), ("ring", 4)], 20, &[1.0; 10]);
+        for cloud in [plain, told] {
+            assert!(reason::<RingCloud>(&cloud).is_err_and(|why| why.contains("in one row")));
+        }
     }
 
     /// Message of a cloud of two points, with these fields and their kinds, of four bytes each.

@@ -8,7 +8,6 @@ use std::fmt;
 /// axis. Point `i` is in column `i / rings`, and in row `i % rings`; row 0 is the uppermost ring. The columns are in
 /// the order of their times. A direction without a measurement has NaN as its coordinates.
 #[derive(Default, PartialEq)]
-#[cfg_attr(feature = "record", derive(serde::Serialize, serde::Deserialize))]
 pub struct RingCloud {
     /// Time of the end of the turn.
     pub stamp: Time,
