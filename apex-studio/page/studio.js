@@ -344,6 +344,7 @@ document.addEventListener("keydown", (event) => {
     f: () => timeline.follow(),
     w: () => why.ask(),
     a: () => picture.turn(),
+    d: () => values.turn(),
     "/": () => /** @type {HTMLElement} */ (document.querySelector("[data-panel]:not([hidden]) input[type=search]") ?? element("lanes-filter")).focus(),
     o: () => picture.toggle(robot.selected),
     Escape: () => select(null),

@@ -1,6 +1,8 @@
 // @ts-check
-// Tokens of ports: numbers as plots, what has a place in the plane, images, all else as text.
-import { World, drawImage, hasPlace, isMeasured, isPose, read } from "./world.js";
+// Tokens of ports: numbers as plots, what has a place in the plane or in space, images, all else as text.
+import { hasPlace, isMeasured, isPose, read } from "./drawn.js";
+import { Space } from "./space.js";
+import { World, drawImage } from "./world.js";
 import { ask, empty } from "./page.js";
 import { robot } from "./studio.js";
 
@@ -19,6 +21,10 @@ export class Values {
     /** Names of the channels with the poses from which others are seen. @type {Map<string, string>} */ this.seenFrom = new Map();
     /** Those that the graph tells. @type {Map<string, string>} */ this.taken = new Map();
     this.world = new World(/** @type {HTMLCanvasElement} */ (document.getElementById("world")));
+    this.space = new Space(/** @type {HTMLCanvasElement} */ (document.getElementById("space")));
+    /** Shows space instead of the plane. */
+    this.third = /** @type {HTMLButtonElement} */ (document.getElementById("third"));
+    this.third.addEventListener("click", () => this.turn());
     filter.addEventListener("input", () => this.list());
   }
 
@@ -97,6 +103,15 @@ export class Values {
     return this.seenFrom.get(name) ?? this.taken.get(name) ?? "";
   }
 
+  /** Shows space instead of the plane, or the other way round. */
+  turn() {
+    if (this.third.hidden || this.third.disabled) return;
+    this.third.setAttribute("aria-pressed", String(!this.inSpace()));
+    this.drawWorld();
+  }
+
+  inSpace() { return this.third.getAttribute("aria-pressed") === "true"; }
+
   /** Draws all pinned tokens with a place. */
   drawWorld() {
     const channels = robot.about?.channels ?? [];
@@ -107,9 +122,22 @@ export class Values {
     });
     // Maps are below everything else.
     tokens.sort((a, b) => Number(b.schema.endsWith("Grid")) - Number(a.schema.endsWith("Grid")));
-    this.world.canvas.hidden = tokens.length === 0;
-    Object.assign(this.world.canvas.dataset, { drawn: tokens.length, from: tokens.filter(({ from }) => from).length });
-    if (tokens.length > 0) this.world.draw(tokens);
+    this.third.hidden = tokens.length === 0;
+    for (const [view, isShown] of /** @type {[World | Space, boolean][]} */ ([[this.world, !this.inSpace()], [this.space, this.inSpace()]])) {
+      view.canvas.hidden = tokens.length === 0 || !isShown;
+      Object.assign(view.canvas.dataset, { drawn: tokens.length, from: tokens.filter(({ from }) => from).length });
+      if (!view.canvas.hidden) view.draw(tokens);
+    }
+    if (this.space.canvas.dataset.can === "false") this.hasNoSpace();
+  }
+
+  /** The browser cannot draw in space: back to the plane. */
+  hasNoSpace() {
+    delete this.space.canvas.dataset.can;
+    this.third.setAttribute("aria-pressed", "false");
+    this.third.disabled = true;
+    this.third.title = "this browser has no WebGL, which draws in space";
+    this.drawWorld();
   }
 
   /** Tells the studio which tokens are wanted: of pinned channels, and of the poses from which these are seen. */

@@ -90,7 +90,7 @@ const ROBOT: File = File { path: "/robot", kind: "text/html; charset=utf-8", tex
 /// The page of a study.
 const STUDY: File = File { path: "/study", kind: "text/html; charset=utf-8", text: include_str!("../page/study.html") };
 
-const FILES: [File; 21] = [
+const FILES: [File; 23] = [
     ROBOT,
     STUDY,
     File { path: "/studio.css", kind: "text/css; charset=utf-8", text: include_str!("../page/studio.css") },
@@ -113,6 +113,8 @@ const FILES: [File; 21] = [
     File { path: "/params.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/params.js") },
     File { path: "/values.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/values.js") },
     File { path: "/cdr.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/cdr.js") },
+    File { path: "/drawn.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/drawn.js") },
+    File { path: "/space.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/space.js") },
     File { path: "/world.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/world.js") },
     File { path: "/area.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/area.js") },
     File { path: "/text.js", kind: "text/javascript; charset=utf-8", text: include_str!("../page/text.js") },

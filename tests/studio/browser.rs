@@ -51,7 +51,14 @@ impl Program {
     fn start() -> Option<Self> {
         let program = ["chromium", "chromium-browser", "google-chrome"].into_iter().find(|name| is_there(name))?;
         let profile = tempfile();
-        let options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--remote-debugging-port=0"];
+        // The last draws in space without the hardware for it.
+        let options = [
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--remote-debugging-port=0",
+            "--enable-unsafe-swiftshader",
+        ];
         let mut command = Command::new(program);
         command.args(options).arg(format!("--user-data-dir={}", profile.display())).arg("about:blank");
         let mut process = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the browser starts");
@@ -115,6 +122,8 @@ impl Browser {
             let Message::Text(text) = self.socket.read().expect("the browser answers") else { continue };
             let mut answer: Value = serde_json::from_str(&text).expect("JSON");
             match answer["method"].as_str() {
+                // What draws in space without hardware complains of itself.
+                Some("Log.entryAdded") if text.contains("GL Driver Message") => {}
                 Some("Runtime.exceptionThrown" | "Log.entryAdded" | "Page.javascriptDialogOpening") => {
                     self.complaints.push(text.to_string());
                 }
@@ -227,7 +236,7 @@ impl Browser {
     }
 
     /// The place of an element on the screen: its middle, where nothing must lie over it.
-    fn place(&mut self, element: &str) -> (f64, f64) {
+    pub fn place(&mut self, element: &str) -> (f64, f64) {
         let hidden = self.value(&format!("{element}.closest('[data-panel][hidden]')?.dataset.panel ?? null"));
         if let Some(panel) = hidden.as_str() {
             self.click(&format!("document.querySelector('[data-tab={panel}]')"));
@@ -268,6 +277,15 @@ impl Browser {
         self.click_at(place);
         self.mouse("mousePressed", place, 2, 0);
         self.mouse("mouseReleased", place, 2, 0);
+    }
+
+    /// Turns the wheel over the middle of an element, by some pixels towards the user.
+    pub fn wheel(&mut self, element: &str, by: f64) {
+        let (x, y) = self.place(element);
+        self.call(
+            "Input.dispatchMouseEvent",
+            json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": by }),
+        );
     }
 
     /// Draws the mouse from one place to another, in pixels.

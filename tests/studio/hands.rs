@@ -9,7 +9,8 @@ use apex_studio::{Robot, Seat};
 use serde_json::json;
 use std::{sync::Arc, thread, time::Duration};
 
-const HALTED: &str = "document.getElementById('run').textContent === 'halted'";
+/// `true` if the robot is halted.
+pub const HALTED: &str = "document.getElementById('run').textContent === 'halted'";
 
 /// The rows of the timeline.
 const ROWS: &str = "document.getElementById('timeline').dataset.rows";

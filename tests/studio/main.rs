@@ -14,6 +14,7 @@ mod page;
 mod pictures;
 mod several;
 mod shadow;
+mod space;
 mod steady;
 mod stream;
 mod study;

@@ -1,6 +1,14 @@
 //! Nodes of programs that are looked at while they run.
 
-use apex_nodes::scan::{Pose2, Scan};
+use apex_messages::{
+    geometry_msgs::{Point, Pose, Vector3},
+    std_msgs::ColorRGBA,
+    visualization_msgs::{Marker, MarkerArray},
+};
+use apex_nodes::{
+    cloud::{CloudPoint, RingCloud},
+    scan::{Pose2, Scan},
+};
 use apex_rt::prelude::*;
 
 /// Counts from one.
@@ -56,4 +64,32 @@ pub fn drawn_count(number: &i64) -> String {
     format!(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 10'><script>alert(1)</script><rect width='{width}' height='10' fill='teal'/></svg>"
     )
+}
+
+/// Sees a wall 3 m ahead, 4 m wide and 2 m high, with 16 rings.
+#[node]
+pub fn wall_ahead(_pose: &Pose2) -> RingCloud {
+    let mut cloud = RingCloud::default();
+    cloud.reset(Time::ZERO, 16, 200);
+    for (at, point) in cloud.points_mut().iter_mut().enumerate() {
+        let (column, ring) = (at / 16, at % 16);
+        *point = CloudPoint { x: 3.0, y: 2.0 - column as f32 / 50.0, z: 2.0 - ring as f32 / 8.0, intensity: 0.0 };
+    }
+    cloud
+}
+
+/// Marks a box 1 m ahead, a line to it, and a thing that is no longer there.
+#[node]
+pub fn box_ahead(_pose: &Pose2) -> MarkerArray {
+    let ahead = Pose { position: Point { x: 1.0, y: 0.0, z: 0.5 }, ..Pose::default() };
+    let size = Vector3 { x: 0.4, y: 0.6, z: 1.0 };
+    let color = ColorRGBA { r: 1.0, g: 0.0, b: 1.0, a: 1.0 };
+    let corner = Marker { r#type: Marker::CUBE, pose: ahead, scale: size, color, ..Marker::default() };
+    let line = Marker {
+        r#type: Marker::LINE_STRIP,
+        points: vec![Point::default(), Point { x: 1.0, y: 0.0, z: 0.0 }],
+        ..corner.clone()
+    };
+    let gone = Marker { action: Marker::DELETE, ..corner.clone() };
+    MarkerArray { markers: vec![corner, line, gone] }
 }

@@ -1,0 +1,106 @@
+//! Tokens in space: what is seen of them, and from where.
+
+use crate::{
+    browser::Browser,
+    hands::HALTED,
+    page::{RUNNING, Started, start_of, studio},
+};
+use apex_macros::graph;
+
+graph! {
+    use apex_nodes::{cloud::RingCloud, scan::Scan};
+    use apex_messages::visualization_msgs::MarkerArray;
+    use apex_tests::nodes::{CountUp, box_ahead, pose_on_circle, scan_ahead, wall_ahead};
+
+    /// Goes round, and sees a wall and a box ahead.
+    graph Sees {
+        out wall: RingCloud;
+        out marks: MarkerArray;
+        out scan: Scan;
+        node count = CountUp() every 100ms;
+        node pose  = pose_on_circle();
+        count -> pose;
+        pose -> wall_ahead() -> wall;
+        pose -> box_ahead() -> marks;
+        pose -> scan_ahead() -> scan;
+    }
+}
+
+/// Numbers of pixels in the colours of low and high points and of the box.
+const PIXELS: &str = "(() => {
+    const space = document.getElementById('space');
+    const flat = new OffscreenCanvas(space.width, space.height).getContext('2d');
+    flat.drawImage(space, 0, 0);
+    const { data } = flat.getImageData(0, 0, space.width, space.height);
+    const found = [0, 0, 0];
+    for (let at = 0; at < data.length; at += 4) {
+        const [red, green, blue] = data.subarray(at, at + 3);
+        if (green > 60) continue;
+        if (blue > 160 && red < 60) found[0] += 1;
+        if (red > 160 && blue < 60) found[1] += 1;
+        if (red > 160 && blue > 160) found[2] += 1;
+    }
+    return found;
+})()";
+const SPACE: &str = "document.getElementById('space')";
+const IMAGE: &str = "document.getElementById('space').toDataURL()";
+
+/// Starts the robot, and opens its page with the tokens of some nodes in the plane.
+fn seen(name: &'static str, nodes: &[&str]) -> Option<(Browser, Started)> {
+    let robot = start_of(name, Sees::new, 3600);
+    let mut page = Browser::open(&studio(name, false).0)?;
+    page.size(1200, 900, false);
+    page.wait_for(RUNNING);
+    page.click("document.querySelector('[data-tab=values]')");
+    for node in nodes {
+        let channel = format!("document.querySelector('[data-channel^=\"{node}\"] input')");
+        page.wait_for(&channel);
+        page.click(&channel);
+    }
+    page.wait_for(&format!("document.getElementById('world').dataset.drawn === '{}'", nodes.len()));
+    Some((page, robot))
+}
+
+#[test]
+fn clouds_and_boxes_are_seen_in_space_and_the_mouse_moves_the_eye() {
+    let Some((mut page, _robot)) = seen("space-cloud", &["wall_ahead", "box_ahead"]) else { return };
+    page.press("d");
+    page.wait_for(&format!("!{SPACE}.hidden && document.getElementById('world').hidden"));
+    page.wait_for(&format!("{PIXELS}.every((count) => count > 40)"));
+    // Halted, the picture changes only if the eye does.
+    page.press(" ");
+    page.wait_for(HALTED);
+    let mut last = String::new();
+    let mut changes = |page: &mut Browser, what: &str| {
+        page.wait_for(&format!("{IMAGE} !== {last:?}"));
+        last = page.value(IMAGE).as_str().expect(what).to_owned();
+    };
+    changes(&mut page, "it is there");
+    let (x, y) = page.place(SPACE);
+    page.drag((x, y), (x + 60.0, y + 20.0), false);
+    changes(&mut page, "it turns");
+    page.wheel(SPACE, -300.0);
+    changes(&mut page, "it comes nearer");
+    page.double_click(SPACE);
+    changes(&mut page, "it sees all");
+    page.press("d");
+    page.wait_for(&format!("{SPACE}.hidden && !document.getElementById('world').hidden"));
+    assert_eq!(page.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn without_webgl_there_is_the_plane() {
+    let Some((mut page, _robot)) = seen("space-none", &["scan_ahead"]) else { return };
+    page.click("document.getElementById('third')");
+    // The scan is where it was taken.
+    page.wait_for(&format!("{SPACE}.dataset.from === '1' && {SPACE}.dataset.can === 'true'"));
+    page.click("document.getElementById('third')");
+    let Some((mut other, _robot)) = seen("space-never", &["scan_ahead"]) else { return };
+    other.value("(HTMLCanvasElement.prototype.getContext = () => null, 0)");
+    other.click("document.getElementById('third')");
+    other.wait_for("document.getElementById('third').disabled && !document.getElementById('world').hidden");
+    other.wait_for("document.getElementById('third').title.includes('no WebGL')");
+    for page in [page, other] {
+        assert_eq!(page.complaints, Vec::<String>::new());
+    }
+}
