@@ -19,9 +19,9 @@ const HELP: &str = "\
 A robot explores an unknown field with rocks, finds objects by colour and shape, and charges its battery at a base
 station, in simulation.
 
-Usage: explorer [explore] [--seed N] [--minutes N] [--battery N] [--fault FAULT]... [--out FILE]
+Usage: explorer [explore] [--seed N] [--minutes N] [--battery N] [--fault FAULT]... [--out FILE] [--record FILE]
        explorer missions [--first-seed N] [--seeds N] [--jobs N] [--minutes N] [--battery N] [--fault FAULT]...
-                         [--out FILE]
+                         [--out FILE] [--record FILE]
        explorer outages [--first-seed N] [--seeds N] [--jobs N] [--minutes N] [--battery N]
 
 `explore` runs the robot on the field of one seed and tells what became of it, and which nodes were active. It draws the
@@ -35,6 +35,7 @@ the robot knows circles.
   --fault FAULT     fault of a device, such as laser-silent@100s..103s: laser-silent, laser-repeated, beams-infinite,
                     wheels-silent, wheels-nan, wheels-stopped, charge-silent, eye-black
   --out FILE        the picture (default out/explorer/map.svg)
+  --record FILE     recording of the (first) run, for Foxglove, Rerun and `apex bag`: scans, images, maps, paths, poses
 
 `missions` does so for many seeds, with a line for each, and draws the first run.
 
@@ -70,17 +71,18 @@ pub const COMMANDS: [Command; 3] = [
 const EXPLORED: f32 = 0.95;
 const ERROR: f32 = 0.2;
 
-/// Options of a run, and the file of the picture.
+/// Options of a run, and the files of the picture and the recording.
 struct Setup {
     longest: Duration,
     world: world::Options,
     out: PathBuf,
+    record: Option<PathBuf>,
 }
 
 impl Setup {
     fn new() -> Self {
         let out = PathBuf::from("out/explorer/map.svg");
-        Self { longest: Duration::from_secs(1200), world: world::Options::default(), out }
+        Self { longest: Duration::from_secs(1200), world: world::Options::default(), out, record: None }
     }
 
     /// Reads the value of the option `name`.
@@ -90,6 +92,7 @@ impl Setup {
             "battery" => self.world.life = options.minutes(name)?,
             "fault" => self.world.faults.push(options.text()?.parse::<Fault>()?),
             "out" => self.out = options.path()?,
+            "record" => self.record = Some(options.path()?),
             _ => return Err(Options::unknown(name)),
         }
         Ok(())
@@ -99,8 +102,9 @@ impl Setup {
         world::Options { seed, ..self.world.clone() }
     }
 
-    fn run(&self, seed: u64) -> Result<Run, String> {
-        run(&self.of(seed), self.longest)
+    /// Runs the robot. Only the run with the seed `first` is recorded.
+    fn run(&self, seed: u64, first: u64) -> Result<Run, String> {
+        run(&self.of(seed), self.longest, self.record.as_deref().filter(|_| seed == first))
     }
 }
 
@@ -112,7 +116,7 @@ fn explore(options: &mut Options) -> Result<ExitCode, String> {
             _ => setup.read(&name, options)?,
         }
     }
-    let run = setup.run(seed)?;
+    let run = setup.run(seed, seed)?;
     say(&format!("{HEAD}\n{}\n\nActive nodes:\n{}", Row(&run), activity_table(&run.activity)))?;
     draw(&run, &setup.out)?;
     Ok(verdict(&[run]))
@@ -122,7 +126,9 @@ fn missions(options: &mut Options) -> Result<ExitCode, String> {
     let mut setup = Setup::new();
     let seeds = Seeds::new(10).read_beside(options, |name, options| setup.read(name, options))?;
     say(&format!("{HEAD}\n"))?;
-    let runs = rows("runs", &seeds.all(), seeds.jobs, |seed| setup.run(*seed), |_, run| Some(Row(run).to_string()))?;
+    let all = seeds.all();
+    let work = |seed: &u64| setup.run(*seed, all[0]);
+    let runs = rows("runs", &all, seeds.jobs, work, |_, run| Some(Row(run).to_string()))?;
     say(&format!("\n{}", summary(&runs)))?;
     draw(&runs[0], &setup.out)?;
     Ok(verdict(&runs))

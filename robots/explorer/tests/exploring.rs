@@ -9,7 +9,7 @@ use std::time::Duration;
 
 fn runs(options: &Options, minutes: u64, count: usize) -> Vec<Run> {
     let longest = Duration::from_secs(60 * minutes);
-    let run = |options: &Options| run(options, longest).expect("it runs");
+    let run = |options: &Options| run(options, longest, None).expect("it runs");
     in_order(&vec![options.clone(); count], None, run, |_| ()).expect("threads")
 }
 

@@ -16,8 +16,8 @@ use std::{
 const HELP: &str = "\
 A skid-steered robot follows a runner outdoors, in simulation: over hills, between trees, rocks, ditches and people.
 
-Usage: follow [follow] [--seed N] [--metres N] [--no-people] [--out FILE]
-       follow missions [--first-seed N] [--seeds N] [--jobs N] [--metres N] [--no-people] [--out FILE]
+Usage: follow [follow] [--seed N] [--metres N] [--no-people] [--out FILE] [--record FILE]
+       follow missions [--first-seed N] [--seeds N] [--jobs N] [--metres N] [--no-people] [--out FILE] [--record FILE]
        follow perception [--first-seed N] [--seeds N] [--jobs N]
 
 `follow` runs the robot on the track of one seed and tells what became of it, and which nodes were active. It draws the
@@ -28,6 +28,7 @@ robot lost the runner as violet ones.
   --metres N        length of the track (default 1700)
   --no-people       without people who cross the track and stand beside it
   --out FILE        the picture (default out/follow/track.svg)
+  --record FILE     recording of the (first) run, for Foxglove, Rerun and `apex bag`: clouds, scans, maps, paths, poses
 
 `missions` does so for many seeds, with a line for each, and draws the first run.
 
@@ -58,16 +59,17 @@ pub const COMMANDS: [Command; 3] = [
     Command { name: "perception", help: HELP, run: perception },
 ];
 
-/// Options of the world, and the file of the picture.
+/// Options of the world, and the files of the picture and the recording.
 struct World {
     metres: u64,
     people: bool,
     out: PathBuf,
+    record: Option<PathBuf>,
 }
 
 impl World {
     fn new() -> Self {
-        Self { metres: 1700, people: true, out: PathBuf::from("out/follow/track.svg") }
+        Self { metres: 1700, people: true, out: PathBuf::from("out/follow/track.svg"), record: None }
     }
 
     /// Reads the value of the option `name`.
@@ -76,13 +78,16 @@ impl World {
             "metres" => self.metres = options.number(name, 100..=5000)?,
             "no-people" => self.people = false,
             "out" => self.out = options.path()?,
+            "record" => self.record = Some(options.path()?),
             _ => return Err(Options::unknown(name)),
         }
         Ok(())
     }
 
-    fn of(&self, seed: u64) -> world::Options {
-        world::Options { seed, length: self.metres as f32, people: self.people }
+    /// Runs the robot. Only the run with the seed `first` is recorded.
+    fn run(&self, seed: u64, first: u64) -> Result<Run, String> {
+        let options = world::Options { seed, length: self.metres as f32, people: self.people };
+        run(&options, self.record.as_deref().filter(|_| seed == first))
     }
 }
 
@@ -94,7 +99,7 @@ fn follow_one(options: &mut Options) -> Result<ExitCode, String> {
             _ => world.read(&name, options)?,
         }
     }
-    let run = run(&world.of(seed))?;
+    let run = world.run(seed, seed)?;
     say(&format!("{HEAD}\n{}\n\nActive nodes:\n{}", Row(&run), activity_table(&run.activity)))?;
     for loss in &run.report.losses {
         say(&format!("lost at {} for {:.2} s\n", loss.from, loss.lasted))?;
@@ -111,8 +116,9 @@ fn missions(options: &mut Options) -> Result<ExitCode, String> {
     let mut world = World::new();
     let seeds = Seeds::new(1).read_beside(options, |name, options| world.read(name, options))?;
     say(&format!("{HEAD}\n"))?;
-    let runs =
-        rows("runs", &seeds.all(), seeds.jobs, |seed| run(&world.of(*seed)), |_, run| Some(Row(run).to_string()))?;
+    let all = seeds.all();
+    let work = |seed: &u64| world.run(*seed, all[0]);
+    let runs = rows("runs", &all, seeds.jobs, work, |_, run| Some(Row(run).to_string()))?;
     say(&format!("\n{}", summary(&runs)))?;
     draw(&runs[0], &world.out)?;
     Ok(verdict(&runs))

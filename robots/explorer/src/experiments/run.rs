@@ -12,10 +12,13 @@ use apex_nodes::{
 use apex_rt::Time;
 use apex_sim::{
     MotionWatch,
-    experiment::{self, Failure},
+    experiment::{self, Failure, Recording},
     outages,
 };
-use std::time::{Duration, Instant};
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
 
 /// Period of the reactions of a robot that could always react.
 const STEP: Duration = Duration::from_millis(10);
@@ -47,12 +50,12 @@ pub struct Run {
     pub map: Grid<Occupancy>,
 }
 
-/// Runs the robot until it has finished, at most for a time.
+/// Runs the robot until it has finished, at most for a time. Records the run to a file, if there is one.
 ///
 /// # Errors
-/// If it is stopped by a signal.
-pub fn run(options: &Options, longest: Duration) -> Result<Run, String> {
-    run_watched(options, longest, |_, _| ())
+/// If it is stopped by a signal, or cannot be recorded.
+pub fn run(options: &Options, longest: Duration, record: Option<&Path>) -> Result<Run, String> {
+    run_watched(options, longest, record, |_, _| ())
 }
 
 /// Runs the robot with sensors that fail one after the other, as the seed draws it, and with motors that keep the last
@@ -65,11 +68,16 @@ pub fn run_with_outages(options: &Options, longest: Duration) -> Result<(Run, Mo
     let faults = outages.iter().map(|outage| Fault::of(outage, &FaultKind::ALL)).collect();
     let mut watch = MotionWatch::new(&FaultKind::promises(), outages);
     let options = Options { faults, keeps_twist: true, ..options.clone() };
-    let run = run_watched(&options, longest, |now, twist| watch.see(now, twist))?;
+    let run = run_watched(&options, longest, None, |now, twist| watch.see(now, twist))?;
     Ok((run, watch))
 }
 
-fn run_watched(options: &Options, longest: Duration, mut watch: impl FnMut(Time, &Twist)) -> Result<Run, String> {
+fn run_watched(
+    options: &Options,
+    longest: Duration,
+    record: Option<&Path>,
+    mut watch: impl FnMut(Time, &Twist),
+) -> Result<Run, String> {
     let began = Instant::now();
     let planet = Planet::new(State::new(options));
     let mut robot = Box::new(Explorer::new(ExplorerParts {
@@ -81,11 +89,14 @@ fn run_watched(options: &Options, longest: Duration, mut watch: impl FnMut(Time,
         judge: Judge::new(&planet),
     }));
     let end = Time::ZERO + longest;
-    let log = experiment::run(&mut *robot, end, STEP, &mut (), |now, ()| {
+    let mut recording = Recording::begin::<Explorer>(record, |_| false)?;
+    let log = experiment::run(&mut *robot, end, STEP, &mut recording, |now, _| {
         let state = planet.present();
         watch(now, &state.twist());
         state.report().finished.is_none()
-    })?;
+    });
+    recording.finish()?;
+    let log = log?;
     let state = planet.present();
     Ok(Run {
         options: options.clone(),

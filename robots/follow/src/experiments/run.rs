@@ -4,10 +4,13 @@ use crate::{
 };
 use apex_rt::Time;
 use apex_sim::{
-    experiment::{self, Failure},
+    experiment::{self, Failure, Recording},
     outdoor::{Terrain, Track},
 };
-use std::time::{Duration, Instant};
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
 
 /// Period of the reactions of a robot that could always react.
 const STEP: Duration = Duration::from_millis(10);
@@ -35,11 +38,12 @@ pub struct Run {
     pub track: Track,
 }
 
-/// Runs the robot until the runner has arrived, or the robot can follow no longer.
+/// Runs the robot until the runner has arrived, or the robot can follow no longer. Records the run to a file, if there
+/// is one.
 ///
 /// # Errors
-/// If it is stopped by a signal.
-pub fn run(options: &Options) -> Result<Run, String> {
+/// If it is stopped by a signal, or cannot be recorded.
+pub fn run(options: &Options, record: Option<&Path>) -> Result<Run, String> {
     let began = Instant::now();
     let field = Field::new(State::new(options));
     let mut robot = Box::new(Summit::new(SummitParts {
@@ -50,7 +54,11 @@ pub fn run(options: &Options) -> Result<Run, String> {
         judge: Judge::new(&field),
     }));
     let end = Time::ZERO + Duration::from_secs_f32(30.0 + options.length / SLOWEST);
-    let log = experiment::run(&mut *robot, end, STEP, &mut (), |_, ()| field.present().report().ending.is_none())?;
+    let mut recording = Recording::begin::<Summit>(record, |_| false)?;
+    let goes_on = |_, _: &mut _| field.present().report().ending.is_none();
+    let log = experiment::run(&mut *robot, end, STEP, &mut recording, goes_on);
+    recording.finish()?;
+    let log = log?;
     let mut state = field.present();
     state.end();
     let State { terrain, track, .. } = &*state;
