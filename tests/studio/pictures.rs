@@ -44,7 +44,7 @@ struct Studio {
 
 impl Studio {
     fn open(mut command: Command, folder: &Path, arguments: &[&str]) -> Self {
-        command.args(["studio", "--quiet", "--listen", "127.0.0.1:0"]).args(arguments).current_dir(folder);
+        command.args(["studio", "--listen", "127.0.0.1:0"]).args(arguments).current_dir(folder);
         let mut process = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it starts");
         let mut lines = BufReader::new(process.stderr.take().expect("it is piped")).lines().map_while(Result::ok);
         let address = lines.find_map(|line| Some(line.strip_prefix("studio: ")?.to_owned())).expect("an address");
@@ -185,6 +185,45 @@ fn film_of_the_competition() {
     let mut film = Film::default();
     film.take(&mut page, 48);
     film.save("studio_competition.png").expect("a file");
+    fs::remove_dir_all(folder).expect("it is still there");
+}
+
+#[test]
+#[ignore = "draws docs/images/studio_space.png: cargo test -p apex-tests --test studio -- --ignored in_space"]
+fn picture_in_space() {
+    let folder = socket("in-space");
+    fs::create_dir_all(&folder).expect("a new folder");
+    let address = folder.join("robot");
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let built = cargo.args(["build", "--quiet", "--release", "--package", "follow"]).current_dir(root()).status();
+    assert!(built.expect("cargo starts").success());
+    let mut follow = Command::new(apex().with_file_name("../release/follow"));
+    follow.args(["--metres", "200", "--out"]).arg(folder.join("track.svg"));
+    follow.env("APEX_STUDIO", &address).env("APEX_STUDIO_WAIT", "1");
+    let mut follow = follow.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+    let robot = root().join("robots/follow/follow.afg");
+    let [address, robot] = [&address, &robot].map(|path| path.to_str().expect("UTF-8"));
+    let studio = Studio::open(Command::new(apex()), &folder, &["--connect", address, robot]);
+    let mut page = Browser::open(&studio.address).expect("a browser");
+    page.size(1280, 760, false);
+    click(&mut page, "[data-tab=values]");
+    let pose = "wheels.out";
+    for channel in ["scanner.turn", "pursue.fast.planner.path", pose] {
+        click(&mut page, &format!("[data-channel=\"{channel}\"] input"));
+    }
+    see_from(&mut page, "scanner.turn", pose);
+    click(&mut page, "#pause");
+    time_is_over(&mut page, 20.0);
+    click(&mut page, "#pause");
+    click(&mut page, "#third");
+    page.value("document.querySelector('[data-panel=values]').scrollTop = 0");
+    page.press("0");
+    let (x, y) = page.place("document.getElementById('space')");
+    page.drag((x, y), (x + 10.0, y + 5.0), false);
+    page.wheel("document.getElementById('space')", -900.0);
+    save(&mut page, "studio_space.png");
+    follow.kill().expect("it runs");
+    follow.wait().expect("it ends");
     fs::remove_dir_all(folder).expect("it is still there");
 }
 

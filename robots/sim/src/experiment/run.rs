@@ -1,3 +1,5 @@
+#[cfg(feature = "studio")]
+use apex_rt::studio::Studio;
 use apex_rt::{Clock as _, Info, Next, Observer, Parameters, Program, SimClock, Time, UntilStopped};
 use std::{cmp::Reverse, fmt, time::Duration};
 
@@ -38,10 +40,11 @@ pub struct Failure {
 }
 
 /// Runs a robot in simulated time until `end`, or until `goes_on` returns `false` after a reaction. A robot that could
-/// always react does so with the period `step`.
+/// always react does so with the period `step`. With the feature `studio`, viewers see it at the address in the
+/// environment variable `APEX_STUDIO` (`apex_rt::studio`).
 ///
 /// # Errors
-/// If it is stopped by a signal.
+/// If it is stopped by a signal, or the address for viewers cannot be opened.
 pub fn run<P: Program, O: Observer>(
     robot: &mut P,
     end: Time,
@@ -50,10 +53,16 @@ pub fn run<P: Program, O: Observer>(
     mut goes_on: impl FnMut(Time, &mut O) -> bool,
 ) -> Result<RunLog, String> {
     let mut log = RunLog::new(const { &P::INFO });
+    #[cfg(feature = "studio")]
+    let studio = Studio::of_environment::<P>(true).map_err(|e| format!("cannot open the address for viewers: {e}"))?;
+    #[cfg(feature = "studio")]
+    let mut viewers = studio.as_ref().and_then(|studio| studio.stream(0));
+    #[cfg(not(feature = "studio"))]
+    let mut viewers = ();
     let mut clock = UntilStopped::ctrl_c(SimClock::until(end).with_step(step))?;
     loop {
         let now = clock.now();
-        let mut observers = (&mut log, &mut *observer);
+        let mut observers = (&mut log, (&mut viewers, &mut *observer));
         observers.before_reaction(now, robot);
         let next = robot.react_with(now, &mut observers);
         let time = if let Next::At(time) = next { time } else { now };
