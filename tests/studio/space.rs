@@ -4,8 +4,12 @@ use crate::{
     browser::Browser,
     hands::HALTED,
     page::{RUNNING, Started, start_of, studio},
+    socket,
+    stream::Viewer,
 };
 use apex_macros::graph;
+use apex_rt::studio::message::{Command, Report};
+use std::{thread, time::Duration};
 
 graph! {
     use apex_nodes::{cloud::RingCloud, scan::Scan};
@@ -103,4 +107,25 @@ fn without_webgl_there_is_the_plane() {
     for page in [page, other] {
         assert_eq!(page.complaints, Vec::<String>::new());
     }
+}
+
+#[test]
+fn a_viewer_that_reads_slowly_gets_the_newest_tokens() {
+    let _robot = start_of("behind", Sees::new, 3600);
+    let mut viewer = Viewer::connect(socket("behind").to_str().expect("UTF-8")).expect("the robot listens");
+    let wall = viewer.about().channels.iter().position(|channel| channel.name.starts_with("wall_ahead"));
+    viewer.tell(&Command::Watch { channel: wall.expect("a port") as u32, every: 1 });
+    viewer.tell(&Command::Run { speed: 100.0 });
+    let newest = |viewer: &mut Viewer| match viewer.until(|report| matches!(report, Report::Value { .. })).pop() {
+        Some(Report::Value { now, .. }) => now,
+        other => panic!("{other:?}"),
+    };
+    let before = newest(&mut viewer);
+    // 64 kB every 2 ms would be too much for the robot to keep.
+    thread::sleep(Duration::from_secs(2));
+    let mut tokens = 0;
+    while newest(&mut viewer) < before + 150_000_000_000 {
+        tokens += 1;
+    }
+    assert!(tokens < 500, "{tokens} tokens have waited");
 }

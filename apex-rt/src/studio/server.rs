@@ -212,7 +212,8 @@ impl Server {
             let is_due = |(channel, every, last): &(usize, Duration, Option<Instant>)| {
                 *channel == at && last.is_none_or(|last| now.duration_since(last) >= *every)
             };
-            let due: Vec<&mut Viewer> = viewers.iter_mut().filter(|viewer| viewer.watches.iter().any(is_due)).collect();
+            let gets = |viewer: &&mut Viewer| viewer.takes_tokens() && viewer.watches.iter().any(is_due);
+            let due: Vec<&mut Viewer> = viewers.iter_mut().filter(gets).collect();
             let Some(report) = (!due.is_empty()).then(|| self.latest(at)).flatten() else { continue };
             for viewer in due {
                 message::write(&report, &mut viewer.out);

@@ -19,6 +19,8 @@ use std::{
 
 /// Number of bytes that may wait for a viewer. One that is slower is disconnected.
 const BACKLOG: usize = 16 << 20;
+/// Number of waiting bytes above which a viewer gets no token: it gets the newest one when it has caught up.
+const BEHIND: usize = 1 << 20;
 /// Number of bytes that are read, and of commands that are obeyed, before the next viewer has its turn.
 const TURN_BYTES: usize = 256 << 10;
 const TURN_COMMANDS: usize = 256;
@@ -190,9 +192,19 @@ impl Viewer {
         }
     }
 
+    /// Number of bytes that wait for its socket.
+    fn waiting(&self) -> usize {
+        self.out.len() - self.sent
+    }
+
     /// `true` if bytes wait for its socket.
     pub fn is_behind(&self) -> bool {
-        self.sent < self.out.len()
+        self.waiting() > 0
+    }
+
+    /// `true` if there is room for another token.
+    pub fn takes_tokens(&self) -> bool {
+        self.waiting() <= BEHIND
     }
 
     /// Writes as much as the socket takes.
@@ -205,7 +217,7 @@ impl Viewer {
                 Err(_) => self.gone = true,
             }
         }
-        self.gone |= self.out.len() - self.sent > BACKLOG;
+        self.gone |= self.waiting() > BACKLOG;
         // Each byte is moved at most once for each that has been sent, however much waits.
         if self.sent > self.out.len() / 2 {
             self.out.drain(..self.sent);
