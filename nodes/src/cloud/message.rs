@@ -47,7 +47,7 @@ impl TryFrom<PointCloud2> for PointCloud {
         let places = places(&fields)?;
         let points = width.checked_mul(height).filter(|points| *points <= MAX_POINTS);
         points.ok_or_else(|| format!("{width} x {height} points are more than {MAX_POINTS}"))?;
-        let is_inside = places.iter().flatten().all(|place| place.checked_add(4).is_some_and(|end| end <= step));
+        let is_inside = places.iter().flatten().all(|place| place.end().is_some_and(|end| end <= step));
         let fits =
             width.checked_mul(step).is_some_and(|size| size <= row) && row.checked_mul(height) == Some(data.len());
         if !is_inside || !fits {
@@ -58,10 +58,7 @@ impl TryFrom<PointCloud2> for PointCloud {
         cloud.reset(header.stamp.into(), (width, height));
         for (i, point) in cloud.points_mut().iter_mut().enumerate() {
             let start = i / width * row + i % width * step;
-            let number = |place: usize| {
-                let bytes = data[start + place..].first_chunk().copied();
-                bytes.map_or(f32::NAN, if is_bigendian { f32::from_be_bytes } else { f32::from_le_bytes })
-            };
+            let number = |place: Place| place.number(&data[start..], is_bigendian);
             let [x, y, z, intensity] = places.map(|place| place.map_or(0.0, number));
             *point = CloudPoint { x, y, z, intensity };
         }
@@ -71,13 +68,53 @@ impl TryFrom<PointCloud2> for PointCloud {
 
 converted!(PointCloud as PointCloud2);
 
-/// Places of the fields of a point; `intensity` may be missing.
-fn places(fields: &[PointField]) -> Result<[Option<usize>; FIELDS.len()], Reason> {
+/// Place of a field in a point, and the kind of its number.
+#[derive(Clone, Copy)]
+struct Place {
+    offset: usize,
+    datatype: u8,
+}
+
+impl Place {
+    /// Number of bytes before the end of the field; `None` if it has no number.
+    fn end(self) -> Option<usize> {
+        let size = match self.datatype {
+            PointField::INT8 | PointField::UINT8 => 1,
+            PointField::INT16 | PointField::UINT16 => 2,
+            PointField::INT32 | PointField::UINT32 | PointField::FLOAT32 => 4,
+            PointField::FLOAT64 => 8,
+            _ => return None,
+        };
+        self.offset.checked_add(size)
+    }
+
+    /// Number in a point.
+    fn number(self, point: &[u8], is_bigendian: bool) -> f32 {
+        let bytes = self.end().and_then(|end| point.get(self.offset..end)).unwrap_or_default();
+        // The lowest byte first.
+        let mut number = [0; 8];
+        for (i, to) in number[..bytes.len()].iter_mut().enumerate() {
+            *to = bytes[if is_bigendian { bytes.len() - 1 - i } else { i }];
+        }
+        let bits = u64::from_le_bytes(number);
+        match self.datatype {
+            PointField::INT8 => f32::from(bits as i8),
+            PointField::INT16 => f32::from(bits as i16),
+            PointField::INT32 => bits as i32 as f32,
+            PointField::FLOAT32 => f32::from_bits(bits as u32),
+            PointField::FLOAT64 => f64::from_bits(bits) as f32,
+            _ => bits as f32,
+        }
+    }
+}
+
+/// Places of the fields of a point. Coordinates are of type `float32`; `intensity` may be any number, or missing.
+fn places(fields: &[PointField]) -> Result<[Option<Place>; FIELDS.len()], Reason> {
     let mut places = [None; FIELDS.len()];
     for PointField { name, offset, datatype, count } in fields {
-        let is_number = *datatype == PointField::FLOAT32 && *count == 1;
-        if let Some(field) = FIELDS.iter().position(|field| field == name).filter(|_| is_number) {
-            places[field] = Some(*offset as usize);
+        let fits = |field: &usize| *count == 1 && (*datatype == PointField::FLOAT32 || FIELDS[*field] == "intensity");
+        if let Some(field) = FIELDS.iter().position(|field| field == name).filter(fits) {
+            places[field] = Some(Place { offset: *offset as usize, datatype: *datatype });
         }
     }
     match places {
@@ -141,6 +178,17 @@ mod tests {
         assert_eq!(cloud.points()[1], point(1.0, 2.0, 3.0, 9.0));
         let refused = reason::<PointCloud>(&foreign(&[float("x"), ("y", 8)], 8, &[0.0; 4])).expect_err("no z");
         assert_eq!(refused, "its fields are `x`, `y`; `x`, `y` and `z` must be of type `float32`");
+        for (datatype, intensity) in
+            [(1, -1.0), (2, 255.0), (3, -1.0), (4, 65_535.0), (5, -1.0), (6, u32::MAX as f32), (7, f32::NAN)]
+        {
+            let fields = [float("x"), float("y"), float("z"), ("intensity", datatype)];
+            let ones = f32::from_bits(u32::MAX);
+            let cloud: PointCloud = again(&foreign(&fields, 16, &[1.0, 2.0, 3.0, ones].repeat(2))).expect("a cloud");
+            let found = cloud.points()[1].intensity;
+            assert!(found == intensity || found.is_nan() && intensity.is_nan(), "{datatype}: {found}");
+        }
+        let fields = [float("x"), float("y"), float("z"), ("intensity", 9)];
+        assert!(reason::<PointCloud>(&foreign(&fields, 16, &[0.0; 8])).is_err(), "of no kind that is known");
         for step in [8, 16, u32::MAX] {
             let wrong = foreign(&["x", "y", "z"].map(float), step, &[0.0; 6]);
             assert!(reason::<PointCloud>(&wrong).is_err_and(|why| why.contains("it has 24 bytes")), "{step}");
