@@ -88,6 +88,12 @@ pub trait Publish: Send + Sync {
     /// # Errors
     /// It cannot be sent.
     fn send(&self, message: Vec<u8>) -> Result<(), SendError>;
+
+    /// Sends a message if that takes no wait for others. Returns `false` if it was not sent.
+    ///
+    /// # Errors
+    /// It cannot be sent.
+    fn send_at_once(&self, message: Vec<u8>) -> Result<bool, SendError>;
 }
 
 /// Reason why a message was not sent, in words.

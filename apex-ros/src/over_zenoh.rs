@@ -78,7 +78,8 @@ impl Carrier for Zenoh {
         let endpoint = endpoint_of(token)?;
         let way = self.way(&key_of(token)?, endpoint.qos);
         let way = way.map_err(Error::zenoh(&format!("`{}` cannot be published", endpoint.name)))?;
-        Ok(Box::new(Publisher { way, id: identification(token), number: AtomicI64::new(1) }))
+        let (blocks, number) = (blocks(endpoint.qos), AtomicI64::new(1));
+        Ok(Box::new(Publisher { way, blocks, id: identification(token), number }))
     }
 
     fn subscribe(&self, token: &Token, hear: Hear) -> Result<Kept, Error> {
@@ -166,6 +167,11 @@ fn identification(token: &Token) -> [u8; 16] {
     id
 }
 
+/// Returns `true` if a publisher waits for room, and drops nothing.
+fn blocks(qos: Qos) -> bool {
+    qos.reliability == Reliability::Reliable && qos.depth.is_none()
+}
+
 /// Publisher of Zenoh, with or without a cache for subscriptions that come later.
 enum Way {
     Plain(Plain<'static>),
@@ -176,11 +182,10 @@ impl Zenoh {
     /// Declares the publisher of Zenoh.
     fn way(&self, key: &str, qos: Qos) -> zenoh::Result<Way> {
         let is_reliable = qos.reliability == Reliability::Reliable;
-        let blocks = is_reliable && qos.depth.is_none();
         let publisher = self
             .session
             .declare_publisher(key.to_owned())
-            .congestion_control(if blocks { CongestionControl::Block } else { CongestionControl::Drop })
+            .congestion_control(if blocks(qos) { CongestionControl::Block } else { CongestionControl::Drop })
             .reliability(if is_reliable { Marker::Reliable } else { Marker::BestEffort });
         if !qos.is_kept_for_later() {
             return publisher.wait().map(Way::Plain);
@@ -195,6 +200,8 @@ impl Zenoh {
 
 struct Publisher {
     way: Way,
+    /// `true` if it waits for room.
+    blocks: bool,
     id: [u8; 16],
     number: AtomicI64,
 }
@@ -209,6 +216,10 @@ impl Publish for Publisher {
             Way::Kept(publisher) => publisher.put(payload).attachment(attachment).wait(),
         };
         sent.map_err(|error| SendError::Ended(format!("Zenoh: {error}")))
+    }
+
+    fn send_at_once(&self, message: Vec<u8>) -> Result<bool, SendError> {
+        if self.blocks { Ok(false) } else { self.send(message).map(|()| true) }
     }
 }
 
