@@ -65,6 +65,11 @@ pub trait Carrier: Send + Sync {
     /// Returns the reason in words for which no other program can be met; `None` if there is none.
     fn obstacle(&self) -> Option<String>;
 
+    /// Returns the reason in words for which messages of a node that is there may not come; `None` if there is none.
+    fn doubt(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Returns the words for an obstacle that has gone.
     fn way_is_clear(&self) -> String;
 

@@ -35,6 +35,8 @@ pub struct Zenoh {
     session: Session,
     /// Address of the router, for messages.
     router: String,
+    /// Reason why messages of a node that is there may not come.
+    doubt: Option<&'static str>,
 }
 
 /// Time between two signs of the last message's number, by which its loss is noticed.
@@ -46,7 +48,8 @@ impl Zenoh {
     /// # Errors
     /// A setting is not one of Zenoh, or the session cannot be opened.
     pub fn open(router: Option<&str>) -> Result<Self, Error> {
-        Ok(Self { session: session::open(router)?, router: session::address(router) })
+        let (session, doubt) = session::open(router)?;
+        Ok(Self { session, router: session::address(router), doubt })
     }
 }
 
@@ -132,6 +135,10 @@ impl Carrier for Zenoh {
                 self.router
             )
         })
+    }
+
+    fn doubt(&self) -> Option<&'static str> {
+        self.doubt
     }
 
     fn way_is_clear(&self) -> String {

@@ -74,6 +74,19 @@ fn others_that_mean_something_else_are_named() {
 }
 
 #[test]
+fn a_publisher_that_sends_nothing_is_noticed() {
+    let router = Router::start();
+    let (lidar, _) = node(&router, "lidar");
+    let publisher = lidar.publish("scan").quiet().open::<LaserScan>().expect("a topic");
+    let (ros, told) = node(&router, "rover");
+    let _heard = ros.subscribe("scan").each(|_: LaserScan| {}).expect("a topic");
+    let has = |text: &str| told.all().iter().any(|told| told == text);
+    within(SOON + 1.0, "nothing comes", || has("a node publishes `/scan`, and no message has come so far"));
+    publisher.send(&LaserScan::default()).expect("it is there");
+    within(15.0, "a scan has come", || has("what was missing of `/scan` comes now"));
+}
+
+#[test]
 fn a_publisher_that_falls_silent_is_noticed() {
     let router = Router::start();
     let (lidar, _) = node(&router, "lidar");
@@ -85,7 +98,7 @@ fn a_publisher_that_falls_silent_is_noticed() {
         thread::sleep(Duration::from_millis(20));
         subscription.heard() > 20
     });
-    within(6.0, "silence", || told.all().iter().any(|text| text.starts_with("no message of `/scan` has come")));
+    within(SOON + 1.0, "silence", || told.all().iter().any(|text| text.starts_with("no message of `/scan` has come")));
 }
 
 #[test]
@@ -116,7 +129,7 @@ fn a_transform_that_never_comes_is_missed() {
     sent.transforms.push(transform("map", "odom"));
     within(15.0, "the transform has come", || {
         drop(publisher.send(&sent));
-        has("a node publishes `/tf` now")
+        has("what was missing of `/tf` comes now")
     });
 }
 
