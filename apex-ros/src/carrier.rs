@@ -65,7 +65,7 @@ pub trait Carrier: Send + Sync {
     /// Returns the reason in words for which no other program can be met; `None` if there is none.
     fn obstacle(&self) -> Option<String>;
 
-    /// Returns the reason in words for which messages of a node that is there may not come; `None` if there is none.
+    /// Returns the reason in words for which others may not be met; `None` if there is none.
     fn doubt(&self) -> Option<&'static str> {
         None
     }

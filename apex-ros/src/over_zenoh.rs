@@ -35,7 +35,7 @@ pub struct Zenoh {
     session: Session,
     /// Address of the router, for messages.
     router: String,
-    /// Reason why messages of a node that is there may not come.
+    /// Reason why others may not be met.
     doubt: Option<&'static str>,
 }
 
@@ -43,12 +43,12 @@ pub struct Zenoh {
 const HEARTBEAT: Duration = Duration::from_millis(500);
 
 impl Zenoh {
-    /// Opens a session with the router at `router`, or with that of the environment.
+    /// Opens a session with the router at `router`, or with that of the environment. `tell` hears of a long wait for it.
     ///
     /// # Errors
     /// A setting is not one of Zenoh, or the session cannot be opened.
-    pub fn open(router: Option<&str>) -> Result<Self, Error> {
-        let (session, doubt) = session::open(router)?;
+    pub fn open(router: Option<&str>, tell: &(dyn Fn(&str) + Send + Sync)) -> Result<Self, Error> {
+        let (session, doubt) = session::open(router, tell)?;
         Ok(Self { session, router: session::address(router), doubt })
     }
 }
@@ -128,13 +128,7 @@ impl Carrier for Zenoh {
     }
 
     fn obstacle(&self) -> Option<String> {
-        self.session.info().routers_zid().wait().next().is_none().then(|| {
-            format!(
-                "no router of Zenoh answers at `{}`: start one (`ros2 run rmw_zenoh_cpp rmw_zenohd`, or `zenohd`), or \
-                 name another one with `ZENOH_CONFIG_OVERRIDE='connect/endpoints=[\"tcp/HOST:7447\"]'`",
-                self.router
-            )
-        })
+        self.session.info().routers_zid().wait().next().is_none().then(|| session::no_router(&self.router))
     }
 
     fn doubt(&self) -> Option<&'static str> {
@@ -142,7 +136,7 @@ impl Carrier for Zenoh {
     }
 
     fn way_is_clear(&self) -> String {
-        format!("a router answers at `{}`", self.router)
+        session::a_router(&self.router)
     }
 
     fn close(&self) {

@@ -1,7 +1,12 @@
 //! Sessions of Zenoh as those of `rmw_zenoh`: peers that find one another by a router.
 
-use crate::Error;
-use std::{env, net::IpAddr};
+use crate::{Error, silence::PATIENCE};
+use std::{
+    env,
+    net::IpAddr,
+    sync::mpsc::{self, RecvTimeoutError},
+    thread,
+};
 use zenoh::{Config, Session, Wait as _};
 
 /// Address of the router by default: that at which `rmw_zenohd` listens. Not `localhost`, which may be `::1` first.
@@ -10,16 +15,45 @@ pub const ROUTER: &str = "tcp/127.0.0.1:7447";
 /// Environment variable with settings of Zenoh, as for `rmw_zenoh`: `KEY=VALUE;KEY=VALUE`.
 const OVERRIDE: &str = "ZENOH_CONFIG_OVERRIDE";
 
-/// Opens a session with the router at `router`. Returns with it why messages of a node that is there may not come.
+/// Opens a session with the router at `router`. Returns with it why others may not be met. A client waits for its
+/// router: `tell` hears of a long wait, and of its end.
 ///
 /// # Errors
 /// A setting is not one of Zenoh, or the session cannot be opened.
-pub fn open(router: Option<&str>) -> Result<(Session, Option<&'static str>), Error> {
+pub fn open(
+    router: Option<&str>,
+    tell: &(dyn Fn(&str) + Send + Sync),
+) -> Result<(Session, Option<&'static str>), Error> {
     let overrides = env::var(OVERRIDE).ok();
     let config = config(router, overrides.as_deref())?;
-    let doubt = doubt(&config, &addresses(router, overrides.as_deref()));
-    let session = zenoh::open(config).wait().map_err(Error::zenoh("the session cannot be opened"))?;
+    let (doubt, address) = (doubt(&config, &addresses(router, overrides.as_deref())), address(router));
+    let (opened, is_opened) = mpsc::channel::<()>();
+    let address = &address;
+    let (session, has_waited) = thread::scope(|scope| {
+        let waits = scope.spawn(move || {
+            let is_long = is_opened.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout);
+            is_long.then(|| tell(&no_router(address))).is_some()
+        });
+        let session = zenoh::open(config).wait();
+        drop(opened);
+        (session, waits.join().unwrap_or_default())
+    });
+    let session = session.map_err(Error::zenoh("the session cannot be opened"))?;
+    has_waited.then(|| tell(&a_router(address)));
     Ok((session, doubt))
+}
+
+/// Words for a router that is not there.
+pub fn no_router(address: &str) -> String {
+    format!(
+        "no router of Zenoh answers at `{address}`: start one (`ros2 run rmw_zenoh_cpp rmw_zenohd`, or `zenohd`), or name \
+         another one with `ZENOH_CONFIG_OVERRIDE='connect/endpoints=[\"tcp/HOST:7447\"]'`"
+    )
+}
+
+/// Words for a router that is there again.
+pub fn a_router(address: &str) -> String {
+    format!("a router answers at `{address}`")
 }
 
 /// Settings, and those of the environment. A router that the program names comes before that of the environment.
@@ -80,8 +114,8 @@ pub fn address(router: Option<&str>) -> String {
     addresses(router, env::var(OVERRIDE).ok().as_deref()).join("` or `")
 }
 
-/// Returns why messages of a node that is there may not come; `None` if there is no reason. A router tells a peer of the
-/// others, and leaves it to them to connect with it.
+/// Returns why others may not be met; `None` if there is no reason. A router leaves it to peers to connect with one
+/// another.
 fn doubt(config: &Config, routers: &[String]) -> Option<&'static str> {
     let is_peer = config.get_json("mode").is_ok_and(|mode| mode.contains("peer"));
     (is_peer && mode(routers) == "client").then_some(

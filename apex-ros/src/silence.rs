@@ -14,7 +14,7 @@ use std::{
 /// Time between two looks.
 const LOOK: Duration = Duration::from_millis(250);
 /// Time after which a reason is said that still holds.
-const PATIENCE: Duration = Duration::from_millis(2500);
+pub const PATIENCE: Duration = Duration::from_millis(2500);
 /// Time without messages from which on a topic with regular messages is silent.
 const SILENT: Duration = Duration::from_millis(2500);
 
@@ -304,17 +304,15 @@ impl Look {
         let is_known = is_connected || !others.is_empty();
         let reason = reason(at.domain, at.rules, endpoint, &others).filter(|_| is_known);
         let is_met = reason.is_none() && is_known;
-        let reason = reason.map(|reason| (reason, now));
+        let because = doubt.map(|doubt| format!(": {doubt}")).unwrap_or_default();
+        let reason = reason.map(|reason| (format!("{reason}{because}"), now));
         let others_said = self.others.note(reason, || format!("a node {does} `{name}` now"), now);
         if !is_met {
             self.messages = Known::default();
             return [others_said, None];
         }
         let is_subscription = endpoint.kind == Kind::Subscription;
-        let unheard = || {
-            let because = doubt.map(|doubt| format!(": {doubt}")).unwrap_or_default();
-            (format!("a node publishes `{name}`, and no message has come so far{because}"), now)
-        };
+        let unheard = || (format!("a node publishes `{name}`, and no message has come so far{because}"), now);
         let silent = |(last, limit): (Instant, Duration)| {
             (
                 format!("no message of `{name}` has come for {:.1} s, and its publisher is there", limit.as_secs_f32()),

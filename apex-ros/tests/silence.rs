@@ -43,6 +43,34 @@ fn a_router_that_does_not_run_is_missed_and_found() {
 }
 
 #[test]
+fn a_router_elsewhere_that_does_not_run_is_missed_and_found() {
+    let mut router = Router::at(&free_address());
+    // An address that does not look like one of this machine.
+    let address = router.address.replace("127.0.0.1", "127.1");
+    let told = Collected::new();
+    let add = told.collector();
+    let ros = thread::spawn(move || {
+        let opening = Ros::node("rover").args([""; 0]).domain(0).router(&address);
+        opening.tell(move |text| add(text.to_owned())).open().expect("a node")
+    });
+    let has = |part: &str| told.all().iter().any(|text| text.contains(part));
+    within(SOON, "a router is missed", || has("no router of Zenoh answers at `tcp/127.1:"));
+    assert!(!ros.is_finished(), "a client waits for its router");
+    router.resume();
+    within(15.0, "the router is found", || has("a router answers at") && ros.is_finished());
+    let scans = Collected::<LaserScan>::new();
+    let ros = ros.join().expect("no panic");
+    ros.subscribe("scan").quiet().each(scans.collector()).expect("a topic");
+    let (lidar, _) = node(&router, "lidar");
+    let publisher = lidar.publish("scan").quiet().open::<LaserScan>().expect("a topic");
+    within(15.0, "a scan comes through the router", || {
+        publisher.send(&LaserScan::default()).expect("it is there");
+        thread::sleep(Duration::from_millis(20));
+        !scans.all().is_empty()
+    });
+}
+
+#[test]
 fn others_that_mean_something_else_are_named() {
     let router = Router::start();
     let (lidar, _) = node(&router, "lidar");
