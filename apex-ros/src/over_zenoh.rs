@@ -43,7 +43,7 @@ pub struct Zenoh {
 const HEARTBEAT: Duration = Duration::from_millis(500);
 
 impl Zenoh {
-    /// Opens a session with the router at `router`, or with that of the environment. `tell` hears of a long wait for it.
+    /// Opens a session with the router at `router`, or with that of the environment. `tell` hears of a long wait.
     ///
     /// # Errors
     /// A setting is not one of Zenoh, or the session cannot be opened.

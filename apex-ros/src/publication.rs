@@ -183,8 +183,8 @@ impl<T, M: Message> Forwarding<T, M> {
         sent.inspect_err(|error| self.complain(error)).map_or_else(|error| error.is_passing(), |()| true)
     }
 
-    /// Sends a token if its message is as small as the last one, and nothing has to be waited for. Returns `false` if it
-    /// was not sent; what went wrong shows the next time.
+    /// Sends a token without a wait, if the last message was small. Returns `false` if it was not sent; what went wrong
+    /// shows the next time.
     fn send_at_once(&self, token: &T) -> bool {
         let is_small = self.size.load(Ordering::Relaxed) <= SMALL;
         is_small && self.publisher.way.send_at_once(self.encode(token)).unwrap_or(false)

@@ -164,7 +164,7 @@ struct Known {
 }
 
 impl Known {
-    /// Takes note of the present reason, which holds since then, or since an earlier look. Returns what is to be said: a
+    /// Takes note of the present reason, which holds since that time or an earlier look. Returns what is to be said: a
     /// reason that holds for a while, or `fine` after a reason that was said.
     fn note(
         &mut self,
@@ -219,7 +219,7 @@ impl Pace {
     }
 }
 
-/// What is known of an endpoint at the last look.
+/// State of an endpoint at the last look.
 #[derive(Default)]
 struct Look {
     /// Why it meets no other one.
