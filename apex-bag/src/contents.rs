@@ -27,7 +27,8 @@ pub struct Topic {
     pub bytes: u64,
     /// Times of the first and the last message, in ns; `None` without messages.
     pub times: Option<(u64, u64)>,
-    /// Longest time between two messages, and the time in ns at which it began; `None` with less than two messages.
+    /// Longest time without a message from the first to the last message of the recording, and the time in ns at which
+    /// it began; `None` with less than two messages.
     pub gap: Option<(Duration, u64)>,
     /// Time between two messages that is exceeded by half of them; `None` with less than two messages.
     pub period: Option<Duration>,
@@ -56,6 +57,7 @@ impl Contents {
         topics.sort_by(|a, b| a.channel.name.cmp(&b.channel.name));
         let times = topics.iter().filter_map(|topic| topic.times);
         let times = times.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        times.iter().for_each(|times| topics.iter_mut().for_each(|topic| topic.add_silence(*times)));
         let (program, cut) = (recording.program().map(str::to_owned), recording.cut().map(str::to_owned));
         Ok(Self { program, times, topics, cut })
     }
@@ -72,6 +74,17 @@ impl Topic {
         let period = steps.get(steps.len() / 2).map(|step| step.0);
         let range = times.first().copied().zip(times.last().copied());
         Self { channel, count: times.len() as u64, bytes, times: range, gap, period }
+    }
+
+    /// Adds the time before the first and after the last message in a recording that begins and ends at these times.
+    fn add_silence(&mut self, (begin, end): (u64, u64)) {
+        let Some(((first, last), gap)) = self.times.zip(self.gap.as_mut()) else { return };
+        for (from, to) in [(begin, first), (last, end)] {
+            let silence = Duration::from_nanos(to - from);
+            if silence > gap.0 {
+                *gap = (silence, from);
+            }
+        }
     }
 
     /// Mean number of messages per second between the first and the last one; `None` if there are less than two, or all

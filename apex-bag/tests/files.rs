@@ -133,6 +133,24 @@ fn contents_are_counted() {
 }
 
 #[test]
+fn a_topic_that_ends_before_the_others_or_begins_after_them_has_a_gap() {
+    let mut writer = WriteOptions::new().create(io::Cursor::new(vec![])).expect("room");
+    for (topic, seconds) in [("/a", 0..30), ("/b", 0..10), ("/c", 25..30)] {
+        let channel_id = writer.add_channel(0, topic, "cdr", &BTreeMap::new()).expect("room");
+        for second in seconds {
+            let time = BEGIN + second * 1_000_000_000;
+            let header = MessageHeader { channel_id, sequence: 0, log_time: time, publish_time: time };
+            writer.write_to_known_channel(&header, &[0; 8]).expect("room");
+        }
+    }
+    writer.finish().expect("room");
+    let file = Temporary::new("ends.mcap", &writer.into_inner().into_inner());
+    let gaps = Contents::read(&file.0).expect("a recording").topics.into_iter().map(|topic| topic.gap.expect("a gap"));
+    let gaps: Vec<_> = gaps.map(|(gap, at)| (gap.as_secs(), (at - BEGIN) / 1_000_000_000)).collect();
+    assert_eq!(gaps, [(1, 0), (20, 9), (25, 0)]);
+}
+
+#[test]
 fn what_is_not_a_recording_is_named() {
     let database = if cfg!(feature = "sqlite") { "not a database of rosbag2" } else { "the feature `sqlite`" };
     for (bytes, why) in [

@@ -116,13 +116,22 @@ impl Args {
         Ok(full)
     }
 
-    /// Value of the parameter `name` of ROS itself, such as `use_sim_time`.
-    pub(crate) fn flag(&self, name: &str) -> bool {
+    /// Value of the parameter `name` of ROS itself, such as `use_sim_time`; `false` if there is none.
+    ///
+    /// # Errors
+    /// The value is not a truth value.
+    pub(crate) fn flag(&self, name: &str) -> Result<bool, Error> {
         let given = self.params.iter().rev().find(|(other, _)| other == name);
         let in_file = || self.file_params.iter().rev().find(|param| param.name == name);
-        match given {
-            Some((_, value)) => value == "1" || toml(value).is_ok_and(|value| value == "true"),
-            None => in_file().is_some_and(|param| param.value == "true"),
+        let (place, value) = match (given, in_file()) {
+            (Some((_, value)), _) => (format!("`-p {name}:={value}`"), toml(value)?),
+            (None, Some(FileParam { value, place, .. })) => (place.clone(), value.clone()),
+            (None, None) => return Ok(false),
+        };
+        match value.as_str() {
+            "1" | "true" => Ok(true),
+            "0" | "false" => Ok(false),
+            _ => Err(Error::new(format!("{place}: `{name}` takes `true` or `false`"))),
         }
     }
 }
@@ -212,7 +221,12 @@ mod tests {
 
     #[test]
     fn flags_of_ros_are_parameters() {
-        assert!(read("--ros-args -p use_sim_time:=false -p use_sim_time:=true").expect("right").flag("use_sim_time"));
-        assert!(!read("--ros-args -p use_sim_time:=false").expect("right").flag("use_sim_time"));
+        let flag = |text: &str| read(&format!("--ros-args {text}")).expect("right").flag("use_sim_time");
+        assert_eq!(flag("-p use_sim_time:=false -p use_sim_time:=true"), Ok(true));
+        for (text, expected) in [("True", true), ("1", true), ("false", false), ("0", false)] {
+            assert_eq!(flag(&format!("-p use_sim_time:={text}")), Ok(expected), "{text}");
+        }
+        let error = flag("-p use_sim_time:=maybe").expect_err("neither").to_string();
+        assert_eq!(error, "`-p use_sim_time:=maybe`: `use_sim_time` takes `true` or `false`");
     }
 }

@@ -65,6 +65,11 @@ pub trait Carrier: Send + Sync {
     /// Returns the reason in words for which no other program can be met; `None` if there is none.
     fn obstacle(&self) -> Option<String>;
 
+    /// Returns the reason in words for which others may not be met; `None` if there is none.
+    fn doubt(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Returns the words for an obstacle that has gone.
     fn way_is_clear(&self) -> String;
 
@@ -88,6 +93,12 @@ pub trait Publish: Send + Sync {
     /// # Errors
     /// It cannot be sent.
     fn send(&self, message: Vec<u8>) -> Result<(), SendError>;
+
+    /// Sends a message if that takes no wait for others. Returns `false` if it was not sent.
+    ///
+    /// # Errors
+    /// It cannot be sent.
+    fn send_at_once(&self, message: Vec<u8>) -> Result<bool, SendError>;
 }
 
 /// Reason why a message was not sent, in words.

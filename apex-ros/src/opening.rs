@@ -85,7 +85,7 @@ impl Opening {
         let scope = Scope::new(args.namespace.as_deref().unwrap_or(""), args.node.as_deref().unwrap_or(&self.node))?;
         let domain = self.domain.map_or_else(domain, Ok)?;
         let distribution = self.distribution.map_or_else(Distribution::of_environment, Ok)?;
-        let carrier = self.carrier.unwrap_or_else(|| over_zenoh(self.router))(domain, distribution)?;
+        let is_simulated = args.flag(SIM_TIME)?;
         let (log, said) = (Log::default(), self.tell);
         let tell: Tell = {
             let log = log.clone();
@@ -95,7 +95,8 @@ impl Opening {
                 tell_viewers(text);
             })
         };
-        let is_simulated = args.flag(SIM_TIME);
+        let carrier = self.carrier.unwrap_or_else(|| over_zenoh(self.router, Arc::clone(&tell)));
+        let carrier = carrier(domain, distribution)?;
         let mut endpoints = Endpoints::new(carrier, domain, scope, args, distribution, tell, is_simulated);
         endpoints.seed = self.seed.unwrap_or(endpoints.seed);
         let endpoints = Arc::new(endpoints);
@@ -122,9 +123,11 @@ impl Opening {
 }
 
 /// The carrier by default.
-fn over_zenoh(router: Option<String>) -> OpenCarrier {
+fn over_zenoh(router: Option<String>, tell: Tell) -> OpenCarrier {
     #[cfg(feature = "zenoh")]
-    return Box::new(move |_, _| Ok(Arc::new(crate::over_zenoh::Zenoh::open(router.as_deref())?)));
+    return Box::new(move |_, _| Ok(Arc::new(crate::over_zenoh::Zenoh::open(router.as_deref(), &*tell)?)));
+    #[cfg(not(feature = "zenoh"))]
+    drop(tell);
     #[cfg(not(feature = "zenoh"))]
     Box::new(move |_, _| {
         let router = router.map_or_else(String::new, |router| format!(" with the router `{router}`"));

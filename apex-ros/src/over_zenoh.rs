@@ -35,18 +35,21 @@ pub struct Zenoh {
     session: Session,
     /// Address of the router, for messages.
     router: String,
+    /// Reason why others may not be met.
+    doubt: Option<&'static str>,
 }
 
 /// Time between two signs of the last message's number, by which its loss is noticed.
 const HEARTBEAT: Duration = Duration::from_millis(500);
 
 impl Zenoh {
-    /// Opens a session with the router at `router`, or with that of the environment.
+    /// Opens a session with the router at `router`, or with that of the environment. `tell` hears of a long wait.
     ///
     /// # Errors
     /// A setting is not one of Zenoh, or the session cannot be opened.
-    pub fn open(router: Option<&str>) -> Result<Self, Error> {
-        Ok(Self { session: session::open(router)?, router: session::address(router) })
+    pub fn open(router: Option<&str>, tell: &(dyn Fn(&str) + Send + Sync)) -> Result<Self, Error> {
+        let (session, doubt) = session::open(router, tell)?;
+        Ok(Self { session, router: session::address(router), doubt })
     }
 }
 
@@ -78,7 +81,8 @@ impl Carrier for Zenoh {
         let endpoint = endpoint_of(token)?;
         let way = self.way(&key_of(token)?, endpoint.qos);
         let way = way.map_err(Error::zenoh(&format!("`{}` cannot be published", endpoint.name)))?;
-        Ok(Box::new(Publisher { way, id: identification(token), number: AtomicI64::new(1) }))
+        let (blocks, number) = (blocks(endpoint.qos), AtomicI64::new(1));
+        Ok(Box::new(Publisher { way, blocks, id: identification(token), number }))
     }
 
     fn subscribe(&self, token: &Token, hear: Hear) -> Result<Kept, Error> {
@@ -124,17 +128,15 @@ impl Carrier for Zenoh {
     }
 
     fn obstacle(&self) -> Option<String> {
-        self.session.info().routers_zid().wait().next().is_none().then(|| {
-            format!(
-                "no router of Zenoh answers at `{}`: start one (`ros2 run rmw_zenoh_cpp rmw_zenohd`, or `zenohd`), or \
-                 name another one with `ZENOH_CONFIG_OVERRIDE='connect/endpoints=[\"tcp/HOST:7447\"]'`",
-                self.router
-            )
-        })
+        self.session.info().routers_zid().wait().next().is_none().then(|| session::no_router(&self.router))
+    }
+
+    fn doubt(&self) -> Option<&'static str> {
+        self.doubt
     }
 
     fn way_is_clear(&self) -> String {
-        format!("a router answers at `{}`", self.router)
+        session::a_router(&self.router)
     }
 
     fn close(&self) {
@@ -166,6 +168,11 @@ fn identification(token: &Token) -> [u8; 16] {
     id
 }
 
+/// Returns `true` if a publisher waits for room, and drops nothing.
+fn blocks(qos: Qos) -> bool {
+    qos.reliability == Reliability::Reliable && qos.depth.is_none()
+}
+
 /// Publisher of Zenoh, with or without a cache for subscriptions that come later.
 enum Way {
     Plain(Plain<'static>),
@@ -176,11 +183,10 @@ impl Zenoh {
     /// Declares the publisher of Zenoh.
     fn way(&self, key: &str, qos: Qos) -> zenoh::Result<Way> {
         let is_reliable = qos.reliability == Reliability::Reliable;
-        let blocks = is_reliable && qos.depth.is_none();
         let publisher = self
             .session
             .declare_publisher(key.to_owned())
-            .congestion_control(if blocks { CongestionControl::Block } else { CongestionControl::Drop })
+            .congestion_control(if blocks(qos) { CongestionControl::Block } else { CongestionControl::Drop })
             .reliability(if is_reliable { Marker::Reliable } else { Marker::BestEffort });
         if !qos.is_kept_for_later() {
             return publisher.wait().map(Way::Plain);
@@ -195,6 +201,8 @@ impl Zenoh {
 
 struct Publisher {
     way: Way,
+    /// `true` if it waits for room.
+    blocks: bool,
     id: [u8; 16],
     number: AtomicI64,
 }
@@ -209,6 +217,10 @@ impl Publish for Publisher {
             Way::Kept(publisher) => publisher.put(payload).attachment(attachment).wait(),
         };
         sent.map_err(|error| SendError::Ended(format!("Zenoh: {error}")))
+    }
+
+    fn send_at_once(&self, message: Vec<u8>) -> Result<bool, SendError> {
+        if self.blocks { Ok(false) } else { self.send(message).map(|()| true) }
     }
 }
 

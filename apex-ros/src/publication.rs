@@ -3,13 +3,17 @@
 use crate::{
     Error, Kind, Qos, Ros,
     carrier::{Publish, SendError},
+    endpoint::Tell,
     time::RosTime,
 };
 use apex_messages::Message;
 use apex_rt::PortReceiver;
 use std::{
     marker::PhantomData,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicUsize, Ordering},
+    },
     time::{Duration, Instant},
 };
 
@@ -88,7 +92,7 @@ impl<'a> Publishing<'a> {
     /// # Errors
     /// The name is not one of ROS.
     pub fn take<T: Message + Send + 'static>(self, port: PortReceiver<T>) -> Result<(), Error> {
-        self.forward(port, None, |publisher, token| publisher.send(token))
+        self.forward(port, None, Publisher::encode)
     }
 
     /// Publishes the tokens of an event, and `last` when the program has ended: a twist of zero, say.
@@ -96,7 +100,7 @@ impl<'a> Publishing<'a> {
     /// # Errors
     /// The errors of [`Publishing::take`].
     pub fn take_ending_with<T: Message + Send + 'static>(self, port: PortReceiver<T>, last: T) -> Result<(), Error> {
-        self.forward(port, Some(last), |publisher, token| publisher.send(token))
+        self.forward(port, Some(last), Publisher::encode)
     }
 
     /// Returns a publisher for use in Rust.
@@ -112,44 +116,95 @@ impl<'a> Publishing<'a> {
         Ok(Publisher { way, frame, time: endpoints.time.clone(), topic, message: PhantomData })
     }
 
-    /// Publishes the tokens of an event by `send`, on a thread of its own.
+    /// Publishes the tokens of an event, which `encode` makes messages: small ones on the thread of the program if none
+    /// waits before them, the others on a thread of their own.
     fn forward<T: Send + 'static, M: Message + 'static>(
         self,
         port: PortReceiver<T>,
         last: Option<T>,
-        send: fn(&Publisher<M>, &T) -> Result<(), Error>,
+        encode: fn(&Publisher<M>, &T) -> Vec<u8>,
     ) -> Result<(), Error> {
-        let ros = self.ros;
-        let (publisher, tell) = (Arc::new(self.open::<M>()?), ros.endpoints.tell.clone());
-        let (last, voice) = (Arc::new(Mutex::new(last)), Arc::clone(&ros.endpoints.voice));
-        let say_last = {
-            let (publisher, tell) = (Arc::clone(&publisher), ros.endpoints.tell.clone());
-            move || {
-                let last = last.lock().unwrap_or_else(PoisonError::into_inner);
-                if let Some(Err(error)) = last.as_ref().map(|last| send(&publisher, last)) {
-                    tell(&error.to_string());
-                }
-            }
-        };
-        voice.at_silence(say_last.clone());
-        let mut told: Option<Instant> = None;
-        ros.endpoints.spawn(&publisher.topic.clone(), move || {
+        let (endpoints, publisher) = (&self.ros.endpoints, self.clone().open::<M>()?);
+        let (topic, tell) = (publisher.topic.clone(), endpoints.tell.clone());
+        let forwarding = Arc::new(Forwarding {
+            publisher,
+            encode,
+            last: Mutex::new(last),
+            size: AtomicUsize::new(usize::MAX),
+            tell,
+            told: Mutex::default(),
+        });
+        let (voice, here) = (Arc::clone(&endpoints.voice), Arc::clone(&forwarding));
+        voice.at_silence(move || here.say_last());
+        let (leave, here) = (Arc::clone(&voice), Arc::clone(&forwarding));
+        port.at_once(move |token| {
+            let _leave = leave.leave()?;
+            (!here.send_at_once(&token)).then_some(token)
+        });
+        endpoints.spawn(&topic, move || {
             while let Some(token) = port.receive().as_ref() {
                 let Some(leave) = voice.leave() else { continue };
-                if let Err(error) = send(&publisher, token) {
-                    // Messages that are lost are told now and then.
-                    if !error.is_passing() || told.is_none_or(|told| told.elapsed() >= PAUSE) {
-                        told = Some(Instant::now());
-                        tell(&error.to_string());
-                    }
-                    if !error.is_passing() {
-                        break;
-                    }
+                if !forwarding.send(token) {
+                    break;
                 }
                 drop(leave);
             }
-            say_last();
+            forwarding.say_last();
         })
+    }
+}
+
+/// Longest message that is sent on the thread of the program, which waits for it, in bytes.
+const SMALL: usize = 64 * 1024;
+
+/// Publication of the tokens of an event.
+struct Forwarding<T, M> {
+    publisher: Publisher<M>,
+    encode: fn(&Publisher<M>, &T) -> Vec<u8>,
+    /// Token that is sent at the end.
+    last: Mutex<Option<T>>,
+    /// Size of the last message, in bytes.
+    size: AtomicUsize,
+    tell: Tell,
+    /// Time of the last complaint.
+    told: Mutex<Option<Instant>>,
+}
+
+impl<T, M: Message> Forwarding<T, M> {
+    fn encode(&self, token: &T) -> Vec<u8> {
+        let bytes = (self.encode)(&self.publisher, token);
+        self.size.store(bytes.len(), Ordering::Relaxed);
+        bytes
+    }
+
+    /// Sends a token. Returns `false` if no more can be sent.
+    fn send(&self, token: &T) -> bool {
+        let sent = self.publisher.send_bytes(self.encode(token));
+        sent.inspect_err(|error| self.complain(error)).map_or_else(|error| error.is_passing(), |()| true)
+    }
+
+    /// Sends a token without a wait, if the last message was small. Returns `false` if it was not sent; what went wrong
+    /// shows the next time.
+    fn send_at_once(&self, token: &T) -> bool {
+        let is_small = self.size.load(Ordering::Relaxed) <= SMALL;
+        is_small && self.publisher.way.send_at_once(self.encode(token)).unwrap_or(false)
+    }
+
+    /// Says what went wrong; messages that are lost now and then.
+    fn complain(&self, error: &Error) {
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        if !error.is_passing() || told.is_none_or(|told| told.elapsed() >= PAUSE) {
+            *told = Some(Instant::now());
+            (self.tell)(&error.to_string());
+        }
+    }
+
+    fn say_last(&self) {
+        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let sent = last.as_ref().map(|last| self.publisher.send_bytes(self.encode(last)));
+        if let Some(Err(error)) = sent {
+            (self.tell)(&error.to_string());
+        }
     }
 }
 
@@ -162,7 +217,7 @@ impl<M: Message + 'static> PublishingAs<'_, M> {
     where
         M: for<'t> From<&'t T>,
     {
-        self.0.forward(port, None, |publisher: &Publisher<M>, token| publisher.send(&token.into()))
+        self.0.forward(port, None, |publisher: &Publisher<M>, token| publisher.encode(&token.into()))
     }
 
     /// Publishes the tokens of an event, converted to `M`, and `last` when the program has ended.
@@ -173,7 +228,7 @@ impl<M: Message + 'static> PublishingAs<'_, M> {
     where
         M: for<'t> From<&'t T>,
     {
-        self.0.forward(port, Some(last), |publisher: &Publisher<M>, token| publisher.send(&token.into()))
+        self.0.forward(port, Some(last), |publisher: &Publisher<M>, token| publisher.encode(&token.into()))
     }
 }
 
@@ -183,7 +238,14 @@ impl<M: Message> Publisher<M> {
     /// # Errors
     /// The node has ended, or the message is lost.
     pub fn send(&self, message: &M) -> Result<(), Error> {
-        let bytes = self.time.write(message, self.frame.as_deref());
+        self.send_bytes(self.encode(message))
+    }
+
+    fn encode(&self, message: &M) -> Vec<u8> {
+        self.time.write(message, self.frame.as_deref())
+    }
+
+    fn send_bytes(&self, bytes: Vec<u8>) -> Result<(), Error> {
         self.way.send(bytes).map_err(|error| match error {
             SendError::Lost(reason) => Error::passing(format!("`{}`: a message is lost: {reason}", self.topic)),
             SendError::Ended(reason) => Error::new(format!("`{}` cannot be published: {reason}", self.topic)),

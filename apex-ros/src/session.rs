@@ -1,7 +1,12 @@
 //! Sessions of Zenoh as those of `rmw_zenoh`: peers that find one another by a router.
 
-use crate::Error;
-use std::{env, net::IpAddr};
+use crate::{Error, silence::PATIENCE};
+use std::{
+    env,
+    net::IpAddr,
+    sync::mpsc::{self, RecvTimeoutError},
+    thread,
+};
 use zenoh::{Config, Session, Wait as _};
 
 /// Address of the router by default: that at which `rmw_zenohd` listens. Not `localhost`, which may be `::1` first.
@@ -10,26 +15,58 @@ pub const ROUTER: &str = "tcp/127.0.0.1:7447";
 /// Environment variable with settings of Zenoh, as for `rmw_zenoh`: `KEY=VALUE;KEY=VALUE`.
 const OVERRIDE: &str = "ZENOH_CONFIG_OVERRIDE";
 
-/// Opens a session with the router at `router`.
+/// Opens a session with the router at `router`. Returns with it why others may not be met. A client waits for its
+/// router: `tell` hears of a long wait, and of its end.
 ///
 /// # Errors
 /// A setting is not one of Zenoh, or the session cannot be opened.
-pub fn open(router: Option<&str>) -> Result<Session, Error> {
-    let config = config(router, env::var(OVERRIDE).ok().as_deref())?;
-    zenoh::open(config).wait().map_err(Error::zenoh("the session cannot be opened"))
+pub fn open(
+    router: Option<&str>,
+    tell: &(dyn Fn(&str) + Send + Sync),
+) -> Result<(Session, Option<&'static str>), Error> {
+    let overrides = env::var(OVERRIDE).ok();
+    let config = config(router, overrides.as_deref())?;
+    let (doubt, address) = (doubt(&config, &addresses(router, overrides.as_deref())), address(router));
+    let (opened, is_opened) = mpsc::channel::<()>();
+    let address = &address;
+    let (session, has_waited) = thread::scope(|scope| {
+        let waits = scope.spawn(move || {
+            let is_long = is_opened.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout);
+            is_long.then(|| tell(&no_router(address))).is_some()
+        });
+        let session = zenoh::open(config).wait();
+        drop(opened);
+        (session, waits.join().unwrap_or_default())
+    });
+    let session = session.map_err(Error::zenoh("the session cannot be opened"))?;
+    has_waited.then(|| tell(&a_router(address)));
+    Ok((session, doubt))
+}
+
+/// Words for a router that is not there.
+pub fn no_router(address: &str) -> String {
+    format!(
+        "no router of Zenoh answers at `{address}`: start one (`ros2 run rmw_zenoh_cpp rmw_zenohd`, or `zenohd`), or name \
+         another one with `ZENOH_CONFIG_OVERRIDE='connect/endpoints=[\"tcp/HOST:7447\"]'`"
+    )
+}
+
+/// Words for a router that is there again.
+pub fn a_router(address: &str) -> String {
+    format!("a router answers at `{address}`")
 }
 
 /// Settings, and those of the environment. A router that the program names comes before that of the environment.
 fn config(router: Option<&str>, overrides: Option<&str>) -> Result<Config, Error> {
-    let address = router.unwrap_or(ROUTER);
-    let mode = mode(address);
+    let addresses = addresses(router, overrides);
+    let mode = mode(&addresses);
     let mut config = Config::default();
     let mut set = |key: &str, value: &str| {
         let why = |error| Error::new(format!("`{key}={value}` is not a setting of Zenoh: {error}"));
         config.insert_json5(key, value).map_err(why)
     };
     set("mode", &format!("{mode:?}"))?;
-    set("connect/endpoints", &format!("[{address:?}]"))?;
+    set("connect/endpoints", &format!("{addresses:?}"))?;
     // A router that is not there yet, or not any more, is tried again for ever.
     set("connect/timeout_ms", "-1")?;
     set("connect/exit_on_failure", "false")?;
@@ -52,21 +89,39 @@ fn config(router: Option<&str>, overrides: Option<&str>) -> Result<Config, Error
 
 /// Mode of a session. A router on another machine serves clients: peers there listen on their own machine only, as
 /// those of `rmw_zenoh` do.
-fn mode(router: &str) -> &'static str {
-    let address = router.split_once('/').map_or(router, |(_, address)| address);
-    let host = address.rsplit_once(':').map_or(address, |(host, _)| host).trim_matches(['[', ']']);
-    let is_here = host == "localhost" || host.parse::<IpAddr>().is_ok_and(|ip| ip.is_loopback() || ip.is_unspecified());
-    if is_here { "peer" } else { "client" }
+fn mode(routers: &[String]) -> &'static str {
+    if routers.iter().all(|router| is_here(router)) { "peer" } else { "client" }
 }
 
-/// Returns the address of the router in the settings of a session, for messages.
+/// Returns `true` if an address is one of this machine.
+fn is_here(router: &str) -> bool {
+    let address = router.split_once('/').map_or(router, |(_, address)| address);
+    let host = address.rsplit_once(':').map_or(address, |(host, _)| host).trim_matches(['[', ']']);
+    host == "localhost" || host.parse::<IpAddr>().is_ok_and(|ip| ip.is_loopback() || ip.is_unspecified())
+}
+
+/// Addresses of the routers: that which the program names, or those in the settings of the environment.
+fn addresses(router: Option<&str>, overrides: Option<&str>) -> Vec<String> {
+    let pairs = overrides.unwrap_or("").split(';');
+    let list = pairs.filter_map(|pair| pair.trim().strip_prefix("connect/endpoints=")).next_back();
+    let address = |text: &str| Some(text.trim_matches([' ', '[', ']', '"', '\'']).to_owned()).filter(|a| !a.is_empty());
+    let of_environment = || list.map(|list| list.split(',').filter_map(address).collect());
+    router.map(|router| vec![router.to_owned()]).or_else(of_environment).unwrap_or_else(|| vec![ROUTER.to_owned()])
+}
+
+/// Returns the addresses of the routers in the settings of a session, for messages.
 pub fn address(router: Option<&str>) -> String {
-    let of_environment = || {
-        let pairs = env::var(OVERRIDE).ok()?;
-        let pair = pairs.split(';').find_map(|pair| pair.trim().strip_prefix("connect/endpoints="))?;
-        Some(pair.trim_matches(['[', ']', '"']).to_owned())
-    };
-    router.map(str::to_owned).or_else(of_environment).unwrap_or_else(|| ROUTER.to_owned())
+    addresses(router, env::var(OVERRIDE).ok().as_deref()).join("` or `")
+}
+
+/// Returns why others may not be met; `None` if there is no reason. A router leaves it to peers to connect with one
+/// another.
+fn doubt(config: &Config, routers: &[String]) -> Option<&'static str> {
+    let is_peer = config.get_json("mode").is_ok_and(|mode| mode.contains("peer"));
+    (is_peer && mode(routers) == "client").then_some(
+        "this program is a peer of a router on another machine, which carries nothing for it: take `mode=\"peer\"` out \
+         of `ZENOH_CONFIG_OVERRIDE`",
+    )
 }
 
 #[cfg(test)]
@@ -75,12 +130,33 @@ mod tests {
 
     #[test]
     fn a_router_elsewhere_makes_a_client() {
+        // Named by the program, and by the environment.
+        let modes = |address: &str| {
+            let overrides = format!("connect/endpoints=[{address:?}]");
+            [config(Some(address), None), config(None, Some(&overrides))]
+                .map(|config| config.expect("right").get_json("mode").expect("a setting"))
+        };
         for here in [ROUTER, "tcp/localhost:7447", "tcp/[::1]:7447", "tcp/127.0.0.2:1"] {
-            assert_eq!(mode(here), "peer", "{here}");
+            assert_eq!(modes(here), ["\"peer\""; 2], "{here}");
         }
         for elsewhere in ["tcp/192.168.1.5:7447", "tcp/robot:7447", "tcp/[fe80::1]:7447"] {
-            assert_eq!(mode(elsewhere), "client", "{elsewhere}");
+            assert_eq!(modes(elsewhere), ["\"client\""; 2], "{elsewhere}");
         }
+        let several = Some("connect/endpoints=[\"tcp/localhost:7447\", \"tcp/robot:7447\"]");
+        assert_eq!(addresses(None, several), ["tcp/localhost:7447", "tcp/robot:7447"]);
+        assert_eq!(config(None, several).expect("right").get_json("mode").expect("a setting"), "\"client\"");
+    }
+
+    #[test]
+    fn a_peer_of_a_router_elsewhere_is_doubted() {
+        let doubt = |overrides: &str| {
+            let config = config(None, Some(overrides)).expect("right");
+            doubt(&config, &addresses(None, Some(overrides)))
+        };
+        assert_eq!(doubt("connect/endpoints=[\"tcp/robot:7447\"]"), None);
+        assert_eq!(doubt("mode=\"peer\""), None);
+        let why = doubt("connect/endpoints=[\"tcp/robot:7447\"];mode=\"peer\"");
+        assert!(why.is_some_and(|why| why.contains("take `mode=\"peer\"` out")), "{why:?}");
     }
 
     #[test]

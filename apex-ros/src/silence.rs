@@ -14,7 +14,7 @@ use std::{
 /// Time between two looks.
 const LOOK: Duration = Duration::from_millis(250);
 /// Time after which a reason is said that still holds.
-const PATIENCE: Duration = Duration::from_millis(2500);
+pub const PATIENCE: Duration = Duration::from_millis(2500);
 /// Time without messages from which on a topic with regular messages is silent.
 const SILENT: Duration = Duration::from_millis(2500);
 
@@ -161,39 +161,73 @@ struct Known {
     since: Option<Instant>,
     /// `true` if the reason was said.
     is_said: bool,
-    /// Number of messages at the last look, and the time at which it changed.
-    heard: u64,
-    last: Option<Instant>,
 }
 
 impl Known {
-    /// Takes note of the present reason. Returns what is to be said: a reason that holds for a while, or `fine` after a
-    /// reason that was said.
-    fn note(&mut self, reason: Option<String>, fine: impl FnOnce() -> String, now: Instant) -> Option<String> {
+    /// Takes note of the present reason, which holds since that time or an earlier look. Returns what is to be said: a
+    /// reason that holds for a while, or `fine` after a reason that was said.
+    fn note(
+        &mut self,
+        reason: Option<(String, Instant)>,
+        fine: impl FnOnce() -> String,
+        now: Instant,
+    ) -> Option<String> {
+        let (reason, since) = reason.unzip();
         if reason != self.reason {
             let was_said = std::mem::take(&mut self.is_said);
-            (self.reason, self.since) = (reason, Some(now));
-            return (was_said && self.reason.is_none()).then(fine);
+            (self.reason, self.since) = (reason, since);
+            if self.reason.is_none() {
+                return was_said.then(fine);
+            }
         }
-        let lasts = now - *self.since.get_or_insert(now) >= PATIENCE;
+        let lasts = self.since.is_some_and(|since| now - since >= PATIENCE);
         if self.is_said || !lasts {
             return None;
         }
         self.is_said = self.reason.is_some();
         self.reason.clone()
     }
-
-    /// Returns for how long a topic with regular messages has been silent.
-    fn silence(&mut self, heard: u64, now: Instant) -> bool {
-        if heard != self.heard {
-            (self.heard, self.last) = (heard, Some(now));
-        }
-        heard >= REGULAR && self.last.is_some_and(|last| now - last >= SILENT)
-    }
 }
 
 /// Number of messages from which on a topic counts as one with regular messages.
 const REGULAR: u64 = 10;
+/// Number of usual times between two messages without a message, from which on a topic is silent.
+const MISSED: u32 = 3;
+
+/// Pace of the messages of a topic.
+#[derive(Default)]
+struct Pace {
+    /// Number of messages at the last look.
+    heard: u64,
+    /// The same at the first look with messages, and its time.
+    first: Option<(u64, Instant)>,
+    /// Time at which the number changed last.
+    last: Option<Instant>,
+}
+
+impl Pace {
+    /// Returns since when a topic with regular messages has been silent, and the time in which one should have come.
+    fn silence(&mut self, heard: u64, now: Instant) -> Option<(Instant, Duration)> {
+        if heard != self.heard {
+            (self.heard, self.last) = (heard, Some(now));
+            self.first.get_or_insert((heard, now));
+        }
+        let ((before, first), last) = self.first.zip(self.last)?;
+        let usual = (last - first) / u32::try_from(heard - before).unwrap_or(u32::MAX).max(1);
+        let limit = SILENT.max(usual * MISSED);
+        (heard >= REGULAR && now - last >= limit).then_some((last, limit))
+    }
+}
+
+/// State of an endpoint at the last look.
+#[derive(Default)]
+struct Look {
+    /// Why it meets no other one.
+    others: Known,
+    /// Why nothing comes from those that it meets.
+    messages: Known,
+    pace: Pace,
+}
 
 /// The endpoints of a program, which are looked at now and then.
 #[derive(Default)]
@@ -234,15 +268,17 @@ impl Watch {
 
     /// Looks at the endpoints until the end of the watch.
     pub fn run(&self, at: &Situation, carrier: &dyn Carrier, tell: &(dyn Fn(&str) + Send + Sync)) {
-        let (mut way, mut known) = (Known::default(), Vec::new());
+        let (mut way, mut looks) = (Known::default(), Vec::new());
         while !self.is_over.load(Ordering::Acquire) {
             let (obstacle, now) = (carrier.obstacle(), Instant::now());
             let is_connected = obstacle.is_none();
+            let obstacle = obstacle.map(|obstacle| (obstacle, now));
             way.note(obstacle, || carrier.way_is_clear(), now).iter().for_each(|text| tell(text));
             let ours = self.all();
-            known.resize_with(ours.len(), Known::default);
-            for (ours, known) in ours.iter().zip(&mut known).filter(|(ours, _)| !ours.is_quiet) {
-                look(ours, known, at, is_connected, now).iter().for_each(|text| tell(text));
+            looks.resize_with(ours.len(), Look::default);
+            for (ours, look) in ours.iter().zip(&mut looks).filter(|(ours, _)| !ours.is_quiet) {
+                let said = look.at(ours, at, (is_connected, carrier.doubt()), now);
+                said.iter().flatten().for_each(|text| tell(text));
             }
             let guard = self.changed.0.lock().unwrap_or_else(PoisonError::into_inner);
             drop(self.changed.1.wait_timeout(guard, LOOK));
@@ -250,22 +286,45 @@ impl Watch {
     }
 }
 
-/// Looks at an endpoint. Returns what is to be said.
-fn look(ours: &Ours, known: &mut Known, at: &Situation, is_connected: bool, now: Instant) -> Option<String> {
-    let endpoint = &ours.endpoint;
-    let (kind, does) = other_side(endpoint.kind);
-    let heard = ours.heard.load(Ordering::Relaxed);
-    let is_silent = known.silence(heard, now);
-    let others = at.graph.others(kind, &at.session);
-    let name = shown(&endpoint.name);
-    let silent =
-        || format!("no message of `{name}` has come for {} s, and its publisher is there", SILENT.as_secs_f32());
-    let reason = reason(at.domain, at.rules, endpoint, &others).or_else(|| is_silent.then(silent));
-    let missing = ours.missing().clone().filter(|_| heard > 0);
-    let reason = reason.or_else(|| missing.map(|part| format!("no message of `{name}` has `{part}` so far")));
-    // Behind an obstacle nothing is known about the others, and that has been said.
-    let reason = reason.filter(|_| is_connected || !others.is_empty());
-    known.note(reason, || format!("a node {does} `{name}` now"), now)
+impl Look {
+    /// Looks at an endpoint. Returns what is to be said: of the others, and of their messages.
+    fn at(
+        &mut self,
+        ours: &Ours,
+        at: &Situation,
+        (is_connected, doubt): (bool, Option<&str>),
+        now: Instant,
+    ) -> [Option<String>; 2] {
+        let endpoint = &ours.endpoint;
+        let ((kind, does), name) = (other_side(endpoint.kind), shown(&endpoint.name));
+        let heard = ours.heard.load(Ordering::Relaxed);
+        let silence = self.pace.silence(heard, now);
+        let others = at.graph.others(kind, &at.session);
+        // Behind an obstacle nothing is known about the others, and that has been said.
+        let is_known = is_connected || !others.is_empty();
+        let reason = reason(at.domain, at.rules, endpoint, &others).filter(|_| is_known);
+        let is_met = reason.is_none() && is_known;
+        let because = doubt.map(|doubt| format!(": {doubt}")).unwrap_or_default();
+        let reason = reason.map(|reason| (format!("{reason}{because}"), now));
+        let others_said = self.others.note(reason, || format!("a node {does} `{name}` now"), now);
+        if !is_met {
+            self.messages = Known::default();
+            return [others_said, None];
+        }
+        let is_subscription = endpoint.kind == Kind::Subscription;
+        let unheard = || (format!("a node publishes `{name}`, and no message has come so far{because}"), now);
+        let silent = |(last, limit): (Instant, Duration)| {
+            (
+                format!("no message of `{name}` has come for {:.1} s, and its publisher is there", limit.as_secs_f32()),
+                last,
+            )
+        };
+        let missing =
+            || ours.missing().as_ref().map(|part| (format!("no message of `{name}` has `{part}` so far"), now));
+        let reason = if heard == 0 { is_subscription.then(unheard) } else { silence.map(silent).or_else(missing) };
+        let said = self.messages.note(reason, || format!("what was missing of `{name}` comes now"), now);
+        [others_said, said]
+    }
 }
 
 #[cfg(test)]
@@ -365,7 +424,8 @@ mod tests {
     fn a_reason_is_said_once_when_it_lasts() {
         let (mut known, start) = (Known::default(), Instant::now());
         let mut note = |reason: Option<&str>, ms: u64| {
-            known.note(reason.map(str::to_owned), || "fine".to_owned(), start + Duration::from_millis(ms))
+            let now = start + Duration::from_millis(ms);
+            known.note(reason.map(|reason| (reason.to_owned(), now)), || "fine".to_owned(), now)
         };
         let said: Vec<_> =
             (0..4000).step_by(250).filter_map(|ms| note(Some("why"), ms).map(|text| (ms, text))).collect();
@@ -376,9 +436,25 @@ mod tests {
 
     #[test]
     fn only_regular_messages_can_fall_silent() {
-        let (mut known, start) = (Known::default(), Instant::now());
-        let mut silence = |heard, s| known.silence(heard, start + Duration::from_secs(s));
-        assert!(!silence(1, 0) && !silence(1, 60));
-        assert!(!silence(20, 61) && silence(20, 64) && !silence(21, 65));
+        let (mut pace, start) = (Pace::default(), Instant::now());
+        let mut silence = |heard, ms| pace.silence(heard, start + Duration::from_millis(ms)).is_some();
+        assert!(!silence(1, 0) && !silence(1, 60_000), "one message is not regular");
+        let (mut pace, mut known) = (Pace::default(), Known::default());
+        let mut said = |heard, ms| {
+            let now = start + Duration::from_millis(ms);
+            let silence = pace.silence(heard, now).map(|(last, _)| ("silent".to_owned(), last));
+            known.note(silence, || "fine".to_owned(), now)
+        };
+        assert!((0..20).all(|k| said(k, k * 100).is_none()));
+        assert_eq!((said(19, 4250), said(19, 4500)), (None, Some("silent".to_owned())), "2.5 s after the last one");
+        assert_eq!((said(19, 9000), said(20, 9250)), (None, Some("fine".to_owned())));
+    }
+
+    #[test]
+    fn a_slow_topic_is_silent_after_three_of_its_periods() {
+        let (mut pace, start) = (Pace::default(), Instant::now());
+        let mut silence = |heard, s| pace.silence(heard, start + Duration::from_secs(s)).is_some();
+        assert!((1..=20).all(|k| !silence(k, 5 * k) && !silence(k, 5 * k + 4)), "one message in 5 s");
+        assert!(!silence(20, 114) && silence(20, 115));
     }
 }

@@ -4,7 +4,7 @@ mod common;
 
 use apex_macros::graph;
 use apex_messages::{
-    builtin_interfaces,
+    Service, builtin_interfaces,
     diagnostic_msgs::{DiagnosticArray, DiagnosticStatus},
     rcl_interfaces::{
         DescribeParameters, DescribeParametersRequest, GetParameters, GetParametersRequest, ListParameters,
@@ -18,7 +18,11 @@ use apex_messages::{
 use apex_nodes::scan::Pose2;
 use apex_ros::{Client, Ros};
 use apex_rt::{Ports, Switch, UntilStopped, drive_from, prelude::*};
-use common::{Collected, Router, within};
+use common::{
+    Collected, Router,
+    python::{Peer, python},
+    within,
+};
 use std::{
     thread,
     time::{Duration, Instant},
@@ -81,7 +85,7 @@ impl complain {
 graph!("robot.afg");
 
 /// Opens a client that meets its server.
-fn client<S: apex_messages::Service + 'static>(ros: &Ros, name: &str) -> Client<S> {
+fn client<S: Service + 'static>(ros: &Ros, name: &str) -> Client<S> {
     let client = ros.call::<S>(name).timeout(Duration::from_secs(2)).open().expect("a client");
     within(15.0, "a server", || ros.sees(apex_ros::Kind::Server, name, S::NAME));
     client
@@ -184,6 +188,34 @@ fn parameters_are_those_of_ros() {
         let result = all.ask(&SetParametersAtomicallyRequest { parameters }).expect("a result").result;
         assert!(!result.successful && result.reason.contains("no parameter of this name"), "{}", result.reason);
         assert_eq!(value("drive.factor").double_value, 4.0);
+    });
+}
+
+#[test]
+fn a_program_in_python_sets_parameters_and_has_its_own_read() {
+    let Some(python) = python() else { return };
+    let hashes = [(GetParameters::NAME, GetParameters::HASH), (SetParameters::NAME, SetParameters::HASH)];
+    let types = hashes.map(|(name, hash)| format!("{name}={hash}"));
+    let mut peer = Peer::start(&*python, "params_peer.py", &types.each_ref().map(String::as_str));
+    beside(&Router::at(&peer.address.clone()), &["--ros-args", "-p", "drive.factor:=3.5"], |tools| {
+        let mut says = |word: &str, line: &str| {
+            within(20.0, word, || peer.does(word).iter().any(|said| said.trim_end() == line));
+        };
+        says("get drive.factor", "value 3 3.5");
+        says("set drive.factor 4.25", "result True");
+        for wrong in ["nan", "inf", "-1"] {
+            says(
+                &format!("set drive.factor {wrong}"),
+                "result False the value of `drive.factor` is out of range: its range is 0..=10 (m)",
+            );
+        }
+        says("get drive.factor", "value 3 4.25");
+        let get = client::<GetParameters>(tools, "/peer/get_parameters");
+        let values = get.ask(&GetParametersRequest { names: vec!["odd".to_owned(), "none".to_owned()] });
+        let [odd, none] = values.expect("an answer").values.try_into().expect("two values");
+        let bits: Vec<_> = odd.double_array_value.iter().map(|value| value.to_bits()).collect();
+        assert_eq!(bits, [f64::INFINITY, f64::NEG_INFINITY, f64::NAN, -0.0, 5e-324].map(f64::to_bits));
+        assert_eq!((odd.r#type, none.r#type), (ParameterType::PARAMETER_DOUBLE_ARRAY, 0));
     });
 }
 

@@ -179,8 +179,36 @@ impl<T> PortReceiver<T> {
     /// Waits for a token and takes it out. Returns `None` if the program has ended.
     pub fn receive(&self) -> Option<T> {
         let is_empty = |state: &mut State<T>| state.token.is_none() && !state.ended;
-        let state = self.cell.changed.wait_while(self.cell.state(), is_empty).unwrap_or_else(PoisonError::into_inner);
+        let mut state = self.cell.state();
+        state.is_busy = false;
+        let mut state = self.cell.changed.wait_while(state, is_empty).unwrap_or_else(PoisonError::into_inner);
+        state.is_busy = state.token.is_some();
         self.take_from(state)
+    }
+
+    /// Gives tokens to `act` first, on the thread that drives the program, which waits for it: this saves the way to
+    /// another thread. A token that it returns is left to [`PortReceiver::receive`], and so are those after it until
+    /// that is called again: they stay in their order.
+    ///
+    /// ```
+    /// use apex_rt::{Ports, drive_from, prelude::*};
+    /// use std::sync::mpsc::channel;
+    ///
+    /// apex_macros::graph!("examples/count.afg");
+    ///
+    /// # fn main() {
+    /// let mut ports = Ports::<Count>::new();
+    /// let ticks = ports.input(|inputs| &mut inputs.tick);
+    /// let counts = ports.event(|events| &mut events.count);
+    /// let (sender, receiver) = channel();
+    /// counts.at_once(move |count| sender.send(count).err().map(|unsent| unsent.0));
+    /// assert_eq!(ticks.put(()), Ok(()));
+    /// drive_from(Count::new(), SimClock::until(Time::MAX), ports);
+    /// assert_eq!((receiver.recv(), counts.take()), (Ok(1), None));
+    /// # }
+    /// ```
+    pub fn at_once(&self, act: impl FnMut(T) -> Option<T> + Send + 'static) {
+        self.cell.state().first = Some(Box::new(act));
     }
 
     fn take_from(&self, mut state: MutexGuard<'_, State<T>>) -> Option<T> {
@@ -223,13 +251,21 @@ struct Cell<T> {
 
 struct State<T> {
     token: Option<T>,
+    /// Function that gets the tokens of an event first.
+    first: Option<First<T>>,
+    /// `true` while the token that was received last is in use.
+    is_busy: bool,
     /// `true` if the program has ended, or the receiver of its events is dropped.
     ended: bool,
 }
 
+/// Function that takes tokens on the thread of the program, or returns them.
+type First<T> = Box<dyn FnMut(T) -> Option<T> + Send>;
+
 impl<T> Default for Cell<T> {
     fn default() -> Self {
-        Self { state: Mutex::new(State { token: None, ended: false }), changed: Condvar::new() }
+        let state = State { token: None, first: None, is_busy: false, ended: false };
+        Self { state: Mutex::new(state), changed: Condvar::new() }
     }
 }
 
@@ -292,13 +328,18 @@ impl<M, T: Send> Way<M> for WayOut<M, T> {
         if state.token.is_some() || state.ended {
             return false;
         }
-        state.token = mailbox.take();
-        let moved = state.token.is_some();
+        let Some(token) = mailbox.take() else { return false };
+        let is_idle = !state.is_busy;
+        state.token = match &mut state.first {
+            Some(first) if is_idle => first(token),
+            _ => Some(token),
+        };
+        let waits = state.token.is_some();
         drop(state);
-        if moved {
+        if waits {
             self.cell.changed.notify_all();
         }
-        moved
+        true
     }
 
     fn holds_back(&self, mailboxes: &mut M) -> bool {

@@ -355,3 +355,29 @@ fn packets_of_a_scanner_are_played() {
     let stamps: Vec<Time> = sent.into_iter().map(|token| token.expect("packets").stamp()).collect();
     assert_eq!((stamps, ended), (vec![Time::ZERO, Time::from_millis(100)], true));
 }
+
+#[test]
+fn a_message_of_the_same_name_with_another_definition_is_refused() {
+    let folder = Folder::new();
+    let path = folder.file("old.mcap");
+    let mut writer = WriteOptions::new().create(fs::File::create(&path).expect("room")).expect("a file");
+    let turned = Twist::DEFINITION.replacen("linear", "angle", 1);
+    for (topic, definition) in [("/is", Twist::DEFINITION), ("/was", &turned)] {
+        let schema = writer.add_schema(Twist::NAME, "ros2msg", definition.as_bytes()).expect("room");
+        let channel_id = writer.add_channel(schema, topic, "cdr", &BTreeMap::new()).expect("room");
+        let header = MessageHeader { channel_id, sequence: 0, log_time: BEGIN, publish_time: BEGIN };
+        writer.write_to_known_channel(&header, &Twist::ZERO.to_bytes()).expect("room");
+    }
+    writer.finish().expect("room");
+    let file = path.to_str().expect("a readable path");
+    assert_eq!(play::<Twist>(file, "/is"), (vec![Ok(Twist::ZERO)], true));
+    let (sent, _) = play::<Twist>(file, "/was");
+    let difference = "recorded: float64 angle.x\n    known:    float64 linear.x";
+    assert_eq!(
+        sent,
+        [Err(format!(
+            "{file}: `/was` has another message `geometry_msgs/msg/Twist` than is known here; the first difference:\n    \
+             {difference}"
+        ))]
+    );
+}

@@ -2,11 +2,11 @@
 
 use apex_macros::graph;
 use apex_rt::{
-    PortReceiver, PortSender, Ports, RemoteParams, Time, drive_from, drive_with,
+    Mailbox, PortReceiver, PortSender, Ports, Program, RemoteParams, Time, drive_from, drive_with,
     params::{ParamError, Rejection},
     prelude::*,
 };
-use std::thread;
+use std::{sync::mpsc, thread, time::Duration};
 
 /// Multiplies tokens.
 #[node]
@@ -198,4 +198,47 @@ fn an_observer_acts_between_reactions() {
     drive_with(&mut program, SimClock::until(Time::from_millis(25)), &mut raise);
     assert_eq!(program.outputs().sum, Some(3 + 4));
     assert_eq!(raise.next, [10, 20, 30].map(|ms| Next::At(Time::from_millis(ms))));
+}
+
+/// Sends 3000 numbers through a program whose products are taken on its own thread, but for those that a function
+/// leaves to another one. Returns the products in the order in which they were taken, and how many were left.
+fn products<P: Program + Send + 'static>(
+    program: P,
+    number: fn(&mut P::Inputs) -> &mut Mailbox<i64>,
+    product: fn(&mut P::Events) -> &mut Mailbox<i64>,
+) -> (Vec<i64>, usize) {
+    let mut ports = Ports::<P>::new();
+    let (numbers, products) = (ports.input(number), ports.event(product));
+    let (sender, taken) = mpsc::channel();
+    let at_once = sender.clone();
+    products.at_once(move |product| {
+        // Some are left, as many a time as one would by chance.
+        if product % 7 < 2 { Some(product) } else { at_once.send((product, true)).err().map(|_| product) }
+    });
+    let later = thread::spawn(move || {
+        while let Some(product) = products.receive() {
+            // Those that come meanwhile have to wait.
+            thread::sleep(Duration::from_micros(50));
+            sender.send((product, false)).expect("the test waits");
+        }
+    });
+    let feed = thread::spawn(move || (0..3000).for_each(|i| numbers.send(i).expect("it runs")));
+    assert_eq!(drive_from(program, WallClock::new(), ports), 0);
+    feed.join().expect("no panic");
+    later.join().expect("no panic");
+    let taken: Vec<(i64, bool)> = taken.iter().collect();
+    let left = taken.iter().filter(|(_, at_once)| !at_once).count();
+    (taken.into_iter().map(|(product, _)| product).collect(), left)
+}
+
+#[test]
+fn tokens_that_are_taken_at_once_and_later_keep_their_order() {
+    let expected: Vec<i64> = (0..3000).map(|i| 6 * i).collect();
+    for (products, left) in [
+        products(Alone::new(), |inputs| &mut inputs.number, |events| &mut events.product),
+        products(Apart::new(), |inputs| &mut inputs.number, |events| &mut events.product),
+    ] {
+        assert_eq!(products, expected);
+        assert!((800..=3000).contains(&left), "{left} were left");
+    }
 }

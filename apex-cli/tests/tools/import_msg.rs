@@ -131,8 +131,10 @@ fn mistakes_in_definitions_are_said_with_their_place() {
         (
             "A.msg",
             "other_msgs/B b",
-            "`p/msg/A` has a field of an unknown type `other_msgs/msg/B`: name the folder of `other_msgs`",
+            "`p/msg/A` has a field of an unknown type `other_msgs/msg/B`, which neither these files nor `apex-messages` \
+             have: correct its name, or name the folder of `other_msgs`, too",
         ),
+        ("A.msg", "float6 x", "unknown type `p/msg/float6`, which neither these files"),
         ("A.msg", "A a", "`p/msg/A` contains itself"),
         ("A.msg", "wstring a", "A.msg:1: the type `wstring` is not supported"),
         ("A.msg", "int32[x] a", "`x` in `int32[x]` is not a number"),

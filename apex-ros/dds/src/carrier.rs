@@ -18,10 +18,12 @@ use apex_ros::{
 use rustdds::{GUID, RTPSEntity as _, StatusEvented as _, Timestamp, dds::WriteError};
 use std::{
     net::IpAddr,
+    pin::pin,
     sync::{
         Arc, Mutex, PoisonError,
         atomic::{AtomicBool, Ordering},
     },
+    task::{Context, Poll, Waker},
     thread,
     time::Duration,
 };
@@ -213,10 +215,24 @@ struct Publisher {
 
 impl Publish for Publisher {
     fn send(&self, message: Vec<u8>) -> Result<(), SendError> {
-        self.writer.write(Raw(message.into()), Some(Timestamp::now())).map_err(|error| match error {
-            WriteError::WouldBlock { .. } => SendError::Lost("a subscription takes none at present".to_owned()),
-            error => SendError::Ended(format!("DDS: {error}")),
-        })
+        self.writer.write(Raw(message.into()), Some(Timestamp::now())).map_err(unsent)
+    }
+
+    fn send_at_once(&self, message: Vec<u8>) -> Result<bool, SendError> {
+        // The first look at whether there is room, without the wait for it.
+        let write = pin!(self.writer.async_write(Raw(message.into()), Some(Timestamp::now())));
+        match write.poll(&mut Context::from_waker(Waker::noop())) {
+            Poll::Ready(sent) => sent.map(|()| true).map_err(unsent),
+            Poll::Pending => Ok(false),
+        }
+    }
+}
+
+/// Reason why a message was not written.
+fn unsent(error: WriteError<Raw>) -> SendError {
+    match error {
+        WriteError::WouldBlock { .. } => SendError::Lost("a subscription takes none at present".to_owned()),
+        error => SendError::Ended(format!("DDS: {error}")),
     }
 }
 

@@ -41,6 +41,8 @@ pub use threads::record_on_threads;
 #[doc(hidden)]
 pub use tokens::{Tokens, tokens};
 pub use types::TypeChange;
+#[doc(hidden)]
+pub use types::other_message;
 
 /// Role of the tokens of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,7 @@
 use super::{
     Codec, Reason,
     cdr::Reader,
-    definition::{difference, of_ros1},
-    types::{TypeMatch, compare},
+    types::{TypeMatch, compare, other_message},
 };
 use crate::Time;
 use apex_bag::{CUT, Channel, Message, ROS1, Recording};
@@ -152,14 +151,8 @@ impl<T> Read<T> {
             let names: Vec<String> = messages.iter().map(|message| format!("`{}`", message.name)).collect();
             return Err(format!("`{topic}` in `{file}` is of type `{ty}`; the port reads {}", names.join(", ")));
         };
-        // A message without a definition is known by its name alone.
-        let shape = channel.shape.as_deref().filter(|_| !message.definition.is_empty());
-        let shape = shape.map(|text| if is_ros1 { of_ros1(text) } else { text.to_owned() });
-        match shape.and_then(|shape| difference(&shape, message.definition)) {
-            Some((theirs, ours)) => Err(format!(
-                "`{topic}` in `{file}` has another message `{ty}` than is known here; the first difference:\n    \
-                 recorded: {theirs}\n    known:    {ours}"
-            )),
+        match other_message(channel, message.definition) {
+            Some(how) => Err(format!("`{topic}` in `{file}` {how}")),
             None => Ok(Self::Foreign { read: message.read, is_ros1 }),
         }
     }

@@ -1,7 +1,7 @@
 //! Comparison of the types in a recording with those of the program.
 
 use super::{Schema, definition, shape};
-use apex_bag::Channel;
+use apex_bag::{Channel, ROS1};
 use core::fmt::{self, Display, Formatter};
 
 /// A channel whose tokens are of another type than the recorded ones.
@@ -54,6 +54,19 @@ pub fn compare(recorded: &Channel, present: Schema, shape: fn() -> String) -> Ty
         None if recorded.schema == present.name => TypeMatch::Undescribed,
         None => change(None),
     }
+}
+
+/// Returns in words how the messages of another program's channel differ from those of the same name that are defined
+/// by `known`. A channel without a definition is known by its name alone.
+pub fn other_message(channel: &Channel, known: &str) -> Option<String> {
+    let shape = channel.shape.as_deref().filter(|_| !known.is_empty())?;
+    let shape = if channel.encoding == ROS1 { definition::of_ros1(shape) } else { shape.to_owned() };
+    let (theirs, ours) = definition::difference(&shape, known)?;
+    Some(format!(
+        "has another message `{}` than is known here; the first difference:\n    recorded: {theirs}\n    \
+         known:    {ours}",
+        channel.schema
+    ))
 }
 
 impl Display for TypeChange {

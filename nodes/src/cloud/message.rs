@@ -75,14 +75,14 @@ struct Points {
 
 impl Points {
     /// The points of a message, and the places of some of its fields in a point: the first three have to be there.
-    fn of<const N: usize>(message: PointCloud2, names: [&str; N]) -> Result<(Self, [Option<usize>; N]), Reason> {
+    fn of<const N: usize>(message: PointCloud2, names: [&str; N]) -> Result<(Self, [Option<Place>; N]), Reason> {
         let PointCloud2 { header, fields, is_bigendian, data, .. } = message;
         let (height, width) = (message.height as usize, message.width as usize);
         let (step, row) = (message.point_step as usize, message.row_step as usize);
         let places = places(&fields, names)?;
         let points = width.checked_mul(height).filter(|points| *points <= MAX_POINTS);
         points.ok_or_else(|| format!("{width} x {height} points are more than {MAX_POINTS}"))?;
-        let is_inside = places.iter().flatten().all(|place| place.checked_add(4).is_some_and(|end| end <= step));
+        let is_inside = places.iter().flatten().all(|place| place.end().is_some_and(|end| end <= step));
         let fits =
             width.checked_mul(step).is_some_and(|size| size <= row) && row.checked_mul(height) == Some(data.len());
         if !is_inside || !fits {
@@ -94,13 +94,9 @@ impl Points {
     }
 
     /// The numbers of a point at these places; 0 for a field that is missing.
-    fn numbers<const N: usize>(&self, row: usize, column: usize, places: [Option<usize>; N]) -> [f32; N] {
-        let start = row * self.row + column * self.step;
-        let number = |place: usize| {
-            let bytes = self.data[start + place..].first_chunk().copied();
-            bytes.map_or(f32::NAN, if self.is_bigendian { f32::from_be_bytes } else { f32::from_le_bytes })
-        };
-        places.map(|place| place.map_or(0.0, number))
+    fn numbers<const N: usize>(&self, row: usize, column: usize, places: [Option<Place>; N]) -> [f32; N] {
+        let point = &self.data[row * self.row + column * self.step..];
+        places.map(|place| place.map_or(0.0, |place| place.number(point, self.is_bigendian)))
     }
 }
 
@@ -147,13 +143,54 @@ impl TryFrom<PointCloud2> for RingCloud {
 converted!(PointCloud as PointCloud2);
 converted!(RingCloud as PointCloud2);
 
-/// Places of fields of a point, of which the first three have to be there.
-fn places<const N: usize>(fields: &[PointField], names: [&str; N]) -> Result<[Option<usize>; N], Reason> {
+/// Place of a field in a point, and the kind of its number.
+#[derive(Clone, Copy)]
+struct Place {
+    offset: usize,
+    datatype: u8,
+}
+
+impl Place {
+    /// Number of bytes before the end of the field; `None` if it has no number.
+    fn end(self) -> Option<usize> {
+        let size = match self.datatype {
+            PointField::INT8 | PointField::UINT8 => 1,
+            PointField::INT16 | PointField::UINT16 => 2,
+            PointField::INT32 | PointField::UINT32 | PointField::FLOAT32 => 4,
+            PointField::FLOAT64 => 8,
+            _ => return None,
+        };
+        self.offset.checked_add(size)
+    }
+
+    /// Number in a point.
+    fn number(self, point: &[u8], is_bigendian: bool) -> f32 {
+        let bytes = self.end().and_then(|end| point.get(self.offset..end)).unwrap_or_default();
+        // The lowest byte first.
+        let mut number = [0; 8];
+        for (i, to) in number[..bytes.len()].iter_mut().enumerate() {
+            *to = bytes[if is_bigendian { bytes.len() - 1 - i } else { i }];
+        }
+        let bits = u64::from_le_bytes(number);
+        match self.datatype {
+            PointField::INT8 => f32::from(bits as i8),
+            PointField::INT16 => f32::from(bits as i16),
+            PointField::INT32 => bits as i32 as f32,
+            PointField::FLOAT32 => f32::from_bits(bits as u32),
+            PointField::FLOAT64 => f64::from_bits(bits) as f32,
+            _ => bits as f32,
+        }
+    }
+}
+
+/// Places of fields of a point. The first three are its coordinates, of type `float32`; others may be any numbers, or
+/// missing.
+fn places<const N: usize>(fields: &[PointField], names: [&str; N]) -> Result<[Option<Place>; N], Reason> {
     let mut places = [None; N];
     for PointField { name, offset, datatype, count } in fields {
-        let is_number = *datatype == PointField::FLOAT32 && *count == 1;
-        if let Some(field) = names.iter().position(|field| field == name).filter(|_| is_number) {
-            places[field] = Some(*offset as usize);
+        let fits = |field: &usize| *count == 1 && (*datatype == PointField::FLOAT32 || *field > 2);
+        if let Some(field) = names.iter().position(|field| field == name).filter(fits) {
+            places[field] = Some(Place { offset: *offset as usize, datatype: *datatype });
         }
     }
     match places[..] {
@@ -244,6 +281,17 @@ mod tests {
         assert_eq!(cloud.points()[1], point(1.0, 2.0, 3.0, 9.0));
         let refused = reason::<PointCloud>(&foreign(&[float("x"), ("y", 8)], 8, &[0.0; 4])).expect_err("no z");
         assert_eq!(refused, "its fields are `x`, `y`; `x`, `y` and `z` must be of type `float32`");
+        for (datatype, intensity) in
+            [(1, -1.0), (2, 255.0), (3, -1.0), (4, 65_535.0), (5, -1.0), (6, u32::MAX as f32), (7, f32::NAN)]
+        {
+            let fields = [float("x"), float("y"), float("z"), ("intensity", datatype)];
+            let ones = f32::from_bits(u32::MAX);
+            let cloud: PointCloud = again(&foreign(&fields, 16, &[1.0, 2.0, 3.0, ones].repeat(2))).expect("a cloud");
+            let found = cloud.points()[1].intensity;
+            assert!(found == intensity || found.is_nan() && intensity.is_nan(), "{datatype}: {found}");
+        }
+        let fields = [float("x"), float("y"), float("z"), ("intensity", 9)];
+        assert!(reason::<PointCloud>(&foreign(&fields, 16, &[0.0; 8])).is_err(), "of no kind that is known");
         for step in [8, 16, u32::MAX] {
             let wrong = foreign(&["x", "y", "z"].map(float), step, &[0.0; 6]);
             assert!(reason::<PointCloud>(&wrong).is_err_and(|why| why.contains("it has 24 bytes")), "{step}");

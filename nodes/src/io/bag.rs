@@ -1,8 +1,8 @@
 use apex_bag::{CUT, Channel, ROS1, Recording, message};
 use apex_messages::{Foreign, Message, Reason, cdr::Reader};
-use apex_rt::{Ctx, Event, Time, node};
+use apex_rt::{Ctx, Event, Time, node, record::other_message};
 use core::fmt;
-use std::{path::Path, vec::Vec};
+use std::{collections::BTreeMap, path::Path, vec::Vec};
 
 /// Error of a recording that cannot be played.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,8 +29,8 @@ impl std::error::Error for BagError {}
 /// several tokens in a message: `/tf: odom -> base_link`. The file is read while it is played. With `frame`, each token
 /// has to be in this frame, by the header of its message.
 ///
-/// Fails if the file cannot be read, has no such topic or another type, and at a message that cannot be read, which is
-/// left out. A file that was cut off ends there.
+/// Fails if the file cannot be read, has no such topic, or another type or definition of its messages, and at a message
+/// that cannot be read, which is left out. A file that was cut off ends there.
 #[node]
 pub struct BagTopic<T> {
     /// Path of the file.
@@ -66,6 +66,8 @@ struct Player<T> {
     /// Frame of the tokens; any if it is empty.
     frame: &'static str,
     forms: Vec<Foreign<T>>,
+    /// Functions that read the messages of the topic's channels, by their number.
+    reads: BTreeMap<u16, Read<T>>,
     /// Time at which it began.
     begun: Time,
     /// Time of the first message, in ns.
@@ -129,7 +131,8 @@ impl<T: Message> Player<T> {
         let mut forms: Vec<Foreign<T>> = T::others();
         forms.insert(0, Foreign::itself());
         let wanted = (topic.trim(), part.trim());
-        Ok(Self { recording, wanted, frame, forms, begun, start: None, next: None, has_topic: false, has_part: false })
+        let (reads, start, next) = (BTreeMap::new(), None, None);
+        Ok(Self { recording, wanted, frame, forms, reads, begun, start, next, has_topic: false, has_part: false })
     }
 
     /// Reads the next token, with its time.
@@ -142,7 +145,14 @@ impl<T: Message> Player<T> {
             let channel = self.recording.channels().get(&found.channel);
             let Some(channel) = channel.filter(|c| c.name == topic || c.topic == topic) else { continue };
             self.has_topic = true;
-            let read = self.form(channel).map_err(Mistake::File)?.read;
+            let read = match self.reads.get(&found.channel) {
+                Some(read) => *read,
+                None => {
+                    let read = self.form(channel).map_err(Mistake::File)?.read;
+                    self.reads.insert(found.channel, read);
+                    read
+                }
+            };
             let bytes = message(&found.data).map_err(|why| Mistake::Message(format!("`{topic}`: {why}")))?;
             let reader = if channel.encoding == ROS1 { Ok(Reader::ros1(&bytes)) } else { Reader::new(&bytes) };
             let nanos = |time: u64| i64::try_from(time).unwrap_or(i64::MAX);
@@ -169,10 +179,14 @@ impl<T: Message> Player<T> {
         if !["cdr", ROS1].contains(&&**encoding) {
             return Err(format!("`{topic}` is encoded as `{encoding}`, and not as a message of ROS"));
         }
-        self.forms.iter().find(|form| form.name == schema).ok_or_else(|| {
+        let form = self.forms.iter().find(|form| form.name == schema).ok_or_else(|| {
             let names: Vec<&str> = self.forms.iter().map(|form| form.name).collect();
             format!("`{topic}` is of type `{schema}`, and the port reads `{}`", names.join("`, `"))
-        })
+        })?;
+        match other_message(channel, form.definition) {
+            Some(how) => Err(format!("`{topic}` {how}")),
+            None => Ok(form),
+        }
     }
 
     /// Returns the reason if the recording did not end well.

@@ -98,7 +98,7 @@ impl Description {
             image: one("image").ok_or("the field `image` is missing")?,
             resolution,
             origin: origin.ok_or("`origin` is not a list of three numbers: x, y and yaw")?,
-            negate: matches!(one("negate").as_deref(), Some("1" | "true" | "True")),
+            negate: negate(one("negate").as_deref().unwrap_or("0"))?,
             occupied,
             free,
             mode,
@@ -119,6 +119,15 @@ impl Description {
             Mode::Scale => Some(1.0 + 98.0 * (occupied - self.free) / (self.occupied - self.free)),
         };
         percent.map_or(Occupancy::Unknown, Occupancy::of_percent)
+    }
+}
+
+/// Value of `negate`: a number, or a truth value of YAML.
+fn negate(text: &str) -> Result<bool, String> {
+    match text.to_lowercase().as_str() {
+        "1" | "true" | "yes" | "on" => Ok(true),
+        "0" | "false" | "no" | "off" => Ok(false),
+        _ => Err(format!("`negate: {text}` is not 0, 1, `false` or `true`")),
     }
 }
 
@@ -285,7 +294,14 @@ mod tests {
         assert_eq!(with("plain", ""), [Free, Unknown, Unknown, Occupied, Occupied]);
         // Nav2 writes 0.25, by which the unknown 205 is free.
         assert_eq!(with("free", "free_thresh: 0.25\n"), [Free, Free, Unknown, Occupied, Occupied]);
-        assert_eq!(with("negate", "negate: 1\n"), [Occupied, Occupied, Unknown, Unknown, Free]);
+        for yes in ["1", "true", "True", "TRUE", "yes"] {
+            assert_eq!(
+                with("negate", &format!("negate: {yes}\n")),
+                [Occupied, Occupied, Unknown, Unknown, Free],
+                "{yes}"
+            );
+        }
+        assert_eq!(with("plain-too", "negate: no\n"), [Free, Unknown, Unknown, Occupied, Occupied]);
         assert_eq!(with("occupied", "occupied_thresh: 0.8\n"), [Free, Unknown, Unknown, Unknown, Occupied]);
         // 205 is 1 % between the thresholds, and 128 is 66 %.
         assert_eq!(with("scale", "mode: scale\n"), [Free, Free, Occupied, Occupied, Occupied]);
@@ -301,6 +317,7 @@ mod tests {
         for (name, yaml, reason) in [
             ("turn", PLAIN.replace("0.0]", "1.5708]"), "its origin is turned by 90.0°"),
             ("mode", format!("{PLAIN}mode: grey\n"), "the mode is `grey`, not `trinary`, `scale` or `raw`"),
+            ("negate", format!("{PLAIN}negate: 0.5\n"), "`negate: 0.5` is not 0, 1, `false` or `true`"),
             ("no-image", PLAIN.replace("image", "picture"), "the field `image` is missing"),
             ("no-origin", PLAIN.replace("origin", "place"), "the field `origin` is missing"),
             ("short", PLAIN.replace(", 0.0]", "]"), "`origin` is not a list of three numbers"),

@@ -71,8 +71,10 @@ impl From<&Pose2> for Odometry {
 impl TryFrom<PoseStamped> for Pose2 {
     type Error = Reason;
 
-    fn try_from(message: PoseStamped) -> Result<Self, Reason> {
-        Ok((&message.pose).into())
+    fn try_from(PoseStamped { pose, .. }: PoseStamped) -> Result<Self, Reason> {
+        let Quaternion { y, z, w, .. } = pose.orientation;
+        // An angle that no quaternion can hold, which is in x.
+        if y == 0.0 && z == 0.0 && w == 0.0 { Ok((&pose).into()) } else { Self::from_pose(&pose) }
     }
 }
 
@@ -204,6 +206,22 @@ pub(crate) mod tests {
             let [x, y, z, w] = quaternion;
             let found = heading(&Quaternion { x, y, z, w });
             assert!((found - expected).abs() < 1e-3, "{quaternion:?}: {found}");
+        }
+    }
+
+    #[test]
+    fn stamped_poses_have_rotations_zeros_or_angles() {
+        let read = |[x, y, z, w]: [f64; 4]| {
+            let pose = Pose { position: Point::default(), orientation: Quaternion { x, y, z, w } };
+            reason::<Pose2>(&PoseStamped { pose, ..PoseStamped::default() }.to_bytes()).map(|pose| pose.theta)
+        };
+        assert_eq!((read([0.0; 4]), read([0.0, 0.0, 0.0, -1.0])), (Ok(0.0), Ok(0.0)));
+        assert_eq!(read([7.0, 0.0, 0.0, 0.0]), Ok(7.0));
+        for (quaternion, why) in
+            [([0.0, 0.0, 0.0, 0.5], "the length of a quaternion is 0.500"), ([0.0, 0.0, 0.0, f64::NAN], "not finite")]
+        {
+            let refused = read(quaternion).expect_err(why);
+            assert!(refused.contains(why), "{refused}");
         }
     }
 

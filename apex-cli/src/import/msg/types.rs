@@ -40,7 +40,10 @@ impl Types {
     pub fn get(&self, name: &str) -> Result<&Type, String> {
         self.own.get(name).or_else(|| self.common.get(name)).ok_or_else(|| {
             let package = name.split('/').next().unwrap_or_default();
-            format!("unknown type `{name}`: name the folder of `{package}`, too")
+            format!(
+                "unknown type `{name}`, which neither these files nor `apex-messages` have: correct its name, or name \
+                 the folder of `{package}`, too"
+            )
         })
     }
 
