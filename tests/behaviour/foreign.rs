@@ -2,6 +2,7 @@
 
 use apex_macros::graph;
 use apex_nodes::{
+    image::ColorImage,
     map::{Octagon, Station, Stations},
     scan::{Point2, Pose2, Scan},
 };
@@ -68,6 +69,38 @@ graph! {
         stations -> count_free() -> now;
         last     -> count_free() -> kept;
     }
+}
+
+graph! {
+    use apex_nodes::{flow::Latch, image::{ColorImage, GrayImage, to_gray}};
+
+    /// Pixels are of the crate `image`, on which this package does not depend either.
+    graph Pictures {
+        in    picture: ColorImage;
+        slot  asked: ColorImage;
+        out   gray: GrayImage;
+        out   kept: ColorImage;
+        event answered: ColorImage;
+
+        node last = Latch();
+
+        picture -> to_gray() -> gray;
+        picture -> last.set;
+        last    -> kept;
+        asked   -> answered;
+    }
+}
+
+#[test]
+fn an_alias_is_named_where_its_target_cannot_be() {
+    let mut program = Pictures::new();
+    let picture = ColorImage::default();
+    let _ = program.inputs().picture.put(picture.clone());
+    let _ = program.inputs().asked.put(picture.clone());
+    program.react(Time::ZERO);
+    let outputs = program.outputs();
+    assert_eq!((outputs.gray.is_some(), &outputs.kept), (true, &Some(picture.clone())));
+    assert_eq!(program.events().answered.take(), Some(picture));
 }
 
 #[test]

@@ -54,7 +54,9 @@ impl Catalog {
                             let target = self.lookup(target, &[], aliases + 1, &|path| {
                                 (self.tree.resolve(module, path), self.tree.external(module, path))
                             });
-                            if target.is_open() { Type::Alias(def, name.to_owned(), Box::new(target)) } else { target }
+                            // Generated code can name the alias, also where it cannot name its target.
+                            let is_kept = target.is_open() || !self.can_name(&target);
+                            if is_kept { Type::Alias(def, name.to_owned(), Box::new(target)) } else { target }
                         }
                         Some(_) => Type::Unknown(ty.to_string()),
                     };

@@ -15,7 +15,7 @@ pub enum Type {
     Named(String, Vec<Type>),
     /// A definition that was seen.
     Def(DefId, String, Vec<Type>),
-    /// A `type` alias whose target the scan knows only in part.
+    /// A `type` alias whose target the scan knows only in part, or whose target generated code cannot name.
     Alias(DefId, String, Box<Type>),
     /// `[T; N]`, `[T]`
     Array(Box<Type>, Option<String>),
@@ -201,6 +201,8 @@ impl Type {
             (Self::Tuple(x), Self::Tuple(y)) => pairs(x, y),
             (Self::Array(a, _), Self::Array(b, _)) | (Self::Ref(a), Self::Ref(b)) => a.bind(name, b),
             (Self::Measured(number, _), concrete) => number.bind(name, concrete),
+            (Self::Alias(.., target), concrete) => target.bind(name, concrete),
+            (declared, Self::Alias(.., target)) => declared.bind(name, target),
             _ => None,
         }
     }
@@ -208,7 +210,8 @@ impl Type {
     /// Returns `true` if the type may be an alias of any other type, so that only rustc knows its values.
     pub fn may_be_another(&self) -> bool {
         match self {
-            Self::Unknown(_) | Self::Alias(..) | Self::Param(_) => true,
+            Self::Unknown(_) | Self::Param(_) => true,
+            Self::Alias(.., target) => target.is_open() || target.may_be_another(),
             Self::Named(name, _) => !library::is_standard(name),
             Self::Measured(number, _) => number.may_be_another(),
             _ => false,
