@@ -75,7 +75,7 @@ fn forever(text: String) -> &'static str {
     text.leak()
 }
 
-/// What is said of a port whose tokens are no pieces: this is a fault of the interpreter.
+/// Message for a port whose tokens are not among the pieces: a fault of the interpreter.
 fn unknown(port: &str) -> String {
     format!("a token for `{port}` is not known")
 }
