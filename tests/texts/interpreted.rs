@@ -62,7 +62,7 @@ fn compiled_tests(said: &str) -> Said<'_> {
         let message = output.find("test `").map_or(output, |at| &output[at..]);
         let message = message.split("\nnote: run with").next().unwrap_or(message);
         let message = message.split("\n\nfailures:\n").next().unwrap_or(message);
-        tests.insert(name_of(path), message.trim_end());
+        tests.insert(name_of(path), message.trim());
     }
     tests
 }
@@ -73,7 +73,9 @@ fn interpreted_tests(said: &str) -> Said<'_> {
         let Some((name, output)) = part.split_once('\n') else { continue };
         let message = output.split_once(&format!("{MARK}failed\n")).map_or("", |(_, message)| message);
         let message = message.split(MARK).next().unwrap_or(message);
-        tests.insert(name, message.trim_end());
+        // The line with the place of a panic is left out of what compiled tests say, too.
+        let place = message.starts_with("panicked at ").then(|| message.split_once('\n')).flatten();
+        tests.insert(name, place.map_or(message, |(_, reason)| reason).trim());
     }
     tests
 }
