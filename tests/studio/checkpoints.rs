@@ -106,6 +106,14 @@ fn run_to(viewer: &mut Viewer, goal: u64) -> (Vec<Report>, Vec<u64>) {
     (happened, checkpoints)
 }
 
+/// Lets the robot go back to a checkpoint: the process that the viewer sees ends.
+fn go_back(viewer: &mut Viewer, reactions: u64) {
+    viewer.tell(&Command::GoBack { reactions });
+    while let Some(report) = viewer.next() {
+        assert!(!matches!(report, Report::NoCheckpoints(_)), "{report:?}");
+    }
+}
+
 /// The part after a number of reactions.
 fn after(happened: &[Report], reactions: usize) -> &[Report] {
     let begins = happened.iter().enumerate().filter(|(_, report)| matches!(report, Report::Reaction { .. }));
@@ -123,8 +131,7 @@ fn a_robot_goes_back_to_checkpoints_and_does_the_same_again() {
     assert_eq!(robot.processes().len(), checkpoints.len() + 1);
     // Again and again to the past of the past.
     for goal in [599, 400, 401, 1] {
-        viewer.tell(&Command::GoBack { reactions: goal });
-        while viewer.next().is_some() {}
+        go_back(&mut viewer, goal);
         let (next, reactions) = meet(&robot);
         assert!(reactions <= goal, "{reactions} for {goal}");
         viewer = next;
@@ -164,8 +171,7 @@ fn all_processes_end_with_the_last_one_that_runs() {
     let mut robot = Own::start("over", 3, None);
     let (mut viewer, _) = meet(&robot);
     run_to(&mut viewer, 300);
-    viewer.tell(&Command::GoBack { reactions: 200 });
-    while viewer.next().is_some() {}
+    go_back(&mut viewer, 200);
     let (_viewer, _) = meet(&robot);
     let first = robot.process.id().to_string();
     let newest = robot
