@@ -4,7 +4,7 @@ use crate::{
     Attachment, Carrier, Error, Graph, Qos, Reliability, Token,
     carrier::{Answer, Ask, Hear, HearRequest, HearResponse, Kept, Publish, Rules, SendError, endpoint_of},
     name::key,
-    session,
+    session::{self, Opened},
     time::calendar,
     token::SPACE,
 };
@@ -48,8 +48,8 @@ impl Zenoh {
     /// # Errors
     /// A setting is not one of Zenoh, or the session cannot be opened.
     pub fn open(router: Option<&str>, tell: &(dyn Fn(&str) + Send + Sync)) -> Result<Self, Error> {
-        let (session, doubt) = session::open(router, tell)?;
-        Ok(Self { session, router: session::address(router), doubt })
+        let Opened { session, router, doubt } = session::open(router, tell)?;
+        Ok(Self { session, router, doubt })
     }
 }
 

@@ -15,32 +15,38 @@ pub const ROUTER: &str = "tcp/127.0.0.1:7447";
 /// Environment variable with settings of Zenoh, as for `rmw_zenoh`: `KEY=VALUE;KEY=VALUE`.
 const OVERRIDE: &str = "ZENOH_CONFIG_OVERRIDE";
 
-/// Opens a session with the router at `router`. Returns with it why others may not be met. A client waits for its
-/// router: `tell` hears of a long wait, and of its end.
+/// Open session.
+pub struct Opened {
+    pub session: Session,
+    /// Addresses of its routers, for messages.
+    pub router: String,
+    /// Reason why other programs may not be met.
+    pub doubt: Option<&'static str>,
+}
+
+/// Opens a session with the router at `router`. A client waits for its router: `tell` hears of a long wait, and of its
+/// end.
 ///
 /// # Errors
 /// A setting is not one of Zenoh, or the session cannot be opened.
-pub fn open(
-    router: Option<&str>,
-    tell: &(dyn Fn(&str) + Send + Sync),
-) -> Result<(Session, Option<&'static str>), Error> {
+pub fn open(router: Option<&str>, tell: &(dyn Fn(&str) + Send + Sync)) -> Result<Opened, Error> {
     let overrides = env::var(OVERRIDE).ok();
     let config = config(router, overrides.as_deref())?;
-    let (doubt, address) = (doubt(&config, &addresses(router, overrides.as_deref())), address(router));
+    let routers = addresses(router, overrides.as_deref());
+    let (doubt, router) = (doubt(&config, &routers), &routers.join("` or `"));
     let (opened, is_opened) = mpsc::channel::<()>();
-    let address = &address;
     let (session, has_waited) = thread::scope(|scope| {
         let waits = scope.spawn(move || {
             let is_long = is_opened.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout);
-            is_long.then(|| tell(&no_router(address))).is_some()
+            is_long.then(|| tell(&no_router(router))).is_some()
         });
         let session = zenoh::open(config).wait();
         drop(opened);
         (session, waits.join().unwrap_or_default())
     });
     let session = session.map_err(Error::zenoh("the session cannot be opened"))?;
-    has_waited.then(|| tell(&a_router(address)));
-    Ok((session, doubt))
+    has_waited.then(|| tell(&a_router(router)));
+    Ok(Opened { session, router: router.clone(), doubt })
 }
 
 /// Words for a router that is not there.
@@ -109,13 +115,8 @@ fn addresses(router: Option<&str>, overrides: Option<&str>) -> Vec<String> {
     router.map(|router| vec![router.to_owned()]).or_else(of_environment).unwrap_or_else(|| vec![ROUTER.to_owned()])
 }
 
-/// Returns the addresses of the routers in the settings of a session, for messages.
-pub fn address(router: Option<&str>) -> String {
-    addresses(router, env::var(OVERRIDE).ok().as_deref()).join("` or `")
-}
-
-/// Returns why others may not be met; `None` if there is no reason. A router leaves it to peers to connect with one
-/// another.
+/// Reason why other programs may not be met: the session is a peer of a router on another machine, and routers leave it
+/// to peers to connect with one another.
 fn doubt(config: &Config, routers: &[String]) -> Option<&'static str> {
     let is_peer = config.get_json("mode").is_ok_and(|mode| mode.contains("peer"));
     (is_peer && mode(routers) == "client").then_some(

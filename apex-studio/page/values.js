@@ -128,12 +128,11 @@ export class Values {
       Object.assign(view.canvas.dataset, { drawn: tokens.length, from: tokens.filter(({ from }) => from).length });
       if (!view.canvas.hidden) view.draw(tokens);
     }
-    if (this.space.canvas.dataset.can === "false") this.hasNoSpace();
+    if (this.inSpace() && this.space.painter === null) this.hasNoSpace();
   }
 
   /** The browser cannot draw in space: back to the plane. */
   hasNoSpace() {
-    delete this.space.canvas.dataset.can;
     this.third.setAttribute("aria-pressed", "false");
     this.third.disabled = true;
     this.third.title = "this browser has no WebGL, which draws in space";

@@ -19,11 +19,16 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the folder of the workspace")
 }
 
+/// Builds a package of the workspace.
+fn build(arguments: &[&str]) {
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let built = cargo.args(["build", "--quiet", "--package"]).args(arguments).current_dir(root()).status();
+    assert!(built.expect("cargo starts").success());
+}
+
 /// Builds the command `apex`, and returns its path: beside that of the tests.
 fn apex() -> PathBuf {
-    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    let built = cargo.args(["build", "--quiet", "--package", "apex-cli"]).current_dir(root()).status();
-    assert!(built.expect("cargo starts").success());
+    build(&["apex-cli"]);
     let own = env::current_exe().expect("a path");
     own.ancestors().nth(2).expect("the folder of the build").join("apex")
 }
@@ -194,16 +199,15 @@ fn picture_in_space() {
     let folder = socket("in-space");
     fs::create_dir_all(&folder).expect("a new folder");
     let address = folder.join("robot");
-    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    let built = cargo.args(["build", "--quiet", "--release", "--package", "follow"]).current_dir(root()).status();
-    assert!(built.expect("cargo starts").success());
-    let mut follow = Command::new(apex().with_file_name("../release/follow"));
+    build(&["follow", "--release"]);
+    let apex = apex();
+    let mut follow = Command::new(apex.with_file_name("../release/follow"));
     follow.args(["--metres", "200", "--out"]).arg(folder.join("track.svg"));
     follow.env("APEX_STUDIO", &address).env("APEX_STUDIO_WAIT", "1");
     let mut follow = follow.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
     let robot = root().join("robots/follow/follow.afg");
     let [address, robot] = [&address, &robot].map(|path| path.to_str().expect("UTF-8"));
-    let studio = Studio::open(Command::new(apex()), &folder, &["--connect", address, robot]);
+    let studio = Studio::open(Command::new(apex), &folder, &["--connect", address, robot]);
     let mut page = Browser::open(&studio.address).expect("a browser");
     page.size(1280, 760, false);
     click(&mut page, "[data-tab=values]");

@@ -191,16 +191,22 @@ fn change(folder: &Folder, from: &str, to: &str) {
     fs::write(file, text.replacen(from, to, 1)).unwrap();
 }
 
+/// Verdicts and messages of the tests, which are the same when they are interpreted and when they are compiled.
+fn ends_of_both(folder: &Folder) -> BTreeMap<String, (bool, String)> {
+    let interpreted = run(folder, &["--format", "json"]);
+    assert!(!stderr(&interpreted).contains("the tests are compiled"), "{}", stderr(&interpreted));
+    let (first, other) = (ends(&interpreted), ends(&run(folder, &["--format", "json", "--compiled"])));
+    assert_eq!(first, other);
+    first
+}
+
 #[test]
 fn tests_end_as_compiled_ones_and_most_changes_need_no_rustc() {
     let _guard = builds_alone();
     let folder = Folder::new("interpreted");
     package(&folder, NODES);
     folder.file("robot.afg", TEXT);
-    let interpreted = run(&folder, &["--format", "json"]);
-    let (first, other) = (ends(&interpreted), ends(&run(&folder, &["--format", "json", "--compiled"])));
-    assert!(!stderr(&interpreted).contains("the tests are compiled"), "{}", stderr(&interpreted));
-    assert_eq!(first, other);
+    let first = ends_of_both(&folder);
     let failed: Vec<&str> = first.iter().filter(|(_, (passed, _))| !passed).map(|(name, _)| name.as_str()).collect();
     assert_eq!(failed, ["door", "idle", "panics", "triples"]);
     assert!(first["idle"].1.starts_with("takes\ntakes again\ntest `idle` failed"), "{}", first["idle"].1);
@@ -340,11 +346,8 @@ fn recordings_are_fed_as_to_compiled_tests() {
     folder.file("robot.afg", RECORDED);
     fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/record/small.mcap"), folder.0.join("run.mcap"))
         .unwrap();
-    let interpreted = run(&folder, &["--format", "json"]);
-    assert!(!stderr(&interpreted).contains("the tests are compiled"), "{}", stderr(&interpreted));
-    let (first, other) = (ends(&interpreted), ends(&run(&folder, &["--format", "json", "--compiled"])));
-    assert_eq!(first, other);
-    let passed: Vec<&str> = first.iter().filter(|(_, (passed, _))| *passed).map(|(name, _)| name.as_str()).collect();
+    let all = ends_of_both(&folder);
+    let passed: Vec<&str> = all.iter().filter(|(_, (passed, _))| *passed).map(|(name, _)| name.as_str()).collect();
     assert_eq!(passed, ["sums"]);
     change(&folder, "wait 10ms;\n    feed", "wait 20ms;\n    feed");
     let output = run(&folder, &[]);

@@ -78,7 +78,7 @@ pub fn wall_ahead(_pose: &Pose2) -> RingCloud {
     cloud
 }
 
-/// Marks a box 1 m ahead, a line to it, and a thing that is no longer there.
+/// Markers of a box 1 m ahead, of a line to it, and of another box, which is removed.
 #[node]
 pub fn box_ahead(_pose: &Pose2) -> MarkerArray {
     let ahead = Pose { position: Point { x: 1.0, y: 0.0, z: 0.5 }, ..Pose::default() };
