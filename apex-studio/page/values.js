@@ -72,6 +72,8 @@ export class Values {
       });
       label.append(box, ` ${name}`);
       row.append(...this.from(name, at), label);
+      // The token has its place before it is there: nothing moves under the mouse.
+      if (box.checked) row.append(Object.assign(document.createElement("pre"), { textContent: "no token yet" }));
       this.rows.set(at, row);
       return row;
     }));
@@ -112,9 +114,10 @@ export class Values {
 
   inSpace() { return this.third.getAttribute("aria-pressed") === "true"; }
 
-  /** Draws all pinned tokens with a place. */
+  /** Draws all pinned tokens with a place. What they are drawn on is there before they are. */
   drawWorld() {
     const channels = robot.about?.channels ?? [];
+    const isThere = channels.some(({ name, schema }) => schema && this.pinned.has(name) && hasPlace(schema.name));
     const message = (/** @type {string | undefined} */ name) => this.messages.get(channels.findIndex((channel) => channel.name === name));
     const tokens = [...this.messages].flatMap(([at, message_]) => {
       const { name, schema } = channels[at];
@@ -122,9 +125,9 @@ export class Values {
     });
     // Maps are below everything else.
     tokens.sort((a, b) => Number(b.schema.endsWith("Grid")) - Number(a.schema.endsWith("Grid")));
-    this.third.hidden = tokens.length === 0;
+    this.third.hidden = !isThere;
     for (const [view, isShown] of /** @type {[World | Space, boolean][]} */ ([[this.world, !this.inSpace()], [this.space, this.inSpace()]])) {
-      view.canvas.hidden = tokens.length === 0 || !isShown;
+      view.canvas.hidden = !isThere || !isShown;
       Object.assign(view.canvas.dataset, { drawn: tokens.length, from: tokens.filter(({ from }) => from).length });
       if (!view.canvas.hidden) view.draw(tokens);
     }
@@ -173,11 +176,8 @@ export class Values {
     const tokens = this.tokens.get(at);
     if (!row || !tokens || tokens.length === 0) return;
     const last = tokens[tokens.length - 1];
-    let text = row.querySelector("pre");
-    if (!text) {
-      text = document.createElement("pre");
-      row.append(text);
-    }
+    const text = row.querySelector("pre");
+    if (!text) return;
     const own = view(this.messages.get(at));
     text.hidden = own !== null;
     text.textContent = last.text;

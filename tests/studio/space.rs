@@ -56,12 +56,12 @@ fn seen(name: &'static str, nodes: &[&str]) -> Option<(Browser, Started)> {
     page.size(1200, 900, false);
     page.wait_for(RUNNING);
     page.click("document.querySelector('[data-tab=values]')");
-    for node in nodes {
+    for (at, node) in nodes.iter().enumerate() {
         let channel = format!("document.querySelector('[data-channel^=\"{node}\"] input')");
         page.wait_for(&channel);
         page.click(&channel);
+        page.wait_for(&format!("document.getElementById('world').dataset.drawn === '{}'", at + 1));
     }
-    page.wait_for(&format!("document.getElementById('world').dataset.drawn === '{}'", nodes.len()));
     Some((page, robot))
 }
 
