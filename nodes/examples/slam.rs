@@ -5,9 +5,9 @@
 mod recordings;
 
 use apex_nodes::{
-    map::{Grid, Occupancy, OccupancyBuilder},
+    map::{Grid, Occupancy, TooManyCells},
     scan::Point2,
-    slam::{Mapper, Pose, PosedScans, Settings, selected_scans},
+    slam::{Mapper, Pose, PosedScans, ScanDrawer, Settings, selected_scans},
 };
 use plotters::prelude::*;
 use recordings::{Recording, errors, fr079, intel, play};
@@ -37,7 +37,8 @@ fn main() {
             let file = out.join(format!("{}.svg", name.replace([',', ' '], "")));
             draw(&file, &mapper, &estimate).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
         }
-        time_of_map(&mapper, slowest);
+        println!("    slowest scan {slowest:.1?}");
+        times_of_maps(&recording);
     }
 }
 
@@ -63,25 +64,47 @@ fn run(name: &str, recording: &Recording) -> (Mapper, Vec<Pose>, Duration) {
     (mapper, estimate, slowest)
 }
 
-/// Prints the time to build the bounded map after few scans and after all, and the time of the slowest scan.
-fn time_of_map(mapper: &Mapper, slowest: Duration) {
-    let (mut builder, mut map) = (OccupancyBuilder::default(), Grid::<Occupancy>::default());
-    let mut scans = PosedScans::default();
-    let mut time = |count: usize| {
-        let start = Instant::now();
-        mapper.write_scans(selected_scans(count), Point2::default(), &mut scans);
-        scans.draw(0.05, &mut builder, &mut map).expect("a map of a building");
-        format!("{:.1?} from {} of {count} scans", start.elapsed(), scans.len())
-    };
-    println!("    slowest scan {slowest:.1?}; maps: {}, {}", time(200), time(mapper.scans().len()));
+/// Prints the times to draw the bounded map after each kept scan: by a drawer that has drawn the map before, and by a
+/// new one.
+fn times_of_maps(recording: &Recording) {
+    let (mut mapper, mut drawer) = (Mapper::new(Settings::default()), ScanDrawer::default());
+    let (mut scans, mut map, mut anew) = (PosedScans::default(), Grid::default(), Grid::default());
+    let mut times = [vec![], vec![]];
+    for (odometry, points) in &recording.scans {
+        if !mapper.is_due(odometry) {
+            continue;
+        }
+        mapper.add(odometry, points.clone());
+        mapper.write_scans(selected_scans(mapper.scans().len()), Point2::default(), &mut scans);
+        times[0].push(time(|| drawer.draw(&scans, 0.05, &mut map)));
+        times[1].push(time(|| ScanDrawer::default().draw(&scans, 0.05, &mut anew)));
+        assert_eq!(map, anew);
+    }
+    for (what, mut times) in ["map after map", "maps anew"].into_iter().zip(times) {
+        times.sort_unstable();
+        let share = |share: f64| times[(share * (times.len() - 1) as f64) as usize];
+        let all: Duration = times.iter().sum();
+        println!(
+            "    {what:14} all {all:.1?}, median {:.1?}, 90 % {:.1?}, slowest {:.1?}",
+            share(0.5),
+            share(0.9),
+            share(1.0)
+        );
+    }
+}
+
+fn time(draw: impl FnOnce() -> Result<(), TooManyCells>) -> Duration {
+    let start = Instant::now();
+    draw().expect("a map of a building");
+    start.elapsed()
 }
 
 /// Draws the map of all scans, and the path of the robot.
 fn draw(file: &Path, mapper: &Mapper, way: &[Pose]) -> Result<(), Box<dyn std::error::Error>> {
-    let (mut builder, mut map) = (OccupancyBuilder::default(), Grid::<Occupancy>::default());
+    let mut map = Grid::<Occupancy>::default();
     let mut scans = PosedScans::default();
     mapper.write_scans(0..mapper.scans().len(), Point2::default(), &mut scans);
-    scans.draw(0.1, &mut builder, &mut map)?;
+    ScanDrawer::default().draw(&scans, 0.1, &mut map)?;
     let raster = *map.raster();
     if let Some(folder) = file.parent() {
         std::fs::create_dir_all(folder)?;

@@ -38,17 +38,27 @@ impl OccupancyBuilder {
     /// Adds a ray from `from` to `to`, in the frame of the map. A ray that ends outside the map counts up to the
     /// border. A ray that starts outside or is not finite is ignored.
     pub fn add(&mut self, from: Point2, to: Point2) {
+        self.count(from, to, |count| count.saturating_add(1));
+    }
+
+    /// Removes a ray that was added.
+    pub fn remove(&mut self, from: Point2, to: Point2) {
+        self.count(from, to, |count| count.saturating_sub(1));
+    }
+
+    #[inline]
+    fn count(&mut self, from: Point2, to: Point2, change: impl Fn(u32) -> u32) {
         let raster = *self.counts.raster();
         let (Some(start), hit) = (raster.cell(from), raster.cell(to)) else { return };
         let Some(end) = hit.or_else(|| last_inside(&raster, from, to)) else { return };
         let counts = self.counts.cells_mut();
         for at in raster.line_of_indices(start, end) {
             if let Some(count) = counts.get_mut(at) {
-                count.passes = count.passes.saturating_add(1);
+                count.passes = change(count.passes);
             }
         }
         if let Some(count) = hit.and_then(|cell| self.counts.get_mut(cell)) {
-            count.hits = count.hits.saturating_add(1);
+            count.hits = change(count.hits);
         }
     }
 
@@ -59,24 +69,37 @@ impl OccupancyBuilder {
 
     /// Writes the state of each cell.
     pub fn write(&self, map: &mut Grid<Occupancy>) {
+        let raster = self.counts.raster();
         // Cannot fail: the builder has a grid of the same raster.
-        if map.reset(*self.counts.raster(), Occupancy::Unknown).is_err() {
-            return;
-        }
-        for (cell, count) in map.cells_mut().iter_mut().zip(self.counts.cells()) {
-            *cell = self.occupancy(*count);
+        if map.reset(*raster, Occupancy::Unknown).is_ok() && raster.width.min(raster.height) > 0 {
+            self.write_between([Cell::default(), Cell::new(raster.width - 1, raster.height - 1)], map);
         }
     }
 
-    fn occupancy(&self, count: RayCount) -> Occupancy {
-        if count.passes < self.least_passes {
-            Occupancy::Unknown
-        } else if count.hits as f32 >= self.least_share * count.passes as f32 && count.hits > 0 {
-            Occupancy::Occupied
-        } else {
-            Occupancy::Free
+    /// Writes the states of the cells in a rectangle, given by two of its corners, to a map of the same raster. Cells
+    /// outside of the raster are left out.
+    pub fn write_between(&self, [low, high]: [Cell; 2], map: &mut Grid<Occupancy>) {
+        let Raster { width, height, .. } = *self.counts.raster();
+        if width == 0 || self.counts.raster() != map.raster() {
+            return;
+        }
+        let (least, share) = (self.least_passes, self.least_share);
+        let (first, end) = (low.x.min(width), (high.x + 1).min(width));
+        let rows = map.cells_mut().chunks_mut(width).zip(self.counts.cells().chunks(width));
+        for (cells, counts) in rows.take((high.y + 1).min(height)).skip(low.y) {
+            for (cell, count) in cells[first..end.max(first)].iter_mut().zip(&counts[first..end.max(first)]) {
+                *cell = occupancy(*count, least, share);
+            }
         }
     }
+}
+
+/// State of a cell, without branches: most cells of a map have never been looked at.
+#[inline]
+fn occupancy(RayCount { passes, hits }: RayCount, least_passes: u32, least_share: f32) -> Occupancy {
+    let is_hit = (hits > 0) & (hits as f32 >= least_share * passes as f32);
+    let seen = if is_hit { Occupancy::Occupied } else { Occupancy::Free };
+    if passes < least_passes { Occupancy::Unknown } else { seen }
 }
 
 /// The parameters of Karto: a cell is known after 2 rays, and occupied if a tenth of them ended in it.
@@ -146,6 +169,39 @@ mod tests {
             builder.add(Point2::new(0.5, 3.5), Point2::new(f32::INFINITY, 3.5));
         }
         assert_eq!(rows(&builder), ["????.???", "????....", "????????", "????????"]);
+    }
+
+    #[test]
+    fn a_removed_ray_leaves_nothing() {
+        let mut builder = builder();
+        let (from, to) = (Point2::new(0.5, 0.5), Point2::new(6.5, 2.5));
+        builder.add(from, Point2::new(5.5, 0.5));
+        let before = builder.counts().clone();
+        for to in [to, Point2::new(1e9, 3.5), Point2::new(f32::NAN, 0.5)] {
+            builder.add(from, to);
+            builder.remove(from, to);
+            assert_eq!(builder.counts(), &before);
+        }
+    }
+
+    #[test]
+    fn a_part_of_a_map_is_written_alone() {
+        let mut builder = builder();
+        let mut map = Grid::default();
+        builder.write(&mut map);
+        for _ in 0..2 {
+            builder.add(Point2::new(0.5, 1.5), Point2::new(7.5, 1.5));
+        }
+        let free = |map: &Grid<Occupancy>| map.cells().iter().filter(|cell| **cell == Occupancy::Free).count();
+        builder.write_between([Cell::new(2, 2), Cell::new(3, 3)], &mut map);
+        assert_eq!(free(&map), 0);
+        builder.write_between([Cell::new(2, 1), Cell::new(3, 1)], &mut map);
+        assert_eq!(free(&map), 2);
+        builder.write_between([Cell::new(9, 0), Cell::new(20, 20)], &mut map);
+        builder.write_between([Cell::new(3, 1), Cell::new(2, 1)], &mut map);
+        assert_eq!(free(&map), 2);
+        builder.write_between([Cell::new(5, 0), Cell::new(20, 20)], &mut map);
+        assert_eq!(free(&map), 4);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //!
 //! Poses have double precision: after an hour of operation, the errors of single precision would affect scan matches.
 
+mod drawer;
 mod edge;
 mod graph;
 mod kernel;
@@ -14,6 +15,7 @@ mod sparse;
 mod start;
 mod table;
 
+pub use drawer::ScanDrawer;
 pub use edge::Edge;
 pub use graph::{NoSuchPose, Optimized, PoseGraph};
 pub use kernel::RobustKernel;

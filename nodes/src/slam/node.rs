@@ -125,8 +125,9 @@ fn usable(odometry: &Pose2) -> Option<Pose> {
 mod tests {
     use super::*;
     use crate::{
-        map::{Grid, Occupancy, OccupancyBuilder},
+        map::{Grid, Occupancy},
         scan::Point2,
+        slam::ScanDrawer,
     };
     use apex_rt::Construct;
 
@@ -157,7 +158,7 @@ mod tests {
 
     fn drawn(scans: &PosedScans) -> Grid<Occupancy> {
         let mut map = Grid::default();
-        scans.draw(0.1, &mut OccupancyBuilder::default(), &mut map).expect("a map of a room");
+        ScanDrawer::default().draw(scans, 0.1, &mut map).expect("a map of a room");
         map
     }
 
