@@ -1,6 +1,6 @@
 use super::{CurveDrive, Ground, footing::Footing, room::Room, vehicle::MAX_BEND};
 use crate::{
-    nav::payload::dubins::{Curve, advanced},
+    nav::payload::dubins::{Curve, advanced, arc},
     scan::{Point2, Pose2, wrap_angle},
 };
 
@@ -28,9 +28,9 @@ pub(super) struct Drive<'a> {
 impl Drive<'_> {
     /// Length of an arc with costs, and the heading of the trailer at its end, or `None` if something is touched on it.
     pub fn arc(&self, from: &Pose2, trailer: f32, curvature: f32, length: f32, look: Look) -> Option<(f32, f32)> {
-        let step = |pose: &Pose2, trailer: f32, step: f32| {
-            (advanced(pose, curvature, step), self.towed(pose, trailer, curvature, step))
-        };
+        let part = arc(curvature, places(length).1);
+        let step =
+            |pose: &Pose2, trailer: f32, step: f32| (pose.compose(&part), self.towed(pose, trailer, curvature, step));
         self.along(from, trailer, length, (false, look), step).map(|(cost, _, trailer)| (cost, trailer))
     }
 
@@ -56,10 +56,9 @@ impl Drive<'_> {
         (is_backward, look): (bool, Look),
         step: impl Fn(&Pose2, f32, f32) -> (Pose2, f32),
     ) -> Option<(f32, Pose2, f32)> {
-        let count = libm::ceilf(length / CHECK);
-        let distance = length / count;
+        let (count, distance) = places(length);
         let (mut cost, mut pose) = (0.0, *from);
-        for _ in 0..count as u32 {
+        for _ in 0..count {
             let before = bend(&pose, trailer);
             (pose, trailer) = step(&pose, trailer, distance);
             // A trailer that is bent too far at the start may come into line.
@@ -79,9 +78,8 @@ impl Drive<'_> {
     pub fn trailer_at_end(&self, curve: &Curve, mut trailer: f32) -> f32 {
         let mut pose = curve.start;
         for (curvature, length) in curve.parts.into_iter().filter(|(_, length)| *length > 0.0) {
-            let count = libm::ceilf(length / CHECK);
-            let step = length / count;
-            for _ in 0..count as u32 {
+            let (count, step) = places(length);
+            for _ in 0..count {
                 trailer = self.towed(&pose, trailer, curvature, step);
                 pose.theta += step * curvature;
             }
@@ -123,6 +121,12 @@ impl Drive<'_> {
         let terrain = &self.ground.terrain;
         terrain.map.raster().cell(point).map_or(0.0, |cell| terrain.cost(cell))
     }
+}
+
+/// Number of places that are checked on a way, and the distance between them, in m.
+pub(super) fn places(length: f32) -> (u32, f32) {
+    let count = libm::ceilf(length / CHECK);
+    (count as u32, length / count)
 }
 
 /// Angle between a vehicle and its trailer, in rad.

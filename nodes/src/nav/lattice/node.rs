@@ -32,6 +32,8 @@ pub(super) struct Node {
 }
 
 impl Node {
+    /// Cost of a change of the direction, in m.
+    pub const TURN: f32 = BACKWARD[1];
     /// Node after a step, without that step.
     pub const NEXT: Self = Self {
         pose: Pose2 { x: 0.0, y: 0.0, theta: 0.0 },

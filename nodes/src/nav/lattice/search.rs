@@ -1,6 +1,6 @@
 use super::{
     CurveDrive, Goal, Ground, Start, Way,
-    drive::{Drive, Look, bend},
+    drive::{Drive, Look, bend, places},
     ends::Place,
     estimate::Estimates,
     footing::Footing,
@@ -12,7 +12,7 @@ use crate::{
     nav::{
         NoPath, Terrain,
         open::Open,
-        payload::dubins::{Curve, advanced, curves},
+        payload::dubins::{Curve, advanced, arc, curves, shortest},
     },
     scan::{Point2, Pose2},
 };
@@ -26,6 +26,8 @@ const BENDS: [f32; 5] = [0.0, 0.35, -0.35, 0.7, -0.7];
 /// between such tries.
 const NEAR: f32 = 4.0;
 const TRIES: usize = 8;
+/// Largest number of radii by which the shortest Dubins curve is longer than the straight line.
+const LONGER: f32 = 7.4;
 /// Number of lengths of the straight line at the end that are tried, the longest of them whole.
 const LINES: u8 = 4;
 /// Largest angle between the vehicle and its trailer at a goal with a straight line before it, in rad.
@@ -68,6 +70,9 @@ pub struct CurveSearch {
     ended: f32,
     /// Weight of the estimates.
     weight: f32,
+    goals: Vec<Place>,
+    radius: f32,
+    backs_up: bool,
     /// Start of the last search, if it expanded all states that it may.
     exhausted: Option<Point2>,
 }
@@ -151,6 +156,9 @@ impl CurveSearch {
         goals: &[Place],
         (effort, most): (Effort, usize),
     ) -> Result<Way, usize> {
+        self.goals.clear();
+        self.goals.extend_from_slice(goals);
+        (self.radius, self.backs_up) = (vehicle.radius, vehicle.backs_up());
         self.begin(start, effort);
         let mut expanded = 0;
         while let Some(Open { node: at, .. }) = self.open.pop() {
@@ -202,12 +210,15 @@ impl CurveSearch {
     /// Adds the node after a step, without a look at what is touched on it.
     fn step(&mut self, ground: &Ground<'_>, vehicle: &CurveDrive, before: u32, curvature: f32, length: f32) {
         let node = self.nodes[before as usize];
+        let pose = advanced(&node.pose, curvature, length);
+        if !self.states.may_be_best(&pose, node.cost_after(vehicle, length, (curvature, None), length)) {
+            return;
+        }
         let Some((way, trailer)) =
             self.drive(ground, vehicle).arc(&node.pose, node.trailer, curvature, length, Look::Glance)
         else {
             return;
         };
-        let pose = advanced(&node.pose, curvature, length);
         let cost = node.cost_after(vehicle, way, (curvature, None), length);
         self.add(Node { pose, trailer, cost, length, curvature, back: None, before, ..Node::NEXT });
     }
@@ -238,9 +249,25 @@ impl CurveSearch {
     }
 
     fn enqueue(&mut self, at: u32) {
-        let Node { cost, pose, .. } = self.nodes[at as usize];
-        let estimate = cost + self.weight * self.estimates.at(pose.position());
+        let node = &self.nodes[at as usize];
+        let estimate = node.cost + self.weight * self.ahead(node);
         self.open.push(Open { estimate, node: at });
+    }
+
+    /// Estimated cost of the way from a node to a goal.
+    fn ahead(&self, node: &Node) -> f32 {
+        let least = self.estimates.at(node.pose.position());
+        // All ways end forward.
+        if node.back.is_some() {
+            return least + Node::TURN;
+        }
+        let curve = |goal: &Place| {
+            let most = goal.cost + (goal.pose.position() - node.pose.position()).norm() + LONGER * self.radius;
+            if most <= least { most } else { goal.cost + shortest(&node.pose, &goal.pose, self.radius) }
+        };
+        let curve = self.goals.iter().map(curve).fold(f32::INFINITY, f32::min);
+        // Otherwise, the direction changes twice.
+        least.max(if self.backs_up { curve.min(least + 2.0 * Node::TURN) } else { curve })
     }
 
     fn drive<'a>(&'a self, ground: &'a Ground<'a>, vehicle: &'a CurveDrive) -> Drive<'a> {
@@ -272,7 +299,7 @@ impl CurveSearch {
         let drive = self.drive(ground, vehicle);
         let is_right = |curve: &Curve| {
             let is_in_line = || lines == 1 || bend(&goal.pose, drive.trailer_at_end(curve, node.trailer)) <= IN_LINE;
-            is_in_line() && drive.is_free(curve, node.trailer)
+            self.leads_on(curve) && is_in_line() && drive.is_free(curve, node.trailer)
         };
         let mut shorter = ways.iter().take_while(|curve| reached + curve.length() < self.ended);
         let best = shorter.find(|curve| is_right(curve)).copied();
@@ -284,6 +311,20 @@ impl CurveSearch {
             self.nodes.push(Node { cost, before, ending: Some(self.endings.len() as u32), ..node });
             self.endings.push(Ending { curve, goal: *goal });
         }
+    }
+
+    /// Returns `true` if ways to the goal lead through all places of a curve. Most curves lead through a wall, and few
+    /// places before it are worth a closer look.
+    fn leads_on(&self, curve: &Curve) -> bool {
+        let mut pose = curve.start;
+        curve.parts.into_iter().filter(|(_, length)| *length > 0.0).all(|(curvature, length)| {
+            let (count, step) = places(length);
+            let part = arc(curvature, step);
+            (0..count).all(|_| {
+                pose = pose.compose(&part);
+                self.estimates.at(pose.position()).is_finite()
+            })
+        })
     }
 
     /// The way to the node before an ending.
@@ -456,18 +497,27 @@ mod tests {
         let loaded = CurveDrive { load: LOAD, ..VEHICLE };
         assert_eq!(search(&terrain, &loaded, &at(base, heading), &goals), Err(NoPath::Unreachable));
         let loaded = CurveDrive { backing_gain: 2.5, ..loaded };
-        let (section, path, back) = search(&terrain, &loaded, &at(base, heading), &goals).expect("a way");
+        let mut plan =
+            |base: Pose2, heading: f32| search(&terrain, &loaded, &at(base, heading), &goals).expect("a way");
+        let (section, path, mut back) = plan(base, heading);
         assert_eq!((section, path.points.len()), (Section::Back, 0));
         let length = back.length();
         assert!((3.0..6.0).contains(&length), "{back:?}");
-        // It is where the planner expects it when it has followed the path, and there the rest is a way forward.
-        let mut driver = Backing::new(&back);
-        while !driver.step(&mut base, &mut heading) {
-            let trailer = Articulated::PATSY.trailer(&base, heading);
-            assert!([base, trailer].iter().all(|at| map.at(at.position()) == Some(&Occupancy::Free)), "{base:?}");
-        }
-        let (section, path, back) = search(&terrain, &loaded, &at(base, heading), &goals).expect("a way");
-        assert_eq!((section, back), (Section::ToGoal, BackPath::default()), "from {base:?}");
+        // It is where the planner expects it when it has followed the path, and there the rest is a way forward. But
+        // if a little more backward makes that shorter, it may do so first.
+        let path = loop {
+            let mut driver = Backing::new(&back);
+            while !driver.step(&mut base, &mut heading) {
+                let trailer = Articulated::PATSY.trailer(&base, heading);
+                assert!([base, trailer].iter().all(|at| map.at(at.position()) == Some(&Occupancy::Free)), "{base:?}");
+            }
+            let (section, path, rest) = plan(base, heading);
+            if section == Section::ToGoal {
+                break path;
+            }
+            assert!(rest.length() < 0.2 * back.length(), "from {base:?}: {rest:?}");
+            back = rest;
+        };
         assert_eq!(path.goal(), Some(goals[0].pose.position()));
     }
 

@@ -43,6 +43,11 @@ impl States {
         self.best.resize((raster.width * raster.height + fine) * HEADINGS, f32::INFINITY);
     }
 
+    /// Returns `true` if no state at a pose was expanded at this cost or less, whatever the heading of the trailer.
+    pub fn may_be_best(&mut self, pose: &Pose2, cost: f32) -> bool {
+        self.fine.is_some() || self.best(pose, pose.theta).is_some_and(|best| cost < *best)
+    }
+
     /// Least cost of the state of a vehicle at a pose, whose trailer has a heading; `None` outside of the raster.
     pub fn best(&mut self, pose: &Pose2, trailer: f32) -> Option<&mut f32> {
         let turn = libm::floorf(pose.theta / TAU * HEADINGS as f32 + 0.5);

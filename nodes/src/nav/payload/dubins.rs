@@ -1,4 +1,4 @@
-use crate::scan::{Point2, Pose2};
+use crate::scan::Pose2;
 use core::f32::consts::TAU;
 use libm::{acosf, atan2f, cosf, sinf, sqrtf};
 
@@ -33,13 +33,17 @@ impl Curve {
 
 /// Pose after `length` m along an arc.
 pub(in crate::nav) fn advanced(pose: &Pose2, curvature: f32, length: f32) -> Pose2 {
+    pose.compose(&arc(curvature, length))
+}
+
+/// Pose at the end of an arc, in the frame of its start.
+pub(in crate::nav) fn arc(curvature: f32, length: f32) -> Pose2 {
     let turn = curvature * length;
-    let step = if turn.abs() < 1e-4 {
-        Point2::new(length, 0.5 * turn * length)
+    if turn.abs() < 1e-4 {
+        Pose2::new(length, 0.5 * turn * length, turn)
     } else {
-        Point2::new(sinf(turn) / curvature, (1.0 - cosf(turn)) / curvature)
-    };
-    pose.compose(&Pose2::new(step.x, step.y, turn))
+        Pose2::new(sinf(turn) / curvature, (1.0 - cosf(turn)) / curvature, turn)
+    }
 }
 
 /// Shortest curves of the six kinds between two poses, for a vehicle that only drives forward with at least this radius
@@ -61,6 +65,15 @@ pub(in crate::nav) fn curves(from: &Pose2, to: &Pose2, radius: f32, straight: f3
             (off.position().norm() < 0.01 && off.theta.abs() < 0.01).then_some(curve)
         },
     )
+}
+
+/// Length of the shortest of these curves, without a straight line at its end, in m.
+pub(in crate::nav) fn shortest(from: &Pose2, to: &Pose2, radius: f32) -> f32 {
+    let way = to.position() - from.position();
+    let direction = if way.norm() > 0.0 { way.angle() } else { 0.0 };
+    let words = words(turn(from.theta - direction), turn(to.theta - direction), way.norm() / radius);
+    let lengths = words.into_iter().flatten().map(|(_, lengths)| lengths.iter().sum::<f32>());
+    radius * lengths.fold(f32::INFINITY, f32::min)
 }
 
 /// Signs of the curvatures of three parts, and their lengths in radii.
@@ -86,12 +99,12 @@ fn words(a: f32, b: f32, d: f32) -> [Word; 6] {
         let t = atan2f(ca + cb, d - sa - sb) - atan2f(2.0, p);
         ([-1, 0, 1], [turn(a - t), p, turn(b - t)])
     });
-    let arc = |c: f32| (c.abs() <= 1.0).then(|| TAU - acosf(c));
-    let rlr = arc((6.0 - d * d + 2.0 * cab + 2.0 * d * (sa - sb)) / 8.0).map(|p| {
+    let middle = |c: f32| (c.abs() <= 1.0).then(|| TAU - acosf(c));
+    let rlr = middle((6.0 - d * d + 2.0 * cab + 2.0 * d * (sa - sb)) / 8.0).map(|p| {
         let t = turn(a - atan2f(ca - cb, d - sa + sb) + 0.5 * p);
         ([-1, 1, -1], [t, p, turn(a - b - t + p)])
     });
-    let lrl = arc((6.0 - d * d + 2.0 * cab + 2.0 * d * (sb - sa)) / 8.0).map(|p| {
+    let lrl = middle((6.0 - d * d + 2.0 * cab + 2.0 * d * (sb - sa)) / 8.0).map(|p| {
         let t = turn(-a + atan2f(cb - ca, d + sa - sb) + 0.5 * p);
         ([1, -1, 1], [t, p, turn(b - a - t + p)])
     });
@@ -119,6 +132,8 @@ mod tests {
             let all: std::vec::Vec<Curve> = curves(&from, &to, 0.7, 0.5).collect();
             assert!(all.len() >= 2, "{} curves from {from:?} to {to:?}", all.len());
             kinds += all.len();
+            let least = all.iter().map(|curve| curve.length() - 0.5).fold(f32::INFINITY, f32::min);
+            assert!((shortest(&from, &to, 0.7) - least).abs() < 1e-3, "{least} m from {from:?} to {to:?}");
             for curve in all {
                 let (end, _) = curve.at(curve.length());
                 let off = end.relative_to(&to);
