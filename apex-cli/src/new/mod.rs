@@ -32,8 +32,9 @@ const GITIGNORE: File = (".gitignore", include_str!("template/gitignore.txt"));
 const RUSTFMT: File = ("rustfmt.toml", include_str!("../../../rustfmt.toml"));
 
 /// The robot is that of `robots/rover`, the firmware that of `robots/firmware`, where they are built and tested.
-const ROBOT: [File; 8] = [
+const ROBOT: [File; 9] = [
     ("Cargo.toml", include_str!("template/robot/Cargo.toml.txt")),
+    (".cargo/config.toml", include_str!("template/robot/config.toml.txt")),
     ("README.md", include_str!("template/robot/README.md")),
     GITIGNORE,
     RUSTFMT,

@@ -182,6 +182,29 @@ fn what_a_template_is_stands_in_the_help() {
     }
 }
 
+/// The lines are off, and cargo reads them when they are on: with the flag of `native`, it prints what that is.
+#[test]
+fn a_robot_may_use_the_whole_processor() {
+    let folder = Folder::new("new-native");
+    let project = folder.0.join("robot");
+    assert_eq!(make(&[], &project).status.code(), Some(0));
+    let file = project.join(".cargo/config.toml");
+    let off = fs::read_to_string(&file).unwrap();
+    assert!(off.lines().all(|line| line.starts_with('#')), "{off}");
+    let settings: Vec<&str> = off.lines().skip_while(|line| *line != "# [build]").collect();
+    let on: String = settings.iter().map(|line| format!("{}\n", &line[2..])).collect();
+    fs::write(&file, &on).unwrap();
+    // What cargo prints with its settings is on trial in its stable versions, too.
+    let cfg = ["-Zunstable-options", "rustc", "--print", "cfg"];
+    let (code, native, errors) = run_in(&project, cargo().env("RUSTC_BOOTSTRAP", "1"), &cfg);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    let mut direct = Command::new("rustc");
+    direct.env("RUSTC_BOOTSTRAP", "1").args(["--print", "cfg", "-Ctarget-cpu=native"]);
+    let features = |text: &str| text.lines().filter(|line| line.starts_with("target_feature")).count();
+    let direct = String::from_utf8(direct.output().unwrap().stdout).unwrap();
+    assert_eq!(features(&native), features(&direct), "{on}");
+}
+
 #[test]
 fn what_is_there_is_not_overwritten() {
     let folder = Folder::new("new-there");
