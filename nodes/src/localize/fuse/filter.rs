@@ -1,5 +1,6 @@
 use super::{
     Inertial, PositionFix,
+    align::{Alignment, POINTS},
     gyro::{Gyro, Turned},
     past::{Past, Place, seconds, vector, wrapped},
 };
@@ -59,7 +60,7 @@ pub struct FusionSettings {
     pub gate: f32,
     /// Time of refused fixes after which the pose is lost, in s.
     pub patience: f32,
-    /// Distance between two fixes that give the heading, in m.
+    /// Way on which fixes give the heading, in m.
     pub align: f32,
 }
 
@@ -144,8 +145,7 @@ pub struct PoseFilter {
     stands: Option<Time>,
     gyro: Gyro,
     is_localized: bool,
-    /// First fix of an alignment, and the antenna in the frame of odometry at its time.
-    first: Option<([f64; 2], [f64; 2])>,
+    alignment: Alignment,
     /// Time of the first refused fix after the last one that was used.
     refused: Option<Time>,
 }
@@ -176,7 +176,7 @@ impl PoseFilter {
             stands: None,
             gyro: Gyro::default(),
             is_localized: false,
-            first: None,
+            alignment: Alignment::default(),
             refused: None,
         };
         filter.state[SCALE] = 1.0;
@@ -402,7 +402,8 @@ impl PoseFilter {
 
     /// Forgets the pose, but not the errors of the sensors.
     pub fn forget(&mut self) {
-        (self.is_localized, self.first, self.refused) = (false, None, None);
+        (self.is_localized, self.refused) = (false, None);
+        self.alignment = Alignment::default();
         self.put(self.odometry);
     }
 
@@ -429,47 +430,39 @@ impl PoseFilter {
         for (i, spread) in [(0, position), (1, position), (THETA, heading)] {
             self.covariance[(i, i)] = square(spread);
         }
-        (self.is_localized, self.first, self.refused) = (true, None, None);
+        (self.is_localized, self.refused) = (true, None);
         Some(Change::Localized)
     }
 
-    /// Finds the pose from two fixes, whose direction is compared with that of odometry. The slow error of both is the
-    /// same.
+    /// Finds the pose from several fixes, if they agree with odometry.
     fn align(&mut self, fix: [f64; 2], antenna: [f64; 2], variance: f64) -> Option<Change> {
-        let Some((first, start)) = self.first else {
-            self.first = Some((fix, antenna));
+        let FusionSettings { align, gate, motion, .. } = self.settings;
+        let align = f64::from(align).max(0.1);
+        if !self.alignment.put(fix, antenna, align) {
+            return None;
+        }
+        let slip = square(motion.slip) * align;
+        let found = self.alignment.turn(f64::from(gate) * (variance + slip), 0.25 * align * align);
+        let Some(turn) = found else {
+            self.alignment.drop_first();
             return None;
         };
-        let way = [0, 1].map(|i| fix[i] - first[i]);
-        let driven = [0, 1].map(|i| antenna[i] - start[i]);
-        let length = libm::hypot(driven[0], driven[1]);
-        if length < f64::from(self.settings.align).max(0.1) {
-            return None;
-        }
-        let direction = libm::atan2(way[1], way[0]);
-        let turn = direction - libm::atan2(driven[1], driven[0]);
-        // Odometry turns about the origin, and then its antenna is moved to the fix.
-        let turned = Place { theta: turn, ..Place::default() };
-        let (there, here) = (turned.to_outer(antenna), turned.to_outer([self.odometry.x, self.odometry.y]));
-        let [x, y] = [0, 1].map(|i| fix[i] + here[i] - there[i]);
-        self.put(Place { x, y, theta: self.odometry.theta + turn });
-        self.spread(direction, length, variance);
-        (self.is_localized, self.first, self.refused) = (true, None, None);
-        Some(Change::Localized)
-    }
-
-    /// Covariance of a pose from two fixes with this variance, in this direction and so far apart.
-    fn spread(&mut self, direction: f64, length: f64, variance: f64) {
-        let (sin, cos) = libm::sincos(direction);
-        let (slow, p) = (square(self.settings.wander), &mut self.covariance);
-        for (i, across) in [-sin, cos].into_iter().enumerate() {
-            p[(i, i)] = variance + slow;
+        let arm = turn.arm([self.odometry.x, self.odometry.y]);
+        let [x, y] = [0, 1].map(|i| turn.fix[i] + arm[i]);
+        self.put(Place { x, y, theta: self.odometry.theta + turn.angle });
+        // The error of the mean, and that of the angle at the arm; the slow error of all fixes is the same.
+        let heading = variance / turn.spread + slip / (align * align);
+        let (slow, across, p) = (square(self.settings.wander), [-arm[1], arm[0]], &mut self.covariance);
+        p[(THETA, THETA)] = heading;
+        for i in 0..2 {
             (p[(i, WANDER + i)], p[(WANDER + i, i)]) = (-slow, -slow);
-            (p[(i, THETA)], p[(THETA, i)]) = (across * variance / length, across * variance / length);
+            (p[(i, THETA)], p[(THETA, i)]) = (across[i] * heading, across[i] * heading);
+            (0..2).for_each(|j| p[(i, j)] = across[i] * across[j] * heading);
+            p[(i, i)] += variance / POINTS as f64 + slip + slow;
         }
-        // The way of odometry has an error, too.
-        let slip = square(self.settings.motion.slip) * length;
-        p[(THETA, THETA)] = (2.0 * variance + slip) / (length * length);
+        (self.is_localized, self.refused) = (true, None);
+        self.alignment = Alignment::default();
+        Some(Change::Localized)
     }
 }
 

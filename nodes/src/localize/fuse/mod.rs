@@ -1,5 +1,6 @@
 //! Fusion of wheels, a gyroscope and satellite positions by an extended Kalman filter, outdoors.
 
+mod align;
 mod filter;
 mod fix;
 mod gyro;

@@ -14,7 +14,7 @@ const TURNED: f32 = 0.2;
 /// counts for its stamp, up to 2.5 s ago. `odometry` is the pose by wheels and gyroscope: it begins at the origin, and
 /// fixes do not let it jump, so that maps and paths can be in its frame. `pose` is the pose in the frame of the fixes,
 /// x to the east, which jumps with each of them. It is ⊥ until it is known: satellites tell no heading, which follows
-/// from two fixes of which the second one is `align` from the first, or from an `initial` pose. `estimate` has its
+/// from eleven fixes on a way of `align` that agree with odometry, or from an `initial` pose. `estimate` has its
 /// covariance, which grows without fixes. Before the pose is known, it is that of `odometry`.
 ///
 /// `localized` comes with the pose as soon as it is known. A fix beyond the gate is not used; if none was used for
@@ -69,7 +69,7 @@ pub struct FusePose {
     /// Time of refused fixes after which the pose is lost.
     #[param(unit = "s", default = 15.0, range = 0.0..=3600.0)]
     patience: f32,
-    /// Distance between the two fixes that give the heading.
+    /// Way on which fixes give the heading.
     #[param(unit = "m", default = 10.0, range = 0.1..=1000.0)]
     align: f32,
     /// Standard deviation of an initial position.

@@ -1,6 +1,6 @@
 use crate::{
     robot::{Summit, SummitParts},
-    world::{Camera, Field, Judge, Motors, Options, Report, Scanner, State, Wheels},
+    world::{Camera, Field, Gnss, Imu, Judge, Motors, Options, Report, Scanner, State, Wheels},
 };
 use apex_rt::Time;
 use apex_sim::{
@@ -49,6 +49,8 @@ pub fn run(options: &Options, record: Option<&Path>) -> Result<Run, String> {
     let mut robot = Box::new(Summit::new(SummitParts {
         scanner: Scanner::new(&field),
         wheels: Wheels::new(&field),
+        imu: Imu::new(&field),
+        gnss: Gnss::new(&field),
         camera: Camera::new(&field),
         motors: Motors::new(&field),
         judge: Judge::new(&field),

@@ -1,6 +1,5 @@
-use super::{Contact, Ending, Loss, Report};
+use super::{Contact, Ending, Fault, FaultKind, Loss, Report};
 use apex_nodes::{
-    frames::{Pose3, Rotation},
     nav::Twist,
     persons::Person,
     scan::{Point2, Pose2, wrap_angle},
@@ -8,7 +7,7 @@ use apex_nodes::{
 use apex_rt::Time;
 use apex_sim::{
     HeldTwist, Limits, Random, Shared, Simulation,
-    outdoor::{Attitude, Passersby, Runner, Sample, SkidBase, SkidShape, Terrain, Track, Walker},
+    outdoor::{Passersby, Runner, Sample, SkidBase, SkidShape, Terrain, Track, Walker},
 };
 use std::{collections::VecDeque, time::Duration};
 
@@ -43,12 +42,14 @@ pub struct Options {
     pub length: f32,
     /// `true` if people cross the track, and stand beside it.
     pub people: bool,
+    /// Fault of a sensor.
+    pub fault: Option<Fault>,
 }
 
 /// A track of 1.7 km with people.
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, length: 1700.0, people: true }
+        Self { seed: 1, length: 1700.0, people: true, fault: None }
     }
 }
 
@@ -68,7 +69,7 @@ pub struct State {
     samples: VecDeque<Sample>,
     wheels: Pose2,
     noise: Random,
-    bias: f32,
+    fault: Option<Fault>,
     people: Vec<Walker>,
     touches: bool,
     arrived: Option<Time>,
@@ -92,8 +93,6 @@ impl State {
         let pose = Pose2::new(start.x, start.y, heading);
         let base = SkidBase::new(pose, LIMITS, SkidShape::SUMMIT, &terrain);
         let sample = Sample { pose, attitude: base.attitude };
-        let mut noise = stream(options.seed, 1);
-        let bias = noise.normal(0.0004);
         Self {
             now: Time::ZERO,
             seed: options.seed,
@@ -106,8 +105,8 @@ impl State {
             command: HeldTwist::new(Some(COMMAND_TIMEOUT)),
             samples: std::iter::repeat_n(sample, SAMPLES).collect(),
             wheels: Pose2::default(),
-            noise,
-            bias,
+            noise: stream(options.seed, 1),
+            fault: options.fault,
             touches: false,
             arrived: None,
             lost: None,
@@ -140,12 +139,25 @@ impl State {
         self.samples.make_contiguous()
     }
 
-    /// Pose by wheels and gyroscope, with the inclination that the inertial sensor measures.
-    pub fn odometry(&mut self) -> Pose3 {
-        let Attitude { roll, pitch, .. } = self.base.attitude;
-        let [roll, pitch] = [roll, pitch].map(|angle| f64::from(angle + self.noise.normal(0.004)));
-        let Pose2 { x, y, theta } = self.wheels;
-        Pose3::new([f64::from(x), f64::from(y), 0.0], Rotation::from_rpy(roll, pitch, f64::from(theta)))
+    /// Pose that the wheels sum up, which begins at the origin.
+    pub const fn wheels(&self) -> Pose2 {
+        self.wheels
+    }
+
+    /// Time of the world.
+    pub const fn now(&self) -> Time {
+        self.now
+    }
+
+    /// Returns `true` while a sensor has a fault of this kind.
+    pub fn has_fault(&self, kind: FaultKind) -> bool {
+        self.fault.is_some_and(|fault| fault.is_on(kind, self.now))
+    }
+
+    /// Compares where the robot believes to be in the world with where it is.
+    pub fn locate(&mut self, pose: &Pose2) {
+        let error = (pose.position() - self.base.pose.position()).norm();
+        self.report.located.push([error, wrap_angle(pose.theta - self.base.pose.theta)]);
     }
 
     /// Sets the twist of the motors.
@@ -216,9 +228,8 @@ impl State {
         }
         // It has to get away before it touches something again.
         self.touches = gap <= 0.05 && (touches || self.touches);
-        // The wheels do not tell the slip; the gyroscope drifts.
-        let turn = wrap_angle(self.base.pose.theta - before.pose.theta);
-        let turn = turn + (self.bias + self.noise.normal(0.01)) * dt;
+        // The wheels do not tell the slip.
+        let turn = self.base.wheels.omega * dt * (1.0 + self.noise.normal(0.02));
         let way = self.base.wheels.x * dt * (1.0 + self.noise.normal(0.02));
         let half = Pose2::new(self.wheels.x, self.wheels.y, self.wheels.theta + 0.5 * turn);
         let at = half.to_outer(Point2::new(way, 0.0));
@@ -297,7 +308,7 @@ mod tests {
     use super::*;
 
     fn field() -> State {
-        State::new(&Options { seed: 3, length: 400.0, people: true })
+        State::new(&Options { seed: 3, length: 400.0, ..Options::default() })
     }
 
     #[test]
