@@ -288,11 +288,15 @@ fn a_robot_that_stands_learns_the_bias_and_does_not_turn() {
     let settings = FusionSettings { bias_spread: 0.02, ..FusionSettings::default() };
     let (mut world, mut filter) = known(settings, 5);
     world.jump = f64::NAN;
-    (0..400).for_each(|_| drop(world.step(&mut filter, 0.0, 0.0)));
+    for _ in 0..400 {
+        world.step(&mut filter, 0.0, 0.0);
+    }
     assert!((filter.state[BIAS] - world.bias).abs() < 1e-3, "{} {}", filter.state[BIAS], world.bias);
     let before = filter.state[THETA];
     let certain = filter.covariance[(THETA, THETA)];
-    (0..1200).for_each(|_| drop(world.step(&mut filter, 0.0, 0.0)));
+    for _ in 0..1200 {
+        world.step(&mut filter, 0.0, 0.0);
+    }
     // One measurement in a thousand is taken for a turn.
     let grown = filter.covariance[(THETA, THETA)] - certain;
     assert!((filter.state[THETA] - before).abs() < 3e-3 && grown < 1e-6, "{grown}");
