@@ -29,8 +29,8 @@ robot lost the runner as violet ones.
   --seed N          seed of the country, the runner, the passers-by and all noise (default 1)
   --metres N        length of the track (default 1700)
   --no-people       without people who cross the track and stand beside it
-  --fault FAULT     fault of a sensor, such as gnss-silent@100s..160s; kinds are gnss-silent (no positions), gnss-jump
-                    (20 m too far to the east), gyro-nan and wheels-silent
+  --fault FAULT     fault of a sensor of the pose in the world, such as gnss-silent@100s..160s; kinds are gnss-silent (no
+                    positions), gnss-jump (20 m too far to the east), gyro-nan and wheels-silent
   --out FILE        the picture (default out/follow/track.svg)
   --record FILE     recording of the (first) run, for Foxglove, Rerun and `apex bag`: clouds, scans, maps, paths, poses
 

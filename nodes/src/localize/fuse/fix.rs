@@ -1,5 +1,6 @@
 use crate::scan::Point2;
 use apex_rt::{Time, Units, node};
+use core::f64::consts::{FRAC_PI_2, TAU};
 use libm::{cos, sin, sincos, sqrt};
 
 /// Ellipsoid of WGS 84: semi-major axis in m, and the square of its eccentricity (NIMA TR8350.2, 2000, tables 3.1 and
@@ -108,10 +109,10 @@ pub struct PlaceFix {
     #[param(default = true)]
     from_first: bool,
     /// Latitude of the origin.
-    #[param(unit = "rad", default = 0.0, range = -1.570_796_3..=1.570_796_3)]
+    #[param(unit = "rad", default = 0.0, range = -FRAC_PI_2..=FRAC_PI_2)]
     latitude: f64,
     /// Longitude of the origin.
-    #[param(unit = "rad", default = 0.0, range = -6.283_185_3..=6.283_185_3)]
+    #[param(unit = "rad", default = 0.0, range = -TAU..=TAU)]
     longitude: f64,
     plane: Option<TangentPlane>,
 }

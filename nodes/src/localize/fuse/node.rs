@@ -83,6 +83,7 @@ pub struct FusePose {
 
 #[node]
 impl FusePose {
+    #[allow(clippy::too_many_arguments, reason = "they are the ports")]
     fn process(
         &mut self,
         ctx: &Ctx,

@@ -1,6 +1,7 @@
 use super::{FaultKind, Field};
 use apex_nodes::{
     cloud::RingCloud,
+    frames::Pose3,
     localize::{GeoFix, Inertial, TangentPlane},
     nav::Twist,
     persons::{Detections, MAX_DETECTIONS, Person, View},
@@ -51,6 +52,25 @@ impl Scanner {
         let samples = field.samples().to_vec();
         let Self { scanner, random, truth, .. } = self;
         scanner.measure(&field.terrain, &samples, field.people(), ctx.now(), random, turn.get_mut(), truth);
+    }
+}
+
+/// Odometry of the base: a source of the pose by its wheels and its own gyroscope, with the inclination of the robot.
+#[node]
+#[derive(Debug)]
+pub struct Odometry {
+    field: Field,
+}
+
+#[node]
+impl Odometry {
+    /// Creates the odometry of the robot in a world.
+    pub fn new(field: &Field) -> Self {
+        Self { field: field.clone() }
+    }
+
+    fn process(&mut self, ctx: &Ctx) -> Pose3 {
+        self.field.at(ctx.now()).odometry()
     }
 }
 

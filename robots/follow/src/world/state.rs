@@ -1,5 +1,6 @@
 use super::{Contact, Ending, Fault, FaultKind, Loss, Report};
 use apex_nodes::{
+    frames::{Pose3, Rotation},
     nav::Twist,
     persons::Person,
     scan::{Point2, Pose2, wrap_angle},
@@ -7,7 +8,7 @@ use apex_nodes::{
 use apex_rt::Time;
 use apex_sim::{
     HeldTwist, Limits, Random, Shared, Simulation,
-    outdoor::{Passersby, Runner, Sample, SkidBase, SkidShape, Terrain, Track, Walker},
+    outdoor::{Attitude, Passersby, Runner, Sample, SkidBase, SkidShape, Terrain, Track, Walker},
 };
 use std::{collections::VecDeque, time::Duration};
 
@@ -67,8 +68,12 @@ pub struct State {
     base: SkidBase,
     command: HeldTwist,
     samples: VecDeque<Sample>,
+    /// Pose by wheels and gyroscope, and by wheels alone.
+    odometry: Pose2,
     wheels: Pose2,
     noise: Random,
+    wheel_noise: Random,
+    bias: f32,
     fault: Option<Fault>,
     people: Vec<Walker>,
     touches: bool,
@@ -93,6 +98,8 @@ impl State {
         let pose = Pose2::new(start.x, start.y, heading);
         let base = SkidBase::new(pose, LIMITS, SkidShape::SUMMIT, &terrain);
         let sample = Sample { pose, attitude: base.attitude };
+        let mut noise = stream(options.seed, 1);
+        let bias = noise.normal(0.0004);
         Self {
             now: Time::ZERO,
             seed: options.seed,
@@ -104,8 +111,11 @@ impl State {
             base,
             command: HeldTwist::new(Some(COMMAND_TIMEOUT)),
             samples: std::iter::repeat_n(sample, SAMPLES).collect(),
+            odometry: Pose2::default(),
             wheels: Pose2::default(),
-            noise: stream(options.seed, 1),
+            noise,
+            wheel_noise: stream(options.seed, 14),
+            bias,
             fault: options.fault,
             touches: false,
             arrived: None,
@@ -137,6 +147,14 @@ impl State {
     /// Poses during the last turn of the scanner.
     pub fn samples(&mut self) -> &[Sample] {
         self.samples.make_contiguous()
+    }
+
+    /// Pose by wheels and gyroscope, with the inclination that the inertial sensor measures.
+    pub fn odometry(&mut self) -> Pose3 {
+        let Attitude { roll, pitch, .. } = self.base.attitude;
+        let [roll, pitch] = [roll, pitch].map(|angle| f64::from(angle + self.noise.normal(0.004)));
+        let Pose2 { x, y, theta } = self.odometry;
+        Pose3::new([f64::from(x), f64::from(y), 0.0], Rotation::from_rpy(roll, pitch, f64::from(theta)))
     }
 
     /// Pose that the wheels sum up, which begins at the origin.
@@ -228,12 +246,13 @@ impl State {
         }
         // It has to get away before it touches something again.
         self.touches = gap <= 0.05 && (touches || self.touches);
-        // The wheels do not tell the slip.
-        let turn = self.base.wheels.omega * dt * (1.0 + self.noise.normal(0.02));
+        // The wheels do not tell the slip; the gyroscope drifts.
+        let turn = wrap_angle(self.base.pose.theta - before.pose.theta);
+        let turn = turn + (self.bias + self.noise.normal(0.01)) * dt;
         let way = self.base.wheels.x * dt * (1.0 + self.noise.normal(0.02));
-        let half = Pose2::new(self.wheels.x, self.wheels.y, self.wheels.theta + 0.5 * turn);
-        let at = half.to_outer(Point2::new(way, 0.0));
-        self.wheels = Pose2::new(at.x, at.y, apex_nodes::math::normalize_angle(&(self.wheels.theta + turn)));
+        self.odometry = moved(&self.odometry, way, turn);
+        let by_wheels = self.base.wheels.omega * dt * (1.0 + self.wheel_noise.normal(0.02));
+        self.wheels = moved(&self.wheels, way, by_wheels);
         self.report.driven += (self.base.pose.position() - before.pose.position()).norm();
     }
 
@@ -296,6 +315,13 @@ impl Simulation for State {
             self.step();
         }
     }
+}
+
+/// Pose after a way straight ahead, in m, with a turn in rad.
+fn moved(pose: &Pose2, way: f32, turn: f32) -> Pose2 {
+    let half = Pose2::new(pose.x, pose.y, pose.theta + 0.5 * turn);
+    let at = half.to_outer(Point2::new(way, 0.0));
+    Pose2::new(at.x, at.y, apex_nodes::math::normalize_angle(&(pose.theta + turn)))
 }
 
 /// Random numbers of a seed for a purpose.
