@@ -29,8 +29,8 @@ robot lost the runner as violet ones.
   --seed N          seed of the country, the runner, the passers-by and all noise (default 1)
   --metres N        length of the track (default 1700)
   --no-people       without people who cross the track and stand beside it
-  --fault FAULT     fault of a sensor of the pose in the world, such as gnss-silent@100s..160s; kinds are gnss-silent (no
-                    positions), gnss-jump (20 m too far to the east), gyro-nan and wheels-silent
+  --fault FAULT     fault of a sensor of the pose in the world, such as gnss-silent@100s..160s; kinds are
+                    gnss-silent (no positions), gnss-jump (20 m too far to the east), gyro-nan and wheels-silent
   --out FILE        the picture (default out/follow/track.svg)
   --record FILE     recording of the (first) run, for Foxglove, Rerun and `apex bag`: clouds, scans, maps, paths, poses
 
@@ -56,8 +56,8 @@ The last line of `follow` is the error of the pose in the world (RMS) while the 
 each seed, and the computing time of perception for a turn of 28,800 points.
 
 `localisation` drives behind the runner of each seed by the true pose, and tells the error of the pose by
-wheels, gyroscope and satellites (GNSS): in all, and in the minute in which two of the rows have no positions. *NEES* is
-the mean squared error, normalised by the covariance: 3 if the errors are as large as the filter says.
+wheels, gyroscope and satellites (GNSS): in all, and in the minute in which two of the rows have no positions. *NEES*
+is the mean squared error, normalised by the covariance: 3 if the errors are as large as the filter says.
 
 Exit codes: 0 fine, 1 the robot lost the runner for longer than 5 s, touched something, tipped or fell, or a node
 failed; for `perception`, a rate below 95 %; 2 nothing could be done.

@@ -12,11 +12,12 @@ const TURNED: f32 = 0.2;
 ///
 /// `wheels` is the pose that the wheels sum up, in any frame. `inertial` and `fix` come at their own rates. Where the
 /// inertial sensor measures at the same time as the wheels, it should stand before them in the source file; otherwise
-/// its turn is one measurement late. A fix counts for its stamp, up to 2.5 s ago. `odometry` is the pose by wheels and gyroscope: it begins at the origin, and
-/// fixes do not let it jump, so that maps and paths can be in its frame. `pose` is the pose in the frame of the fixes,
-/// x to the east, which jumps with each of them. It is ⊥ until it is known: satellites tell no heading, which follows
-/// from eleven fixes on a way of `align` that agree with odometry, or from an `initial` pose. `estimate` has its
-/// covariance, which grows without fixes. Before the pose is known, it is that of `odometry`.
+/// its turn is one measurement late. A fix counts for its stamp, up to 2.5 s ago. `odometry` is the pose by wheels
+/// and gyroscope: it begins at the origin, and fixes do not let it jump, so that maps and paths can be in its frame.
+/// `pose` is the pose in the frame of the fixes, x to the east, which jumps with each of them. It is ⊥ until it is
+/// known: satellites tell no heading, which follows from eleven fixes on a way of `align` that agree with odometry,
+/// or from an `initial` pose. `estimate` has its covariance, which grows without fixes. Before the pose is known, it
+/// is that of `odometry`.
 ///
 /// `localized` comes with the pose as soon as it is known. A fix beyond the gate is not used; if none was used for
 /// `patience`, while others came, `lost` comes, and the pose is found again as at the beginning. Without a gyroscope

@@ -6,10 +6,10 @@ use apex_nodes::{
 };
 use apex_rt::Time;
 use apex_sim::{
-    Simulation,
+    Latency, Simulation,
     outdoor::{Gnss, GnssErrors, Imu, ImuErrors, Sample},
 };
-use std::{collections::VecDeque, fmt};
+use std::fmt;
 
 /// Periods of the inertial sensor and the wheels, in ms, and time between two comparisons with the truth.
 const INERTIAL: i64 = 10;
@@ -94,8 +94,8 @@ struct Drive {
     gnss: Gnss,
     plane: TangentPlane,
     last: Sample,
-    /// Fixes that have not arrived, with the times at which they do.
-    waiting: VecDeque<(Time, PositionFix)>,
+    /// Fixes that have not arrived.
+    waiting: Latency<PositionFix>,
     /// Distance along the way, in m.
     along: f32,
 }
@@ -110,7 +110,7 @@ impl Drive {
             plane,
             last: state.samples().last().copied().unwrap_or_default(),
             state,
-            waiting: VecDeque::new(),
+            waiting: Latency::default(),
             along: -KEPT,
         }
     }
@@ -175,9 +175,9 @@ impl Drive {
             let [x, y] = self.plane.position(fix.latitude.to_radians(), fix.longitude.to_radians());
             let position = Point2::new(x as f32, y as f32);
             let fix = PositionFix { stamp: fix.stamp, position, variance: fix.variance as f32 };
-            self.waiting.push_back((now + GnssErrors::NEO_M8.latency, fix));
+            self.waiting.send(now + GnssErrors::NEO_M8.latency, fix);
         }
-        self.waiting.pop_front_if(|(due, _)| *due <= now).map(|(_, fix)| fix)
+        self.waiting.receive(now)
     }
 }
 
