@@ -96,7 +96,7 @@ impl World {
             self.slow[i] = remembered * self.slow[i] + change;
         }
         self.fixes += 1;
-        (self.fixes % 4 == 0 && self.jump.is_finite()).then(|| filter.fix(&self.fix()))
+        (self.fixes.is_multiple_of(4) && self.jump.is_finite()).then(|| filter.fix(&self.fix()))
     }
 
     /// Fix at this time.
