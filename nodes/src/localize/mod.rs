@@ -1,11 +1,12 @@
-//! Localization on a map of line segments (feature `localize`; thesis 6.9): a look-up table of visible segments, and a
-//! particle filter on it.
+//! Localization (feature `localize`): on a map of line segments (thesis 6.9), by a look-up table of visible segments and
+//! a particle filter on it; and outdoors, by a Kalman filter of wheels, a gyroscope and satellites.
 
 mod beam;
 mod bins;
 mod cache;
 mod estimate;
 mod filter;
+mod fuse;
 mod motion;
 mod node;
 mod particle;
@@ -17,6 +18,9 @@ pub use beam::BeamModel;
 pub use cache::Cached;
 pub use estimate::PoseEstimate;
 pub use filter::{Change, Filter, Settings};
+pub use fuse::{
+    FixUse, FusePose, FusedPose, FusionSettings, GeoFix, Inertial, PlaceFix, PoseFilter, PositionFix, TangentPlane,
+};
 pub use motion::MotionNoise;
 pub use node::{LocalizerError, VectorMapLocalizer};
 pub use search::SearchSettings;

@@ -5,8 +5,8 @@ use apex_sim::{
     say,
 };
 use follow::{
-    experiments::{Accuracy, HEAD, Row, Run, accuracy, picture, run, summary},
-    world::{self, Ending},
+    experiments::{Accuracy, HEAD, Localisation, Row, Run, accuracy, localisation, picture, run, summary},
+    world::{self, Ending, Fault},
 };
 use std::{
     path::{Path, PathBuf},
@@ -16,8 +16,10 @@ use std::{
 const HELP: &str = "\
 A skid-steered robot follows a runner outdoors, in simulation: over hills, between trees, rocks, ditches and people.
 
-Usage: follow [follow] [--seed N] [--metres N] [--no-people] [--out FILE] [--record FILE]
-       follow missions [--first-seed N] [--seeds N] [--jobs N] [--metres N] [--no-people] [--out FILE] [--record FILE]
+Usage: follow [follow] [--seed N] [--metres N] [--no-people] [--fault FAULT] [--out FILE] [--record FILE]
+       follow missions [--first-seed N] [--seeds N] [--jobs N] [--metres N] [--no-people] [--fault FAULT] [--out FILE]
+                       [--record FILE]
+       follow localisation [--first-seed N] [--seeds N] [--jobs N] [--metres N]
        follow perception [--first-seed N] [--seeds N] [--jobs N]
 
 `follow` runs the robot on the track of one seed and tells what became of it, and which nodes were active. It draws the
@@ -27,6 +29,8 @@ robot lost the runner as violet ones.
   --seed N          seed of the country, the runner, the passers-by and all noise (default 1)
   --metres N        length of the track (default 1700)
   --no-people       without people who cross the track and stand beside it
+  --fault FAULT     fault of a sensor of the pose in the world, such as gnss-silent@100s..160s; kinds are
+                    gnss-silent (no positions), gnss-jump (20 m too far to the east), gyro-nan and wheels-silent
   --out FILE        the picture (default out/follow/track.svg)
   --record FILE     recording of the (first) run, for Foxglove, Rerun and `apex bag`: clouds, scans, maps, paths, poses
 
@@ -46,16 +50,23 @@ What the columns are, by the true state of the simulation:
   slow              share of the time of following in which the robot followed slowly
   took              computing time of the simulation and the robot on one core
 
+The last line of `follow` is the error of the pose in the world (RMS) while the robot knew it.
+
 `perception` measures how many points are taken for ground and for obstacles, on 60 turns of the scanner on the track of
 each seed, and the computing time of perception for a turn of 28,800 points.
+
+`localisation` drives behind the runner of each seed by the true pose, and tells the error of the pose by
+wheels, gyroscope and satellites (GNSS): in all, and in the minute in which two of the rows have no positions. *NEES*
+is the mean squared error, normalised by the covariance: 3 if the errors are as large as the filter says.
 
 Exit codes: 0 fine, 1 the robot lost the runner for longer than 5 s, touched something, tipped or fell, or a node
 failed; for `perception`, a rate below 95 %; 2 nothing could be done.
 ";
 
-pub const COMMANDS: [Command; 3] = [
+pub const COMMANDS: [Command; 4] = [
     Command { name: "follow", help: HELP, run: follow_one },
     Command { name: "missions", help: HELP, run: missions },
+    Command { name: "localisation", help: HELP, run: localise },
     Command { name: "perception", help: HELP, run: perception },
 ];
 
@@ -63,13 +74,14 @@ pub const COMMANDS: [Command; 3] = [
 struct World {
     metres: u64,
     people: bool,
+    fault: Option<Fault>,
     out: PathBuf,
     record: Option<PathBuf>,
 }
 
 impl World {
     fn new() -> Self {
-        Self { metres: 1700, people: true, out: PathBuf::from("out/follow/track.svg"), record: None }
+        Self { metres: 1700, people: true, fault: None, out: PathBuf::from("out/follow/track.svg"), record: None }
     }
 
     /// Reads the value of the option `name`.
@@ -77,6 +89,7 @@ impl World {
         match name {
             "metres" => self.metres = options.number(name, 100..=5000)?,
             "no-people" => self.people = false,
+            "fault" => self.fault = Some(options.text()?.parse()?),
             "out" => self.out = options.path()?,
             "record" => self.record = Some(options.path()?),
             _ => return Err(Options::unknown(name)),
@@ -86,7 +99,7 @@ impl World {
 
     /// Runs the robot. Only the run with the seed `first` is recorded.
     fn run(&self, seed: u64, first: u64) -> Result<Run, String> {
-        let options = world::Options { seed, length: self.metres as f32, people: self.people };
+        let options = world::Options { seed, length: self.metres as f32, people: self.people, fault: self.fault };
         run(&options, self.record.as_deref().filter(|_| seed == first))
     }
 }
@@ -108,6 +121,8 @@ fn follow_one(options: &mut Options) -> Result<ExitCode, String> {
         let what = if contact.is_person { "a person" } else { "a thing" };
         say(&format!("touched {what} at {} with {:.2} m/s\n", contact.at, contact.speed))?;
     }
+    let [position, heading] = run.report.located();
+    say(&format!("error of the pose in the world: {position:.2} m, {:.1}°\n", heading.to_degrees()))?;
     draw(&run, &world.out)?;
     Ok(verdict(&[run]))
 }
@@ -122,6 +137,21 @@ fn missions(options: &mut Options) -> Result<ExitCode, String> {
     say(&format!("\n{}", summary(&runs)))?;
     draw(&runs[0], &world.out)?;
     Ok(verdict(&runs))
+}
+
+fn localise(options: &mut Options) -> Result<ExitCode, String> {
+    let mut metres = 1700;
+    let read = |name: &str, options: &mut Options| match name {
+        "metres" => options.number(name, 100..=5000).map(|number| metres = number),
+        _ => Err(Options::unknown(name)),
+    };
+    let seeds = Seeds::new(1).read_beside(options, read)?;
+    let work = |seed: &u64| Ok(localisation(*seed, metres as f32));
+    let all = rows("seeds", &seeds.all(), seeds.jobs, work, |_, _| None)?;
+    let mut sum = Localisation::default();
+    all.iter().for_each(|one| sum.add(one));
+    say(&sum.to_string())?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn perception(options: &mut Options) -> Result<ExitCode, String> {

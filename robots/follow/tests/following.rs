@@ -9,7 +9,7 @@ use std::{env, fs};
 
 #[test]
 fn the_robot_follows_the_runner_round_a_short_track() {
-    let options = Options { seed: 5, length: 150.0, people: false };
+    let options = Options { seed: 5, length: 150.0, people: false, fault: None };
     let first = run(&options, None).expect("it runs");
     assert_eq!(first.report.ending, Some(Ending::Arrived), "{:?}", first.report.losses);
     assert!(first.report.contacts.is_empty() && first.failures.is_empty(), "{:?}", first.failures);
@@ -22,7 +22,7 @@ fn the_robot_follows_the_runner_round_a_short_track() {
 
 #[test]
 fn the_same_seed_gives_the_same_run() {
-    let options = Options { seed: 6, length: 120.0, people: true };
+    let options = Options { seed: 6, length: 120.0, people: true, fault: None };
     let reports =
         in_order(&[options; 2], None, |options| run(options, None).expect("it runs").report, |_| ()).expect("threads");
     assert_eq!(reports[0], reports[1]);
@@ -33,7 +33,7 @@ fn the_same_seed_gives_the_same_run() {
 #[test]
 fn a_run_is_recorded() {
     let file = env::temp_dir().join(format!("apex-follow-{}.mcap", std::process::id()));
-    let options = Options { seed: 5, length: 5.0, people: false };
+    let options = Options { seed: 5, length: 5.0, people: false, fault: None };
     let recorded = run(&options, Some(&file)).expect("it runs");
     assert_eq!(run(&options, None).expect("it runs").report, recorded.report);
     let bytes = fs::read(&file).expect("it is there");

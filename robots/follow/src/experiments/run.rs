@@ -1,6 +1,6 @@
 use crate::{
     robot::{Summit, SummitParts},
-    world::{Camera, Field, Judge, Motors, Options, Report, Scanner, State, Wheels},
+    world::{Camera, Field, Gnss, Imu, Judge, Motors, Odometry, Options, Report, Scanner, State, Wheels},
 };
 use apex_rt::Time;
 use apex_sim::{
@@ -48,7 +48,10 @@ pub fn run(options: &Options, record: Option<&Path>) -> Result<Run, String> {
     let field = Field::new(State::new(options));
     let mut robot = Box::new(Summit::new(SummitParts {
         scanner: Scanner::new(&field),
+        odometry: Odometry::new(&field),
         wheels: Wheels::new(&field),
+        imu: Imu::new(&field),
+        gnss: Gnss::new(&field),
         camera: Camera::new(&field),
         motors: Motors::new(&field),
         judge: Judge::new(&field),

@@ -1,15 +1,16 @@
-use super::Field;
+use super::{FaultKind, Field};
 use apex_nodes::{
     cloud::RingCloud,
     frames::Pose3,
+    localize::{GeoFix, Inertial, TangentPlane},
     nav::Twist,
     persons::{Detections, MAX_DETECTIONS, Person, View},
     scan::Pose2,
 };
 use apex_rt::{Ctx, Event, Out, Time, node};
 use apex_sim::{
-    Random,
-    outdoor::{RingScanner, StereoDetector, Surface},
+    Latency, Random,
+    outdoor::{self, GnssErrors, ImuErrors, RingScanner, Sample, StereoDetector, Surface},
 };
 use std::{collections::VecDeque, time::Duration};
 
@@ -18,6 +19,10 @@ const TURN: Duration = Duration::from_millis(100);
 /// Time between two images, and time until the persons in one are found.
 const IMAGES: Duration = Duration::from_millis(200);
 const LATENCY: Duration = Duration::from_millis(150);
+/// Latitude and longitude of the origin of the world, in rad: 48.53° north, 9.06° east.
+pub const ORIGIN: [f64; 2] = [0.847_008, 0.158_127];
+/// Error of positions while the receiver has the fault of a jump, in m.
+const JUMP: f64 = 20.0;
 
 /// Laser scanner with 16 rings on the mast: a source of turns. It sends ⊥ when it fires within a turn.
 #[node]
@@ -50,7 +55,26 @@ impl Scanner {
     }
 }
 
-/// Wheels and inertial sensor: a source of the pose in the frame of odometry, with the inclination of the robot.
+/// Odometry of the base: a source of the pose by its wheels and its own gyroscope, with the inclination of the robot.
+#[node]
+#[derive(Debug)]
+pub struct Odometry {
+    field: Field,
+}
+
+#[node]
+impl Odometry {
+    /// Creates the odometry of the robot in a world.
+    pub fn new(field: &Field) -> Self {
+        Self { field: field.clone() }
+    }
+
+    fn process(&mut self, ctx: &Ctx) -> Pose3 {
+        self.field.at(ctx.now()).odometry()
+    }
+}
+
+/// Wheels: a source of the pose that they sum up. They know nothing of slip.
 #[node]
 #[derive(Debug)]
 pub struct Wheels {
@@ -59,13 +83,82 @@ pub struct Wheels {
 
 #[node]
 impl Wheels {
-    /// Creates the odometry of the robot in a world.
+    /// Creates the wheels of the robot in a world.
     pub fn new(field: &Field) -> Self {
         Self { field: field.clone() }
     }
 
-    fn process(&mut self, ctx: &Ctx) -> Pose3 {
-        self.field.at(ctx.now()).odometry()
+    fn process(&mut self, ctx: &Ctx) -> Option<Pose2> {
+        let field = self.field.at(ctx.now());
+        (!field.has_fault(FaultKind::WheelsSilent)).then(|| field.wheels())
+    }
+}
+
+/// Inertial sensor: a source of the mean angular velocity since the last firing, and of the inclination.
+#[node]
+#[derive(Debug)]
+pub struct Imu {
+    field: Field,
+    imu: outdoor::Imu,
+    last: Option<(Time, Sample)>,
+}
+
+#[node]
+impl Imu {
+    /// Creates the inertial sensor of the robot in a world.
+    pub fn new(field: &Field) -> Self {
+        let imu = outdoor::Imu::new(ImuErrors::RAZOR, field.present().stream(12));
+        Self { field: field.clone(), imu, last: None }
+    }
+
+    fn process(&mut self, ctx: &Ctx) -> Option<Inertial> {
+        let now = ctx.now();
+        let mut field = self.field.at(now);
+        let after = *field.samples().last()?;
+        let (then, before) = self.last.replace((now, after))?;
+        let dt = now.since(then).as_secs_f32();
+        let measured = (dt > 0.0).then(|| self.imu.measure(&before, &after, dt))?;
+        let is_odd = field.has_fault(FaultKind::GyroNan);
+        Some(if is_odd { Inertial { angular_velocity: [f64::NAN; 3], ..measured } } else { measured })
+    }
+}
+
+/// Receiver of satellite navigation: a source of positions, five in a second, each 0.12 s after its measurement. The
+/// world's x axis points to the east.
+#[node]
+#[derive(Debug)]
+pub struct Gnss {
+    field: Field,
+    gnss: outdoor::Gnss,
+    plane: TangentPlane,
+    waiting: Latency<GeoFix>,
+}
+
+#[node]
+impl Gnss {
+    /// Creates the receiver of the robot in a world.
+    pub fn new(field: &Field) -> Self {
+        let plane = TangentPlane::new(ORIGIN[0], ORIGIN[1]);
+        let gnss = outdoor::Gnss::new(GnssErrors::NEO_M8, plane, field.present().stream(13));
+        Self { field: field.clone(), gnss, plane, waiting: Latency::default() }
+    }
+
+    fn process(&mut self, ctx: &Ctx) -> Option<GeoFix> {
+        let now = ctx.now();
+        let field = self.field.at(now);
+        if let Some(fix) = self.gnss.measure(&field.terrain, field.pose().position(), now) {
+            let fix = GeoFix { has_position: fix.has_position && !field.has_fault(FaultKind::GnssSilent), ..fix };
+            let fix = if field.has_fault(FaultKind::GnssJump) { self.jumped(&fix) } else { fix };
+            self.waiting.send(now + GnssErrors::NEO_M8.latency, fix);
+        }
+        self.waiting.receive(now)
+    }
+
+    /// Fix farther to the east.
+    fn jumped(&self, fix: &GeoFix) -> GeoFix {
+        let [x, y] = self.plane.position(fix.latitude.to_radians(), fix.longitude.to_radians());
+        let [latitude, longitude] = self.plane.geodetic([x + JUMP, y]).map(f64::to_degrees);
+        GeoFix { latitude, longitude, ..*fix }
     }
 }
 
@@ -136,7 +229,7 @@ impl Motors {
     }
 }
 
-/// Referee: a sink, to which the robot says where it believes the runner to be.
+/// Referee: a sink, to which the robot says where it believes the runner and itself to be.
 #[node]
 #[derive(Debug)]
 pub struct Judge {
@@ -150,7 +243,11 @@ impl Judge {
         Self { field: field.clone() }
     }
 
-    fn process(&mut self, ctx: &Ctx, pose: &Pose2, target: Option<&Person>) {
-        self.field.at(ctx.now()).judge(target, pose);
+    fn process(&mut self, ctx: &Ctx, pose: &Pose2, global: Option<&Pose2>, target: Option<&Person>) {
+        let mut field = self.field.at(ctx.now());
+        field.judge(target, pose);
+        if let Some(global) = global {
+            field.locate(global);
+        }
     }
 }

@@ -2,9 +2,11 @@
 //! referee who sees the true state.
 
 mod drivers;
+mod fault;
 mod report;
 mod state;
 
-pub use drivers::{Camera, Judge, Motors, Scanner, Wheels};
+pub use drivers::{Camera, Gnss, Imu, Judge, Motors, ORIGIN, Odometry, Scanner, Wheels};
+pub use fault::{Fault, FaultKind};
 pub use report::{Contact, Ending, Loss, Report};
 pub use state::{Field, Options, State};

@@ -26,6 +26,8 @@ pub struct Report {
     pub trajectory: Vec<Pose2>,
     /// Positions of the runner at the same times.
     pub runner: Vec<Point2>,
+    /// Errors of the pose in the world while the robot knew one: of the position, in m, and of the heading, in rad.
+    pub located: Vec<[f32; 2]>,
 }
 
 /// Contact of the robot with something.
@@ -92,6 +94,12 @@ impl Report {
     /// Number of losses of more than 1 s.
     pub fn times_lost(&self) -> usize {
         self.losses.iter().filter(|loss| loss.lasted > 1.0).count()
+    }
+
+    /// Root of the mean square error of the position in the world, in m, and of the heading, in rad.
+    pub fn located(&self) -> [f32; 2] {
+        let count = self.located.len() as f32;
+        [0, 1].map(|i| (self.located.iter().map(|errors| errors[i] * errors[i]).sum::<f32>() / count).sqrt())
     }
 
     /// Part of the distances at this quantile, in m.

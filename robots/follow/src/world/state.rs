@@ -1,4 +1,4 @@
-use super::{Contact, Ending, Loss, Report};
+use super::{Contact, Ending, Fault, FaultKind, Loss, Report};
 use apex_nodes::{
     frames::{Pose3, Rotation},
     nav::Twist,
@@ -43,12 +43,14 @@ pub struct Options {
     pub length: f32,
     /// `true` if people cross the track, and stand beside it.
     pub people: bool,
+    /// Fault of a sensor.
+    pub fault: Option<Fault>,
 }
 
 /// A track of 1.7 km with people.
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, length: 1700.0, people: true }
+        Self { seed: 1, length: 1700.0, people: true, fault: None }
     }
 }
 
@@ -66,9 +68,13 @@ pub struct State {
     base: SkidBase,
     command: HeldTwist,
     samples: VecDeque<Sample>,
+    /// Pose by wheels and gyroscope, and by wheels alone.
+    odometry: Pose2,
     wheels: Pose2,
     noise: Random,
+    wheel_noise: Random,
     bias: f32,
+    fault: Option<Fault>,
     people: Vec<Walker>,
     touches: bool,
     arrived: Option<Time>,
@@ -105,9 +111,12 @@ impl State {
             base,
             command: HeldTwist::new(Some(COMMAND_TIMEOUT)),
             samples: std::iter::repeat_n(sample, SAMPLES).collect(),
+            odometry: Pose2::default(),
             wheels: Pose2::default(),
             noise,
+            wheel_noise: stream(options.seed, 14),
             bias,
+            fault: options.fault,
             touches: false,
             arrived: None,
             lost: None,
@@ -144,8 +153,29 @@ impl State {
     pub fn odometry(&mut self) -> Pose3 {
         let Attitude { roll, pitch, .. } = self.base.attitude;
         let [roll, pitch] = [roll, pitch].map(|angle| f64::from(angle + self.noise.normal(0.004)));
-        let Pose2 { x, y, theta } = self.wheels;
+        let Pose2 { x, y, theta } = self.odometry;
         Pose3::new([f64::from(x), f64::from(y), 0.0], Rotation::from_rpy(roll, pitch, f64::from(theta)))
+    }
+
+    /// Pose that the wheels sum up, which begins at the origin.
+    pub const fn wheels(&self) -> Pose2 {
+        self.wheels
+    }
+
+    /// Time of the world.
+    pub const fn now(&self) -> Time {
+        self.now
+    }
+
+    /// Returns `true` while a sensor has a fault of this kind.
+    pub fn has_fault(&self, kind: FaultKind) -> bool {
+        self.fault.is_some_and(|fault| fault.is_on(kind, self.now))
+    }
+
+    /// Compares where the robot believes to be in the world with where it is.
+    pub fn locate(&mut self, pose: &Pose2) {
+        let error = (pose.position() - self.base.pose.position()).norm();
+        self.report.located.push([error, wrap_angle(pose.theta - self.base.pose.theta)]);
     }
 
     /// Sets the twist of the motors.
@@ -220,9 +250,9 @@ impl State {
         let turn = wrap_angle(self.base.pose.theta - before.pose.theta);
         let turn = turn + (self.bias + self.noise.normal(0.01)) * dt;
         let way = self.base.wheels.x * dt * (1.0 + self.noise.normal(0.02));
-        let half = Pose2::new(self.wheels.x, self.wheels.y, self.wheels.theta + 0.5 * turn);
-        let at = half.to_outer(Point2::new(way, 0.0));
-        self.wheels = Pose2::new(at.x, at.y, apex_nodes::math::normalize_angle(&(self.wheels.theta + turn)));
+        self.odometry = moved(&self.odometry, way, turn);
+        let by_wheels = self.base.wheels.omega * dt * (1.0 + self.wheel_noise.normal(0.02));
+        self.wheels = moved(&self.wheels, way, by_wheels);
         self.report.driven += (self.base.pose.position() - before.pose.position()).norm();
     }
 
@@ -287,6 +317,13 @@ impl Simulation for State {
     }
 }
 
+/// Pose after a way straight ahead, in m, with a turn in rad.
+fn moved(pose: &Pose2, way: f32, turn: f32) -> Pose2 {
+    let half = Pose2::new(pose.x, pose.y, pose.theta + 0.5 * turn);
+    let at = half.to_outer(Point2::new(way, 0.0));
+    Pose2::new(at.x, at.y, apex_nodes::math::normalize_angle(&(pose.theta + turn)))
+}
+
 /// Random numbers of a seed for a purpose.
 fn stream(seed: u64, number: u64) -> Random {
     Random::new(seed.wrapping_mul(0x9e37_79b9).wrapping_add(number.wrapping_mul(0x85eb_ca6b)))
@@ -297,7 +334,7 @@ mod tests {
     use super::*;
 
     fn field() -> State {
-        State::new(&Options { seed: 3, length: 400.0, people: true })
+        State::new(&Options { seed: 3, length: 400.0, ..Options::default() })
     }
 
     #[test]

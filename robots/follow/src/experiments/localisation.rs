@@ -1,0 +1,286 @@
+use crate::world::{ORIGIN, Options, State};
+use apex_nodes::{
+    localize::{FusionSettings, PoseFilter, PositionFix, TangentPlane},
+    nav::Twist,
+    scan::{Point2, Pose2, wrap_angle},
+};
+use apex_rt::Time;
+use apex_sim::{
+    Latency, Simulation,
+    outdoor::{Gnss, GnssErrors, Imu, ImuErrors, Sample},
+};
+use std::fmt;
+
+/// Periods of the inertial sensor and the wheels, in ms, and time between two comparisons with the truth.
+const INERTIAL: i64 = 10;
+const WHEELS: i64 = 50;
+const COMPARED: i64 = 500;
+/// Highest speed of the robot, in m/s, its sideways acceleration, in m/s², the distance that it keeps from the runner,
+/// and the distance by which it looks ahead on its way, in m.
+const SPEED: f32 = 2.8;
+const SIDEWAYS: f32 = 1.5;
+const KEPT: f32 = 3.0;
+const AHEAD: f32 = 2.5;
+/// Spell without positions.
+const OUTAGE: [Time; 2] = [Time::from_secs(300), Time::from_secs(360)];
+
+/// Sensors that a filter has.
+#[derive(Debug, Clone, Copy)]
+struct Sensors {
+    name: &'static str,
+    gyro: bool,
+    gnss: bool,
+    outage: bool,
+    /// `true` if the length of a metre by wheels is estimated.
+    scale: bool,
+}
+
+/// Rows of the table.
+const ROWS: [Sensors; 7] = [
+    Sensors { name: "wheels", gyro: false, gnss: false, outage: false, scale: true },
+    Sensors { name: "wheels, gyroscope", gyro: true, gnss: false, outage: false, scale: true },
+    Sensors { name: "wheels, GNSS", gyro: false, gnss: true, outage: false, scale: true },
+    Sensors { name: "wheels, gyroscope, GNSS", gyro: true, gnss: true, outage: false, scale: true },
+    Sensors { name: "  without the length of a metre", gyro: true, gnss: true, outage: false, scale: false },
+    Sensors { name: "wheels, gyroscope, GNSS, outage", gyro: true, gnss: true, outage: true, scale: true },
+    Sensors { name: "  without the length of a metre", gyro: true, gnss: true, outage: true, scale: false },
+];
+
+/// Errors of a pose.
+#[derive(Debug, Clone, Copy, Default)]
+struct Errors {
+    count: u64,
+    /// Sums of the squares of the position and of the heading, and their largest values.
+    squares: [f64; 2],
+    most: [f64; 2],
+    /// Largest error of the position in the outage.
+    in_outage: f64,
+    /// Sum of the squared errors, normalised by the covariance.
+    nees: f64,
+    /// Number of fixes that were used, and of all.
+    fixes: [u64; 2],
+    losses: u64,
+}
+
+/// Errors of the pose with different sensors, on the same drives.
+#[derive(Debug, Clone, Default)]
+pub struct Localisation {
+    rows: [Errors; ROWS.len()],
+    /// Distance, in m, and number of drives.
+    driven: f64,
+    drives: u32,
+}
+
+/// Drives the robot along the way of the runner of a seed and behind him, by its true pose, until he has arrived, and
+/// localises it with different sensors.
+pub fn localisation(seed: u64, length: f32) -> Localisation {
+    let options = Options { seed, length, people: false, fault: None };
+    let mut drive = Drive::new(&options);
+    let mut filters = ROWS.map(|row| drive.filter(&row));
+    let mut result = Localisation { drives: 1, ..Localisation::default() };
+    let mut ms = 0;
+    while drive.state.report().ending.is_none() {
+        ms += INERTIAL;
+        drive.step(Time::from_millis(ms), ms, &mut filters, &mut result);
+    }
+    result.driven = f64::from(drive.state.report().driven);
+    result
+}
+
+/// Robot on its way.
+struct Drive {
+    state: State,
+    imu: Imu,
+    gnss: Gnss,
+    plane: TangentPlane,
+    last: Sample,
+    /// Fixes that have not arrived.
+    waiting: Latency<PositionFix>,
+    /// Distance along the way, in m.
+    along: f32,
+}
+
+impl Drive {
+    fn new(options: &Options) -> Self {
+        let mut state = State::new(options);
+        let plane = TangentPlane::new(ORIGIN[0], ORIGIN[1]);
+        Self {
+            imu: Imu::new(ImuErrors::RAZOR, state.stream(12)),
+            gnss: Gnss::new(GnssErrors::NEO_M8, plane, state.stream(13)),
+            plane,
+            last: state.samples().last().copied().unwrap_or_default(),
+            state,
+            waiting: Latency::default(),
+            along: -KEPT,
+        }
+    }
+
+    /// Filter for these sensors. Without satellites it knows where it starts.
+    fn filter(&self, row: &Sensors) -> PoseFilter {
+        let standard = FusionSettings::default();
+        let scale_spread = if row.scale { standard.scale_spread } else { 0.0 };
+        let mut filter = PoseFilter::new(FusionSettings { scale_spread, ..standard });
+        if !row.gnss {
+            filter.begin(&self.state.pose(), (0.01, 0.001));
+        }
+        filter
+    }
+
+    fn step(&mut self, now: Time, ms: i64, filters: &mut [PoseFilter; ROWS.len()], result: &mut Localisation) {
+        self.state.advance(now);
+        let after = self.state.samples().last().copied().unwrap_or_default();
+        let inertial = self.imu.measure(&self.last, &after, 1e-3 * INERTIAL as f32);
+        self.last = after;
+        let with_gyro = filters.iter_mut().zip(&ROWS).filter(|(_, row)| row.gyro);
+        with_gyro.for_each(|(filter, _)| filter.turn(now, &inertial));
+        if ms % WHEELS == 0 {
+            self.steer();
+            let wheels = self.state.wheels();
+            for filter in filters.iter_mut() {
+                filter.drive(now, &wheels);
+            }
+        }
+        if let Some(fix) = self.received(now) {
+            for (i, filter) in filters.iter_mut().enumerate() {
+                result.rows[i].fix(&ROWS[i], filter, &fix);
+            }
+        }
+        if ms % COMPARED == 0 {
+            for (i, filter) in filters.iter().enumerate() {
+                result.rows[i].compare(filter, &self.state.pose(), now);
+            }
+        }
+    }
+
+    /// Follows the way of the runner.
+    fn steer(&mut self) {
+        let (here, track) = (self.state.pose(), &self.state.track);
+        let near = |s: f32| (track.way(s) - here.position()).norm_squared();
+        while near(self.along + 0.1) < near(self.along) {
+            self.along += 0.1;
+        }
+        let goal = here.to_inner(track.way(self.along + AHEAD));
+        // An arc through the goal.
+        let bend = 2.0 * goal.y / goal.norm_squared().max(0.1);
+        let gap = self.state.people().first().map_or(0.0, |runner| (runner.position - here.position()).norm());
+        let most = SPEED.min((SIDEWAYS / bend.abs().max(1e-3)).sqrt());
+        let speed = (gap - KEPT).clamp(0.0, most);
+        self.state.drive(Twist::new(speed, 0.0, speed * bend));
+    }
+
+    /// Fix that arrives now.
+    fn received(&mut self, now: Time) -> Option<PositionFix> {
+        let measured = self.gnss.measure(&self.state.terrain, self.state.pose().position(), now);
+        if let Some(fix) = measured.filter(|fix| fix.has_position) {
+            let [x, y] = self.plane.position(fix.latitude.to_radians(), fix.longitude.to_radians());
+            let position = Point2::new(x as f32, y as f32);
+            let fix = PositionFix { stamp: fix.stamp, position, variance: fix.variance as f32 };
+            self.waiting.send(now + GnssErrors::NEO_M8.latency, fix);
+        }
+        self.waiting.receive(now)
+    }
+}
+
+impl Errors {
+    fn fix(&mut self, row: &Sensors, filter: &mut PoseFilter, fix: &PositionFix) {
+        use apex_nodes::localize::{Change, FixUse};
+        let is_out = row.outage && fix.stamp >= OUTAGE[0] && fix.stamp < OUTAGE[1];
+        if !row.gnss || is_out {
+            return;
+        }
+        let (used, change) = filter.fix(fix);
+        self.fixes[0] += u64::from(matches!(used, FixUse::Used(_)));
+        self.fixes[1] += u64::from(matches!(used, FixUse::Used(_) | FixUse::Refused(_)));
+        self.losses += u64::from(change == Some(Change::Lost));
+    }
+
+    /// Adds the error at a time, while the pose is known.
+    fn compare(&mut self, filter: &PoseFilter, truth: &Pose2, now: Time) {
+        if !filter.is_localized() {
+            return;
+        }
+        let estimate = filter.estimate();
+        let offset = estimate.pose.position() - truth.position();
+        let turn = wrap_angle(estimate.pose.theta - truth.theta);
+        let errors = [offset.norm(), turn.abs()].map(f64::from);
+        for (i, error) in errors.into_iter().enumerate() {
+            self.squares[i] += error * error;
+            self.most[i] = self.most[i].max(error);
+        }
+        if now >= OUTAGE[0] && now < OUTAGE[1] {
+            self.in_outage = self.in_outage.max(errors[0]);
+        }
+        self.nees += normalized([offset.x, offset.y, turn].map(f64::from), estimate.covariance);
+        self.count += 1;
+    }
+
+    fn add(&mut self, other: &Self) {
+        for i in 0..2 {
+            self.squares[i] += other.squares[i];
+            self.most[i] = self.most[i].max(other.most[i]);
+            self.fixes[i] += other.fixes[i];
+        }
+        self.in_outage = self.in_outage.max(other.in_outage);
+        self.nees += other.nees;
+        self.count += other.count;
+        self.losses += other.losses;
+    }
+}
+
+/// Squared error, normalised by its covariance: eᵀ P⁻¹ e, by Cramer's rule.
+fn normalized(e: [f64; 3], covariance: [[f32; 3]; 3]) -> f64 {
+    let p = covariance.map(|row| row.map(f64::from));
+    let with = |column: Option<usize>| {
+        let at = |i: usize, j: usize| if column == Some(j) { e[i] } else { p[i][j] };
+        at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) - at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0))
+            + at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0))
+    };
+    (0..3).map(|i| e[i] * with(Some(i)) / with(None)).sum()
+}
+
+impl Localisation {
+    /// Adds the errors on another drive.
+    pub fn add(&mut self, other: &Self) {
+        self.rows.iter_mut().zip(&other.rows).for_each(|(row, other)| row.add(other));
+        self.driven += other.driven;
+        self.drives += other.drives;
+    }
+}
+
+/// Table of the errors, with a line for each set of sensors.
+impl fmt::Display for Localisation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{:<34}   position: RMS, max   heading: RMS, max   300 s to 360 s    NEES   fixes  lost", "")?;
+        for (sensors, row) in ROWS.iter().zip(&self.rows) {
+            let count = row.count.max(1) as f64;
+            let [position, heading] = row.squares.map(|square| (square / count).sqrt());
+            let share = 100.0 * row.fixes[0] as f64 / row.fixes[1].max(1) as f64;
+            write!(f, "{:<34}{position:>11.2} m{:>8.2} m", sensors.name, row.most[0])?;
+            write!(f, "{:>9.1}°{:>8.1}°", heading.to_degrees(), row.most[1].to_degrees())?;
+            write!(f, "{:>15.2} m{:>8.2}", row.in_outage, row.nees / count)?;
+            let fixes = if row.fixes[1] > 0 { format!("{share:.1} %") } else { "-".to_owned() };
+            writeln!(f, "{fixes:>8}{:>6}", row.losses)?;
+        }
+        writeln!(f, "{} drives, {:.0} m", self.drives, self.driven)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_normalized_by_their_covariance() {
+        let covariance = [[4.0, 1.0, 0.0], [1.0, 9.0, 0.5], [0.0, 0.5, 1.0]];
+        assert!((normalized([1.0, 2.0, 3.0], covariance) - 9.257352941).abs() < 1e-6);
+        assert!((normalized([2.0, 0.0, 0.0], [[4.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn satellites_bound_the_error() {
+        let table = localisation(1, 300.0);
+        let rms = |i: usize| (table.rows[i].squares[0] / table.rows[i].count as f64).sqrt();
+        assert!(rms(1) < rms(0) && rms(3) < 5.0, "{table}");
+        assert!(table.rows[3].fixes[0] > 500 && table.rows[3].losses == 0, "{table}");
+    }
+}
