@@ -1,5 +1,5 @@
-//! Localization (feature `localize`): on a map of line segments (thesis 6.9), by a look-up table of visible segments and
-//! a particle filter on it; and outdoors, by a Kalman filter of wheels, a gyroscope and satellites.
+//! Localization (feature `localize`): on a map of line segments (thesis 6.9), by a look-up table of visible segments
+//! and a particle filter on it; and outdoors, by a Kalman filter of wheels, a gyroscope and satellites.
 
 mod beam;
 mod bins;

@@ -6,23 +6,23 @@ mod drawer;
 mod edge;
 mod graph;
 mod kernel;
-mod map;
 mod mapper;
 mod matcher;
 mod node;
+mod posed;
 mod read;
 mod sparse;
 mod start;
 mod table;
 
-pub use drawer::ScanDrawer;
+pub use drawer::{DrawScans, ScanDrawer};
 pub use edge::Edge;
 pub use graph::{NoSuchPose, Optimized, PoseGraph};
 pub use kernel::RobustKernel;
-pub use map::{DrawScans, PosedScans, selected_scans};
 pub use mapper::{Mapper, Settings};
 pub use matcher::Window;
 pub use node::GraphSlam;
+pub use posed::{PosedScans, selected_scans};
 
 /// Pose in the plane, in m and rad.
 pub type Pose = nalgebra::Isometry2<f64>;

@@ -120,7 +120,7 @@ pub enum FixUse {
     Refused(f64),
     /// It serves to find the pose, which is not known.
     Aligns,
-    /// It is no position, from the future, or older than the poses that are kept.
+    /// It is not a position, from the future, or older than the poses that are kept.
     Unusable,
 }
 
@@ -216,15 +216,15 @@ impl PoseFilter {
         Place { x: self.state[0], y: self.state[1], theta: self.state[THETA] }
     }
 
-    /// Adds a measurement of the inertial sensor. One that is no number is ignored.
+    /// Adds a measurement of the inertial sensor. One that is not a number is ignored.
     pub fn turn(&mut self, now: Time, inertial: &Inertial) {
         if let Some(rate) = inertial.turn_rate() {
             self.gyro.put(now, rate);
         }
     }
 
-    /// Moves by the wheels, whose pose is a sum of their steps in any frame. A pose that is no number, or whose time is
-    /// not after that of the last one, is ignored: the next one has its step. Returns `true` if it is used.
+    /// Moves by the wheels, whose pose is a sum of their steps in any frame. A pose that is not a number, or whose time
+    /// is not after that of the last one, is ignored: the next one has its step. Returns `true` if it is used.
     pub fn drive(&mut self, now: Time, wheels: &Pose2) -> bool {
         if !wheels.is_usable() {
             return false;
@@ -421,7 +421,7 @@ impl PoseFilter {
     }
 
     /// Begins at a pose in the frame of the fixes, with standard deviations of its position in m and of its heading in
-    /// rad. One that is no number is ignored.
+    /// rad. One that is not a number is ignored.
     pub fn begin(&mut self, pose: &Pose2, (position, heading): (f32, f32)) -> Option<Change> {
         if !pose.is_usable() {
             return None;

@@ -100,8 +100,8 @@ fn of_earth(latitude: f64, longitude: f64) -> [f64; 3] {
 /// Position of a satellite fix on the plane that touches the earth at an origin: x to the east, y to the north, in m.
 /// The origin is that of the parameters, or the first position that is known.
 ///
-/// `position` is ⊥ for a fix without a position, one that is no number or not on the earth, and one farther than 100 km
-/// from the origin.
+/// `position` is ⊥ for a fix without a position, one that is not a number or not on the earth, and one farther than
+/// 100 km from the origin.
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct PlaceFix {

@@ -30,7 +30,7 @@ impl Inertial {
     }
 
     /// Rate of the heading, in rad/s: ψ' = (ω_y sin φ + ω_z cos φ) / cos θ, with the roll φ and the pitch θ (Titterton,
-    /// Weston: Strapdown Inertial Navigation Technology, 2004, 3.6.3). `None` if it is no number, faster than a
+    /// Weston: Strapdown Inertial Navigation Technology, 2004, 3.6.3). `None` if it is not a number, faster than a
     /// gyroscope measures, or the robot stands on its front or its back.
     pub fn turn_rate(&self) -> Option<f64> {
         let ([roll, pitch], [_, y, z]) = (self.inclination(), self.angular_velocity);

@@ -22,7 +22,7 @@ const TURNED: f32 = 0.2;
 /// `localized` comes with the pose as soon as it is known. A fix beyond the gate is not used; if none was used for
 /// `patience`, while others came, `lost` comes, and the pose is found again as at the beginning. Without a gyroscope
 /// the turn is that of the wheels; without wheels nothing is sent, and a gap counts as a straight way. Wheels that are
-/// no number, or far from the origin, give ⊥; other measurements that are no number are ignored.
+/// not a number, or far from the origin, give ⊥; other measurements that are not a number are ignored.
 #[node]
 #[derive(Debug)]
 pub struct FusePose {

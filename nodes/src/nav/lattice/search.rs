@@ -497,8 +497,7 @@ mod tests {
         let loaded = CurveDrive { load: LOAD, ..VEHICLE };
         assert_eq!(search(&terrain, &loaded, &at(base, heading), &goals), Err(NoPath::Unreachable));
         let loaded = CurveDrive { backing_gain: 2.5, ..loaded };
-        let mut plan =
-            |base: Pose2, heading: f32| search(&terrain, &loaded, &at(base, heading), &goals).expect("a way");
+        let plan = |base: Pose2, heading: f32| search(&terrain, &loaded, &at(base, heading), &goals).expect("a way");
         let (section, path, mut back) = plan(base, heading);
         assert_eq!((section, path.points.len()), (Section::Back, 0));
         let length = back.length();

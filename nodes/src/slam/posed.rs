@@ -1,9 +1,5 @@
-use super::{Mapper, Pose, ScanDrawer};
-use crate::{
-    map::{Grid, Occupancy, TooManyCells},
-    scan::Point2,
-};
-use apex_rt::{Out, node};
+use super::{Mapper, Pose};
+use crate::scan::Point2;
 
 /// Selects the scans for a map from `count` scans: the last hundred, every tenth of the hundred before them, and every
 /// hundredth of the eight hundred before these. So the time to build a map is bounded (thesis 4.3.5).
@@ -80,32 +76,6 @@ impl Mapper {
                 posed.push(k, pose, scanner, points);
             }
         }
-    }
-}
-
-/// Draws an occupancy grid of scans at known poses, in which the rays of all scans are counted, like Karto.
-///
-/// Only rays of scans that are new, gone or elsewhere are counted, which takes a few milliseconds. After a correction of
-/// all poses it takes tens of them: put the node on a thread of its own (`on`), behind a slot such as that of `Latest`.
-///
-/// Fails if the map would have too many cells.
-#[node]
-#[derive(Debug)]
-pub struct DrawScans {
-    /// Side of a cell.
-    #[param(unit = "m", default = 0.05, range = 0.01..=1.0)]
-    resolution: f32,
-    drawer: ScanDrawer,
-}
-
-#[node]
-impl DrawScans {
-    fn process(&mut self, scans: &PosedScans, map: &mut Out<Grid<Occupancy>>) -> Result<(), TooManyCells> {
-        let written = self.drawer.draw(scans, self.resolution, map.get_mut());
-        if written.is_err() {
-            map.clear();
-        }
-        written
     }
 }
 
