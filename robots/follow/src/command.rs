@@ -121,8 +121,10 @@ fn follow_one(options: &mut Options) -> Result<ExitCode, String> {
         let what = if contact.is_person { "a person" } else { "a thing" };
         say(&format!("touched {what} at {} with {:.2} m/s\n", contact.at, contact.speed))?;
     }
-    let [position, heading] = run.report.located();
-    say(&format!("error of the pose in the world: {position:.2} m, {:.1}°\n", heading.to_degrees()))?;
+    let located = run.report.located().map_or("the robot did not know it".to_owned(), |[position, heading]| {
+        format!("{position:.2} m, {:.1}°", heading.to_degrees())
+    });
+    say(&format!("error of the pose in the world: {located}\n"))?;
     draw(&run, &world.out)?;
     Ok(verdict(&[run]))
 }

@@ -1,9 +1,10 @@
 //! Short runs of the robot: it follows, and the same seed gives the same run.
 
+use apex_rt::Time;
 use apex_sim::in_order;
 use follow::{
     experiments::{picture, run},
-    world::{Ending, Options},
+    world::{Ending, Fault, FaultKind, Options},
 };
 use std::{env, fs};
 
@@ -18,6 +19,24 @@ fn the_robot_follows_the_runner_round_a_short_track() {
     let svg = picture(&first);
     let circles = svg.matches("<circle").count();
     assert!(svg.starts_with("<svg") && circles > 20, "{circles}");
+}
+
+/// Nothing that the robot does depends on where it is in the world.
+#[test]
+fn faults_of_the_pose_in_the_world_do_not_stop_the_robot() {
+    let options = Options { seed: 5, length: 35.0, people: false, fault: None };
+    let (from, until) = (Time::from_millis(0), Time::from_millis(3_600_000));
+    let faults = FaultKind::ALL.map(|kind| Some(Fault { kind, from, until }));
+    let options: Vec<Options> = [None].into_iter().chain(faults).map(|fault| Options { fault, ..options }).collect();
+    let runs = in_order(&options, None, |options| run(options, None).expect("it runs"), |_| ()).expect("threads");
+    for run in &runs {
+        let fault = run.options.fault;
+        assert_eq!(run.report.ending, Some(Ending::Arrived), "{fault:?}");
+        assert!(run.failures.is_empty() && run.report.trajectory == runs[0].report.trajectory, "{fault:?}");
+        let is_located = run.report.located().is_some_and(|[position, heading]| position < 30.0 && heading < 0.5);
+        let is_blind = fault.is_some_and(|fault| matches!(fault.kind, FaultKind::GnssSilent | FaultKind::WheelsSilent));
+        assert_eq!(is_located, !is_blind, "{fault:?}: {:?}", run.report.located());
+    }
 }
 
 #[test]

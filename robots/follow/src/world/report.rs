@@ -96,10 +96,12 @@ impl Report {
         self.losses.iter().filter(|loss| loss.lasted > 1.0).count()
     }
 
-    /// Root of the mean square error of the position in the world, in m, and of the heading, in rad.
-    pub fn located(&self) -> [f32; 2] {
+    /// Root of the mean square error of the position in the world, in m, and of the heading, in rad. `None` if the robot
+    /// never knew where it was.
+    pub fn located(&self) -> Option<[f32; 2]> {
         let count = self.located.len() as f32;
-        [0, 1].map(|i| (self.located.iter().map(|errors| errors[i] * errors[i]).sum::<f32>() / count).sqrt())
+        let error = |i: usize| (self.located.iter().map(|errors| errors[i] * errors[i]).sum::<f32>() / count).sqrt();
+        (count > 0.0).then(|| [0, 1].map(error))
     }
 
     /// Part of the distances at this quantile, in m.
