@@ -96,8 +96,8 @@ impl Report {
         self.losses.iter().filter(|loss| loss.lasted > 1.0).count()
     }
 
-    /// Root of the mean square error of the position in the world, in m, and of the heading, in rad. `None` if the robot
-    /// never knew where it was.
+    /// Root of the mean square error of the position in the world, in m, and of the heading, in rad. `None` if the
+    /// robot never knew where it was.
     pub fn located(&self) -> Option<[f32; 2]> {
         let count = self.located.len() as f32;
         let error = |i: usize| (self.located.iter().map(|errors| errors[i] * errors[i]).sum::<f32>() / count).sqrt();
