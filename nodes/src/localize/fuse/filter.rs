@@ -6,10 +6,10 @@ use super::{
 };
 use crate::{
     localize::{Change, MotionNoise},
-    scan::{Point2, Pose2},
+    scan::{Point2, Pose2, wrap_angle},
 };
 use apex_rt::Time;
-use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
+use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
 
 /// Number of states: x, y, heading, bias of the gyroscope, length of a metre of the wheels, slow error of the fixes.
 pub(super) const STATES: usize = 7;
@@ -36,7 +36,7 @@ const SCALE_WALK: f64 = 1e-3;
 /// Settings of a [`PoseFilter`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FusionSettings {
-    /// Errors of the wheels. Those of the heading count only while there is no gyroscope.
+    /// Errors of the wheels; their errors of the heading count while the gyroscope is silent.
     pub motion: MotionNoise,
     /// Standard deviation of the length of a metre by wheels at the beginning, in m: 0 if it is exact.
     pub scale_spread: f32,
@@ -109,6 +109,15 @@ impl FusedPose {
     pub fn heading_deviation(&self) -> f32 {
         self.covariance[THETA][THETA].sqrt()
     }
+
+    /// Squared error of x, y and heading, normalised by the covariance (NEES): 3 in the mean, if that is right. `None`
+    /// if the covariance has no inverse.
+    pub fn normalized_error(&self, truth: &Pose2) -> Option<f64> {
+        let (offset, turn) = (self.pose.position() - truth.position(), wrap_angle(self.pose.theta - truth.theta));
+        let error = Vector3::new(offset.x, offset.y, turn).map(f64::from);
+        let covariance = Matrix3::from_fn(|i, j| f64::from(self.covariance[i][j]));
+        covariance.try_inverse().map(|inverse| error.dot(&(inverse * error)))
+    }
 }
 
 /// Use of a fix.
@@ -128,10 +137,10 @@ pub enum FixUse {
 /// Probabilistic Robotics, 2005, table 3.3), with the bias of the gyroscope, the length of a metre by wheels, and the
 /// slow error of the fixes as further states. It needs no heap and gives the same result on every platform.
 ///
-/// The wheels give the way, the gyroscope the turn. Where there is no gyroscope, the turn is that of the wheels. What
-/// moves without wheels does not move for the filter; when they measure again, the way between counts as straight. A
-/// robot whose wheels stand does not turn, and what the gyroscope measures is its bias, unless the two contradict each
-/// other: then something turns the robot.
+/// The way is that of the wheels. The turn is that of the gyroscope, or of the wheels while the gyroscope is silent.
+/// While the wheels are silent, the pose stays; when they measure again, the way between counts as straight. A robot
+/// whose wheels stand does not turn, so that the gyroscope measures its own bias; a rate beyond the errors of the bias
+/// is a turn, by something that pushes the robot.
 #[derive(Debug, Clone)]
 pub struct PoseFilter {
     settings: FusionSettings,

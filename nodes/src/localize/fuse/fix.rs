@@ -74,6 +74,18 @@ impl TangentPlane {
         [y * cos_lon - x * sin_lon, z * cos_lat - sin_lat * (x * cos_lon + y * sin_lon)]
     }
 
+    /// Position of a fix. `None` for one without a position, one that is not a number or not on the earth, and one
+    /// farther than 100 km from the origin.
+    pub fn place(&self, fix: &GeoFix) -> Option<PositionFix> {
+        if !fix.is_usable() {
+            return None;
+        }
+        let [x, y] = self.position(fix.latitude.to_radians(), fix.longitude.to_radians());
+        let is_near = x.abs() <= FARTHEST && y.abs() <= FARTHEST;
+        let position = Point2::new(x as f32, y as f32);
+        is_near.then_some(PositionFix { stamp: fix.stamp, position, variance: fix.variance as f32 })
+    }
+
     /// Latitude and longitude of a position within some kilometres of the origin, in rad.
     pub fn geodetic(&self, [east, north]: [f64; 2]) -> [f64; 2] {
         let (mut latitude, mut longitude) = (self.latitude, self.longitude);
@@ -123,13 +135,9 @@ impl PlaceFix {
         if !fix.is_usable() {
             return None;
         }
-        let (latitude, longitude) = (fix.latitude.to_radians(), fix.longitude.to_radians());
-        let origin = if self.from_first { [latitude, longitude] } else { [self.latitude, self.longitude] };
-        let plane = self.plane.get_or_insert_with(|| TangentPlane::new(origin[0], origin[1]));
-        let [x, y] = plane.position(latitude, longitude);
-        let is_near = x.abs() <= FARTHEST && y.abs() <= FARTHEST;
-        let position = Point2::new(x as f32, y as f32);
-        is_near.then_some(PositionFix { stamp: fix.stamp, position, variance: fix.variance as f32 })
+        let first = [fix.latitude.to_radians(), fix.longitude.to_radians()];
+        let origin = if self.from_first { first } else { [self.latitude, self.longitude] };
+        self.plane.get_or_insert_with(|| TangentPlane::new(origin[0], origin[1])).place(fix)
     }
 
     /// Forgets an origin that is a first position: the next one is another.

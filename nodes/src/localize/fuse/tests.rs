@@ -13,7 +13,6 @@ use crate::{
 };
 use apex_rt::Time;
 use core::f32::consts::{FRAC_PI_2, PI};
-use nalgebra::{Matrix3, Vector3};
 
 /// Period of the wheels, and number of measurements of the gyroscope in one.
 const PERIOD: f64 = 0.05;
@@ -121,12 +120,22 @@ impl World {
 
     /// Squared error of the pose, normalised by its covariance.
     fn nees(&self, filter: &PoseFilter) -> f64 {
-        let [x, y, theta] = self.pose;
-        let turn = wrapped(filter.state[THETA] - theta);
-        let error = Vector3::new(filter.state[0] - x, filter.state[1] - y, turn);
-        let covariance: Matrix3<f64> = filter.covariance.fixed_view::<3, 3>(0, 0).into();
-        error.dot(&(covariance.try_inverse().expect("a covariance") * error))
+        let [x, y, theta] = self.pose.map(|part| part as f32);
+        filter.estimate().normalized_error(&Pose2::new(x, y, theta)).expect("a covariance")
     }
+}
+
+#[test]
+fn errors_are_normalized_by_their_covariance() {
+    let error = |[x, y, theta]: [f32; 3], covariance| {
+        FusedPose { pose: Pose2::new(x, y, theta), covariance, ..FusedPose::default() }
+            .normalized_error(&Pose2::default())
+    };
+    let covariance = [[4.0, 1.0, 0.0], [1.0, 9.0, 0.5], [0.0, 0.5, 1.0]];
+    assert!((error([1.0, 2.0, 3.0], covariance).expect("an inverse") - 9.257352941).abs() < 1e-6);
+    let level = [[4.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    assert!((error([2.0, 0.0, 0.0], level).expect("an inverse") - 1.0).abs() < 1e-9);
+    assert_eq!(error([2.0, 0.0, 0.0], [[0.0; 3]; 3]), None);
 }
 
 fn move_by(pose: &mut [f64; 3], [x, y]: [f64; 2], turn: f64) {

@@ -77,7 +77,7 @@ impl Drive<'_> {
     /// Heading of the trailer at the end of a curve.
     pub fn trailer_at_end(&self, curve: &Curve, mut trailer: f32) -> f32 {
         let mut pose = curve.start;
-        for (curvature, length) in curve.parts.into_iter().filter(|(_, length)| *length > 0.0) {
+        for (curvature, length) in arcs(curve) {
             let (count, step) = places(length);
             for _ in 0..count {
                 trailer = self.towed(&pose, trailer, curvature, step);
@@ -90,7 +90,7 @@ impl Drive<'_> {
     /// Returns `true` if nothing is touched on a curve.
     pub fn is_free(&self, curve: &Curve, mut trailer: f32) -> bool {
         let mut pose = curve.start;
-        curve.parts.into_iter().filter(|(_, length)| *length > 0.0).all(|(curvature, length)| {
+        arcs(curve).all(|(curvature, length)| {
             let arc = self.arc(&pose, trailer, curvature, length, Look::Check);
             pose = advanced(&pose, curvature, length);
             arc.is_some_and(|(_, end)| {
@@ -121,6 +121,11 @@ impl Drive<'_> {
         let terrain = &self.ground.terrain;
         terrain.map.raster().cell(point).map_or(0.0, |cell| terrain.cost(cell))
     }
+}
+
+/// Curvatures and lengths of the parts of a curve that have a length.
+pub(super) fn arcs(curve: &Curve) -> impl Iterator<Item = (f32, f32)> + use<> {
+    curve.parts.into_iter().filter(|(_, length)| *length > 0.0)
 }
 
 /// Number of places that are checked on a way, and the distance between them, in m.

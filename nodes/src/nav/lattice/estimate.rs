@@ -1,7 +1,16 @@
-use super::ends::Place;
+use super::{
+    CurveDrive,
+    drive::{arcs, places},
+    ends::Place,
+    node::Node,
+};
 use crate::{
     map::{Cell, Grid, Occupancy, Raster},
-    nav::{Terrain, open::Open},
+    nav::{
+        Terrain,
+        open::Open,
+        payload::dubins::{Curve, arc, shortest},
+    },
     scan::Point2,
 };
 use core::f32::consts::SQRT_2;
@@ -9,6 +18,8 @@ use std::collections::BinaryHeap;
 
 /// Side of a state, in m.
 const SIDE: f32 = 0.2;
+/// Largest number of radii by which the shortest Dubins curve is longer than the straight line.
+const LONGER: f32 = 7.4;
 
 /// Estimated distances from the nearest goal, without regard to headings.
 #[derive(Debug, Clone, Default)]
@@ -18,6 +29,7 @@ pub(super) struct Estimates {
     /// Cost of each metre through them, or infinity where nothing leads through.
     metres: Grid<f32>,
     open: BinaryHeap<Open>,
+    goals: Vec<Place>,
 }
 
 impl Estimates {
@@ -31,8 +43,39 @@ impl Estimates {
         self.cells.at(point).copied().unwrap_or(f32::INFINITY)
     }
 
+    /// Estimated cost of the way from a node to a goal, which ends forward with the heading of the goal.
+    pub fn ahead(&self, vehicle: &CurveDrive, node: &Node) -> f32 {
+        let least = self.at(node.pose.position());
+        if node.back.is_some() {
+            return least + Node::TURN;
+        }
+        let curve = |goal: &Place| {
+            let most = goal.cost + (goal.pose.position() - node.pose.position()).norm() + LONGER * vehicle.radius;
+            if most <= least { most } else { goal.cost + shortest(&node.pose, &goal.pose, vehicle.radius) }
+        };
+        let curve = self.goals.iter().map(curve).fold(f32::INFINITY, f32::min);
+        // Otherwise, the direction changes twice.
+        least.max(if vehicle.backs_up() { curve.min(least + 2.0 * Node::TURN) } else { curve })
+    }
+
+    /// Returns `true` if ways to the goal lead through all places of a curve. Most curves lead through a wall, and few
+    /// places before it are worth a closer look.
+    pub fn leads_along(&self, curve: &Curve) -> bool {
+        let mut pose = curve.start;
+        arcs(curve).all(|(curvature, length)| {
+            let (count, step) = places(length);
+            let part = arc(curvature, step);
+            (0..count).all(|_| {
+                pose = pose.compose(&part);
+                self.at(pose.position()).is_finite()
+            })
+        })
+    }
+
     /// Computes all distances on free cells (Dijkstra 1959). A coarse cell is open if a part of it is.
     pub fn run(&mut self, terrain: &Terrain<'_>, goals: &[Place]) {
+        self.goals.clear();
+        self.goals.extend_from_slice(goals);
         let fine = terrain.map.raster();
         let part = libm::roundf(SIDE / fine.resolution).max(1.0) as usize;
         let raster = Raster {

@@ -1,15 +1,15 @@
-use crate::world::{ORIGIN, Options, State};
+use crate::world::{Options, State};
 use apex_nodes::{
-    localize::{FusionSettings, PoseFilter, PositionFix, TangentPlane},
+    localize::{Change, FixUse, FusionSettings, PoseFilter, PositionFix},
     nav::Twist,
-    scan::{Point2, Pose2, wrap_angle},
+    scan::{Pose2, wrap_angle},
 };
 use apex_rt::Time;
 use apex_sim::{
     Latency, Simulation,
-    outdoor::{Gnss, GnssErrors, Imu, ImuErrors, Sample},
+    outdoor::{Gnss, GnssErrors, Imu, Sample},
 };
-use std::fmt;
+use std::{fmt, ops::Range};
 
 /// Periods of the inertial sensor and the wheels, in ms, and time between two comparisons with the truth.
 const INERTIAL: i64 = 10;
@@ -22,7 +22,7 @@ const SIDEWAYS: f32 = 1.5;
 const KEPT: f32 = 3.0;
 const AHEAD: f32 = 2.5;
 /// Spell without positions.
-const OUTAGE: [Time; 2] = [Time::from_secs(300), Time::from_secs(360)];
+const OUTAGE: Range<Time> = Time::from_secs(300)..Time::from_secs(360);
 
 /// Sensors that a filter has.
 #[derive(Debug, Clone, Copy)]
@@ -92,7 +92,6 @@ struct Drive {
     state: State,
     imu: Imu,
     gnss: Gnss,
-    plane: TangentPlane,
     last: Sample,
     /// Fixes that have not arrived.
     waiting: Latency<PositionFix>,
@@ -103,11 +102,9 @@ struct Drive {
 impl Drive {
     fn new(options: &Options) -> Self {
         let mut state = State::new(options);
-        let plane = TangentPlane::new(ORIGIN[0], ORIGIN[1]);
         Self {
-            imu: Imu::new(ImuErrors::RAZOR, state.stream(12)),
-            gnss: Gnss::new(GnssErrors::NEO_M8, plane, state.stream(13)),
-            plane,
+            imu: state.imu(),
+            gnss: state.gnss(),
             last: state.samples().last().copied().unwrap_or_default(),
             state,
             waiting: Latency::default(),
@@ -171,10 +168,7 @@ impl Drive {
     /// Fix that arrives now.
     fn received(&mut self, now: Time) -> Option<PositionFix> {
         let measured = self.gnss.measure(&self.state.terrain, self.state.pose().position(), now);
-        if let Some(fix) = measured.filter(|fix| fix.has_position) {
-            let [x, y] = self.plane.position(fix.latitude.to_radians(), fix.longitude.to_radians());
-            let position = Point2::new(x as f32, y as f32);
-            let fix = PositionFix { stamp: fix.stamp, position, variance: fix.variance as f32 };
+        if let Some(fix) = measured.and_then(|fix| State::plane().place(&fix)) {
             self.waiting.send(now + GnssErrors::NEO_M8.latency, fix);
         }
         self.waiting.receive(now)
@@ -183,8 +177,7 @@ impl Drive {
 
 impl Errors {
     fn fix(&mut self, row: &Sensors, filter: &mut PoseFilter, fix: &PositionFix) {
-        use apex_nodes::localize::{Change, FixUse};
-        let is_out = row.outage && fix.stamp >= OUTAGE[0] && fix.stamp < OUTAGE[1];
+        let is_out = row.outage && OUTAGE.contains(&fix.stamp);
         if !row.gnss || is_out {
             return;
         }
@@ -207,10 +200,10 @@ impl Errors {
             self.squares[i] += error * error;
             self.most[i] = self.most[i].max(error);
         }
-        if now >= OUTAGE[0] && now < OUTAGE[1] {
+        if OUTAGE.contains(&now) {
             self.in_outage = self.in_outage.max(errors[0]);
         }
-        self.nees += normalized([offset.x, offset.y, turn].map(f64::from), estimate.covariance);
+        self.nees += estimate.normalized_error(truth).unwrap_or(f64::INFINITY);
         self.count += 1;
     }
 
@@ -225,17 +218,6 @@ impl Errors {
         self.count += other.count;
         self.losses += other.losses;
     }
-}
-
-/// Squared error, normalised by its covariance: eᵀ P⁻¹ e, by Cramer's rule.
-fn normalized(e: [f64; 3], covariance: [[f32; 3]; 3]) -> f64 {
-    let p = covariance.map(|row| row.map(f64::from));
-    let with = |column: Option<usize>| {
-        let at = |i: usize, j: usize| if column == Some(j) { e[i] } else { p[i][j] };
-        at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) - at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0))
-            + at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0))
-    };
-    (0..3).map(|i| e[i] * with(Some(i)) / with(None)).sum()
 }
 
 impl Localisation {
@@ -268,13 +250,6 @@ impl fmt::Display for Localisation {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn errors_are_normalized_by_their_covariance() {
-        let covariance = [[4.0, 1.0, 0.0], [1.0, 9.0, 0.5], [0.0, 0.5, 1.0]];
-        assert!((normalized([1.0, 2.0, 3.0], covariance) - 9.257352941).abs() < 1e-6);
-        assert!((normalized([2.0, 0.0, 0.0], [[4.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) - 1.0).abs() < 1e-9);
-    }
 
     #[test]
     fn satellites_bound_the_error() {

@@ -1,8 +1,8 @@
-use super::{FaultKind, Field};
+use super::{FaultKind, Field, State};
 use apex_nodes::{
     cloud::RingCloud,
     frames::Pose3,
-    localize::{GeoFix, Inertial, TangentPlane},
+    localize::{GeoFix, Inertial},
     nav::Twist,
     persons::{Detections, MAX_DETECTIONS, Person, View},
     scan::Pose2,
@@ -10,7 +10,7 @@ use apex_nodes::{
 use apex_rt::{Ctx, Event, Out, Time, node};
 use apex_sim::{
     Latency, Random,
-    outdoor::{self, GnssErrors, ImuErrors, RingScanner, Sample, StereoDetector, Surface},
+    outdoor::{self, GnssErrors, RingScanner, Sample, StereoDetector, Surface},
 };
 use std::{collections::VecDeque, time::Duration};
 
@@ -19,8 +19,6 @@ const TURN: Duration = Duration::from_millis(100);
 /// Time between two images, and time until the persons in one are found.
 const IMAGES: Duration = Duration::from_millis(200);
 const LATENCY: Duration = Duration::from_millis(150);
-/// Latitude and longitude of the origin of the world, in rad: 48.53° north, 9.06° east.
-pub const ORIGIN: [f64; 2] = [0.847_008, 0.158_127];
 /// Error of positions while the receiver has the fault of a jump, in m.
 const JUMP: f64 = 20.0;
 
@@ -107,8 +105,7 @@ pub struct Imu {
 impl Imu {
     /// Creates the inertial sensor of the robot in a world.
     pub fn new(field: &Field) -> Self {
-        let imu = outdoor::Imu::new(ImuErrors::RAZOR, field.present().stream(12));
-        Self { field: field.clone(), imu, last: None }
+        Self { field: field.clone(), imu: field.present().imu(), last: None }
     }
 
     fn process(&mut self, ctx: &Ctx) -> Option<Inertial> {
@@ -130,7 +127,6 @@ impl Imu {
 pub struct Gnss {
     field: Field,
     gnss: outdoor::Gnss,
-    plane: TangentPlane,
     waiting: Latency<GeoFix>,
 }
 
@@ -138,9 +134,7 @@ pub struct Gnss {
 impl Gnss {
     /// Creates the receiver of the robot in a world.
     pub fn new(field: &Field) -> Self {
-        let plane = TangentPlane::new(ORIGIN[0], ORIGIN[1]);
-        let gnss = outdoor::Gnss::new(GnssErrors::NEO_M8, plane, field.present().stream(13));
-        Self { field: field.clone(), gnss, plane, waiting: Latency::default() }
+        Self { field: field.clone(), gnss: field.present().gnss(), waiting: Latency::default() }
     }
 
     fn process(&mut self, ctx: &Ctx) -> Option<GeoFix> {
@@ -148,18 +142,19 @@ impl Gnss {
         let field = self.field.at(now);
         if let Some(fix) = self.gnss.measure(&field.terrain, field.pose().position(), now) {
             let fix = GeoFix { has_position: fix.has_position && !field.has_fault(FaultKind::GnssSilent), ..fix };
-            let fix = if field.has_fault(FaultKind::GnssJump) { self.jumped(&fix) } else { fix };
+            let fix = if field.has_fault(FaultKind::GnssJump) { jumped(&fix) } else { fix };
             self.waiting.send(now + GnssErrors::NEO_M8.latency, fix);
         }
         self.waiting.receive(now)
     }
+}
 
-    /// Fix farther to the east.
-    fn jumped(&self, fix: &GeoFix) -> GeoFix {
-        let [x, y] = self.plane.position(fix.latitude.to_radians(), fix.longitude.to_radians());
-        let [latitude, longitude] = self.plane.geodetic([x + JUMP, y]).map(f64::to_degrees);
-        GeoFix { latitude, longitude, ..*fix }
-    }
+/// Fix farther to the east.
+fn jumped(fix: &GeoFix) -> GeoFix {
+    let plane = State::plane();
+    let [x, y] = plane.position(fix.latitude.to_radians(), fix.longitude.to_radians());
+    let [latitude, longitude] = plane.geodetic([x + JUMP, y]).map(f64::to_degrees);
+    GeoFix { latitude, longitude, ..*fix }
 }
 
 /// Detector of persons in the images of the stereo camera: a source that triggers an event for each image, when the

@@ -6,7 +6,7 @@ mod fault;
 mod report;
 mod state;
 
-pub use drivers::{Camera, Gnss, Imu, Judge, Motors, ORIGIN, Odometry, Scanner, Wheels};
+pub use drivers::{Camera, Gnss, Imu, Judge, Motors, Odometry, Scanner, Wheels};
 pub use fault::{Fault, FaultKind};
 pub use report::{Contact, Ending, Loss, Report};
 pub use state::{Field, Options, State};

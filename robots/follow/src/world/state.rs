@@ -1,6 +1,7 @@
 use super::{Contact, Ending, Fault, FaultKind, Loss, Report};
 use apex_nodes::{
     frames::{Pose3, Rotation},
+    localize::TangentPlane,
     nav::Twist,
     persons::Person,
     scan::{Point2, Pose2, wrap_angle},
@@ -8,7 +9,10 @@ use apex_nodes::{
 use apex_rt::Time;
 use apex_sim::{
     HeldTwist, Limits, Random, Shared, Simulation,
-    outdoor::{Attitude, Passersby, Runner, Sample, SkidBase, SkidShape, Terrain, Track, Walker},
+    outdoor::{
+        Attitude, Gnss, GnssErrors, Imu, ImuErrors, Passersby, Runner, Sample, SkidBase, SkidShape, Terrain, Track,
+        Walker,
+    },
 };
 use std::{collections::VecDeque, time::Duration};
 
@@ -33,6 +37,9 @@ const COMES: Duration = Duration::from_secs(10);
 const FOR_GOOD: f32 = 60.0;
 /// Distance of a robot that has come, in m.
 const WITH: f32 = 6.0;
+
+/// Latitude and longitude of the origin of the world, in rad: 48.53° north, 9.06° east.
+const ORIGIN: [f64; 2] = [0.847_008, 0.158_127];
 
 /// Options of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,6 +136,21 @@ impl State {
         stream(self.seed, number)
     }
 
+    /// Plane of the world on the earth, whose x axis points to the east.
+    pub fn plane() -> TangentPlane {
+        TangentPlane::new(ORIGIN[0], ORIGIN[1])
+    }
+
+    /// Inertial sensor of the robot.
+    pub fn imu(&self) -> Imu {
+        Imu::new(ImuErrors::RAZOR, self.stream(12))
+    }
+
+    /// Receiver of satellite navigation of the robot.
+    pub fn gnss(&self) -> Gnss {
+        Gnss::new(GnssErrors::NEO_M8, Self::plane(), self.stream(13))
+    }
+
     /// Report up to now.
     pub const fn report(&self) -> &Report {
         &self.report
@@ -160,11 +182,6 @@ impl State {
     /// Pose that the wheels sum up, which begins at the origin.
     pub const fn wheels(&self) -> Pose2 {
         self.wheels
-    }
-
-    /// Time of the world.
-    pub const fn now(&self) -> Time {
-        self.now
     }
 
     /// Returns `true` while a sensor has a fault of this kind.

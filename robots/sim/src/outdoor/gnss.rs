@@ -70,7 +70,7 @@ pub struct Gnss {
 impl Gnss {
     /// Creates a receiver in a world with this plane.
     pub fn new(errors: GnssErrors, plane: TangentPlane, mut random: Random) -> Self {
-        let slow = Point2::new(random.normal(errors.wander), random.normal(errors.wander));
+        let slow = error(&mut random, errors.wander);
         Self { errors, plane, slow, disturbed: None, due: Time::ZERO, random }
     }
 
@@ -81,8 +81,7 @@ impl Gnss {
         }
         self.due = now + self.errors.period;
         self.wander();
-        let noise = Point2::new(self.random.normal(self.errors.noise), self.random.normal(self.errors.noise));
-        let measured = antenna + self.slow + noise;
+        let measured = antenna + self.slow + error(&mut self.random, self.errors.noise);
         match self.disturbance(terrain, antenna, now) {
             None => Some(self.fix(measured, now)),
             Some(Disturbance::Multipath(offset)) => Some(self.fix(measured + offset, now)),
@@ -102,8 +101,7 @@ impl Gnss {
         let GnssErrors { wander, wander_time, period, .. } = self.errors;
         let remembered = expf(-period.as_secs_f32() / wander_time.max(1e-3));
         let change = wander * sqrtf(1.0 - remembered * remembered);
-        let change = Point2::new(self.random.normal(change), self.random.normal(change));
-        self.slow = self.slow.scaled(remembered) + change;
+        self.slow = self.slow.scaled(remembered) + error(&mut self.random, change);
     }
 
     fn disturbance(&mut self, terrain: &Terrain, antenna: Point2, now: Time) -> Option<Disturbance> {
@@ -117,15 +115,19 @@ impl Gnss {
             return None;
         }
         let lasts = Duration::from_secs_f32(self.random.uniform(LASTS[0], LASTS[1]));
-        let multipath = self.errors.multipath;
         let disturbance = if self.random.chance(SILENT) {
             Disturbance::Outage
         } else {
-            Disturbance::Multipath(Point2::new(self.random.normal(multipath), self.random.normal(multipath)))
+            Disturbance::Multipath(error(&mut self.random, self.errors.multipath))
         };
         self.disturbed = Some((now + lasts, disturbance));
         Some(disturbance)
     }
+}
+
+/// Random error with a standard deviation along each axis, in m.
+fn error(random: &mut Random, deviation: f32) -> Point2 {
+    Point2::new(random.normal(deviation), random.normal(deviation))
 }
 
 /// Returns `true` near the crown of a tree.
@@ -141,7 +143,7 @@ fn is_shaded(terrain: &Terrain, place: Point2) -> bool {
 mod tests {
     use super::*;
 
-    /// Errors of 2000 fixes at the origin; none where there is no fix.
+    /// Errors of 2000 fixes at the origin, in m; `None` for a fix without a position.
     fn fixes(terrain: &Terrain, seed: u64) -> Vec<Option<Point2>> {
         let plane = TangentPlane::new(0.85, 0.16);
         let mut gnss = Gnss::new(GnssErrors::NEO_M8, plane, Random::new(seed));
