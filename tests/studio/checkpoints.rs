@@ -192,3 +192,30 @@ fn all_processes_end_with_the_last_one_that_runs() {
     assert!(std::process::Command::new("kill").args(["-9", &newest.expect("it was copied")]).status().is_ok());
     assert!(robot.process.wait().expect("it ends").success());
 }
+
+#[test]
+fn nothing_of_a_robot_is_left_when_its_first_process_has_ended() {
+    // Not at some time afterwards: the next robot waits at the same address for viewers.
+    for round in 0..5 {
+        let mut robot = Own::start("left", 3, None);
+        let (mut viewer, _) = meet(&robot);
+        run_to(&mut viewer, 200);
+        go_back(&mut viewer, 100 + round);
+        let (_viewer, _) = meet(&robot);
+        let first = robot.process.id().to_string();
+        assert!(std::process::Command::new("kill").arg(first).status().is_ok());
+        robot.process.wait().expect("it ends");
+        assert_eq!(robot.processes(), Vec::<String>::new());
+    }
+}
+
+#[test]
+fn checkpoints_end_before_a_run_that_is_over() {
+    let mut robot = Own::start("run-over", 2, Some("slow"));
+    let (mut viewer, _) = meet(&robot);
+    viewer.tell(&Command::Run { speed: f64::INFINITY });
+    let happened = viewer.until(|report| *report == Report::Ended);
+    assert!(happened.iter().any(|report| matches!(report, Report::Checkpoints(all) if all.len() > 1)));
+    robot.process.wait().expect("it ends");
+    assert_eq!(robot.processes(), Vec::<String>::new());
+}

@@ -7,6 +7,7 @@ use crate::{
 };
 use serde_json::{Value, json};
 use std::{
+    collections::BTreeMap,
     fs,
     io::{BufRead as _, BufReader},
     net::{TcpListener, TcpStream},
@@ -148,16 +149,15 @@ impl Page {
     /// Waits for a message of a kind for which a condition holds.
     pub fn until(&mut self, kind: &str, is: impl Fn(&Value) -> bool) -> Value {
         let start = Instant::now();
-        let mut last = Value::Null;
+        let mut last = BTreeMap::<String, Value>::new();
         loop {
             let Message::Text(text) = self.0.read().unwrap() else { continue };
             let mut told: Value = serde_json::from_str(&text).unwrap();
             match told.get_mut(kind) {
                 Some(value) if is(value) => return value.take(),
-                Some(value) => last = value.take(),
-                None => {}
+                _ => last.extend(told.as_object().cloned().unwrap_or_default()),
             }
-            assert!(start.elapsed() < PATIENCE, "the last `{kind}`: {last}");
+            assert!(start.elapsed() < PATIENCE, "no such `{kind}`, but {last:#?}");
         }
     }
 

@@ -128,16 +128,12 @@ impl Checkpoints {
     /// Ends this process after another one has taken its place.
     fn leave(&mut self) -> ! {
         self.past.clear();
-        if self.is_first() {
-            fork::ends_with_its_signals(false);
-            fork::reap_all(true);
+        // Only the first process has this end.
+        if let Some((_, Some(near))) = self.lifeline.take() {
+            fork::outlive(near);
             process::exit(0);
         }
         fork::end();
-    }
-
-    fn is_first(&self) -> bool {
-        self.lifeline.as_ref().is_none_or(|(_, near)| near.is_some())
     }
 
     /// Checks that copies can go on in the place of this process.
@@ -153,7 +149,7 @@ impl Checkpoints {
         if self.lifeline.is_none() {
             let (far, near) = Lifeline::new()?;
             self.lifeline = Some((far, Some(near)));
-            fork::reap_all(false);
+            fork::adopt();
         }
         let (near, far) = Control::pair()?;
         let copied = fork::copy()?;
@@ -209,6 +205,13 @@ impl Checkpoints {
         let Checkpoint { process, control, .. } = self.past.remove(least);
         give_up(control, process);
         true
+    }
+}
+
+impl Drop for Checkpoints {
+    /// Ends all checkpoints, so that they hold nothing any more when this process is gone.
+    fn drop(&mut self) {
+        self.give_up();
     }
 }
 

@@ -4,9 +4,9 @@
 use std::{io, string::String};
 
 #[cfg(target_os = "linux")]
-pub use linux::{Control, Copied, Lifeline, alone, copy, end, ends_with_its_signals, is_scarce, reap, reap_all};
+pub use linux::{Control, Copied, Lifeline, adopt, alone, copy, end, ends_with_its_signals, is_scarce, outlive, reap};
 #[cfg(not(target_os = "linux"))]
-pub use other::{Control, Copied, Lifeline, alone, copy, end, ends_with_its_signals, is_scarce, reap, reap_all};
+pub use other::{Control, Copied, Lifeline, adopt, alone, copy, end, ends_with_its_signals, is_scarce, outlive, reap};
 
 /// Words between a process and its checkpoints.
 pub const WAKE: u8 = b'w';
@@ -23,14 +23,15 @@ mod linux {
             signal::{SigHandler, Signal, kill, signal},
             wait::{WaitPidFlag, waitpid},
         },
-        unistd::{ForkResult, Pid, fork},
+        unistd::{ForkResult, Pid, close, fork},
     };
     use std::{
         format, fs,
         io::{ErrorKind, Read as _, Write as _},
-        os::unix::net::UnixStream,
+        os::{fd::IntoRawFd as _, unix::net::UnixStream},
         path::Path,
         string::ToString as _,
+        sync::atomic::{AtomicI32, Ordering},
         thread,
         time::Duration,
         vec::Vec,
@@ -184,11 +185,37 @@ mod linux {
     pub fn ends_with_its_signals(as_checkpoint: bool) {
         let children = if as_checkpoint { SigHandler::SigIgn } else { SigHandler::SigDfl };
         // The thread that handled them may be missing here.
-        let ends = [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP].map(|signal| (signal, SigHandler::SigDfl));
+        let ends = ENDS.map(|signal| (signal, SigHandler::SigDfl));
         for (number, handler) in ends.into_iter().chain([(Signal::SIGCHLD, children)]) {
             // SAFETY: no handler is installed, only the two dispositions of the system.
             let _ = unsafe { signal(number, handler) };
         }
+    }
+
+    /// Signals at which a process ends.
+    const ENDS: [Signal; 3] = [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP];
+
+    /// File descriptor of the first process's end of the lifeline, after another process has taken its place.
+    static NEAR: AtomicI32 = AtomicI32::new(-1);
+
+    /// Cuts the lifeline.
+    extern "C" fn let_go(_signal: i32) {
+        let near = NEAR.swap(-1, Ordering::AcqRel);
+        if near >= 0 {
+            let _ = close(near);
+        }
+    }
+
+    /// Waits until all copies of this process have ended. A signal ends them before it ends this process, so that they
+    /// hold nothing any more, such as a socket, when this process is gone. `near` is its end of their lifeline.
+    pub fn outlive(near: Control) {
+        NEAR.store(near.0.into_raw_fd(), Ordering::Release);
+        for number in ENDS {
+            // SAFETY: `let_go` does what a handler may: it swaps an atomic number and closes a file descriptor.
+            let _ = unsafe { signal(number, SigHandler::Handler(let_go)) };
+        }
+        adopt();
+        while waitpid(None, None::<WaitPidFlag>) != Err(Errno::ECHILD) {}
     }
 
     /// Ends this process at once: destructors belong to the original.
@@ -204,10 +231,9 @@ mod linux {
         let _ = waitpid(Pid::from_raw(child), None);
     }
 
-    /// Becomes the parent of all orphans among the checkpoints (`None`), or waits until there is none any more.
-    pub fn reap_all(waits: bool) {
+    /// Becomes the parent of all orphans among the checkpoints.
+    pub fn adopt() {
         let _ = prctl::set_child_subreaper(true);
-        while waits && waitpid(None, None::<WaitPidFlag>) != Err(Errno::ECHILD) {}
     }
 
     /// `true` if less than a quarter of the machine's memory is available.
@@ -273,7 +299,8 @@ mod other {
         std::process::exit(1)
     }
     pub fn reap(_child: i32) {}
-    pub fn reap_all(_waits: bool) {}
+    pub fn adopt() {}
+    pub fn outlive(_near: Control) {}
     pub fn is_scarce() -> bool {
         true
     }
