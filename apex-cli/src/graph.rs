@@ -4,7 +4,7 @@ use crate::{
     project::{self, Checked},
     replace::{self, is_same},
 };
-use apex_diagram::{Folding, Item, MAX_ITEMS, chart, diagram, dot, folded, folded_states, states, svg};
+use apex_diagram::{Folding, Item, MAX_ITEMS, News, chart, diagram, dot, folded, folded_states, mark_new, states, svg};
 use apex_dsl::{graph::Graph, machine::Machine, report::nearest};
 use clap::ValueEnum;
 use std::{
@@ -50,6 +50,8 @@ pub struct Wanted {
     pub activity: bool,
     /// Depth to which nested graphs are opened. Without it, as deep as the picture stays readable.
     pub depth: Option<Depth>,
+    /// Files beside which new nodes are highlighted.
+    pub new_to: Vec<PathBuf>,
     /// Output file, or `None` for standard output.
     pub output: Option<PathBuf>,
     /// Format. Without it, the extension of the file decides.
@@ -65,7 +67,16 @@ pub fn run(file: &Path, wanted: &Wanted) -> Result<ExitCode, String> {
         return Ok(ExitCode::from(1));
     }
     let item = match choose(&checked, file, wanted.graph.as_deref())? {
-        Drawn::Graph(graph) => picture(diagram(graph, &checked.texts.machines, &checked.catalog), wanted)?,
+        Drawn::Graph(graph) => {
+            let mut item = diagram(graph, &checked.texts.machines, &checked.catalog);
+            if !highlight(&mut item, &wanted.new_to)? {
+                return Ok(ExitCode::from(1));
+            }
+            picture(item, wanted)?
+        }
+        Drawn::Machine(machine) if !wanted.new_to.is_empty() => {
+            return Err(format!("`{}` is a state machine, which has no nodes: `--new-to` is for graphs", machine.name));
+        }
         Drawn::Machine(machine) => chart(machine),
     };
     if item.count() > MAX_ITEMS {
@@ -109,6 +120,29 @@ fn picture(item: Item, wanted: &Wanted) -> Result<Item, String> {
         }
     };
     drawn.ok_or_else(|| format!("no activity reaches a node of `{name}`: it has no `=>` and no state machine"))
+}
+
+/// Highlights what the graphs of other files lack, and says how much that is. Returns `false` if one of the files has
+/// errors, which are printed.
+fn highlight(item: &mut Item, files: &[PathBuf]) -> Result<bool, String> {
+    if files.is_empty() {
+        return Ok(true);
+    }
+    let mut others = vec![];
+    for file in files {
+        let checked = project::check(file)?;
+        if checked.diagnostics.has_errors() {
+            checked.print_diagnostics();
+            return Ok(false);
+        }
+        let drawn = |graph| diagram(graph, &checked.texts.machines, &checked.catalog);
+        others.extend(graphs(&checked).map(drawn));
+    }
+    let News { new, all } = mark_new(item, &others);
+    let names: Vec<String> = files.iter().map(|file| format!("`{}`", file.display())).collect();
+    let lacks = if names.len() == 1 { "does not use" } else { "do not use" };
+    project::print_error(&format!("note: {new} of {all} nodes are of types that {} {lacks}", names.join(", ")));
+    Ok(true)
 }
 
 fn say_what_is_folded(name: &str, folding: &Folding) {
@@ -161,20 +195,28 @@ impl Drawn<'_> {
     }
 }
 
+/// The programs that are no tests.
+fn programs(checked: &Checked) -> impl Iterator<Item = &Graph> {
+    checked.programs.iter().filter(|program| !program.is_test()).map(|program| &program.graph)
+}
+
+/// All graphs that can be drawn.
+fn graphs(checked: &Checked) -> impl Iterator<Item = &Graph> {
+    checked.parts.iter().chain(programs(checked))
+}
+
 /// The named graph or state machine. Without a name: the only robot, else the only graph that is not part of another
 /// one, else the only other graph, else the only state machine.
 fn choose<'a>(checked: &'a Checked, file: &Path, name: Option<&str>) -> Result<Drawn<'a>, String> {
-    let programs = checked.programs.iter().filter(|p| !p.is_test()).map(|p| &p.graph);
-    let graphs = || checked.parts.iter().chain(programs.clone());
     let machines = || checked.machines().into_iter().map(Drawn::Machine);
-    let all: Vec<Drawn<'_>> = graphs().map(Drawn::Graph).chain(machines()).collect();
+    let all: Vec<Drawn<'_>> = graphs(checked).map(Drawn::Graph).chain(machines()).collect();
     if let Some(name) = name {
         let found = all.iter().find(|drawn| drawn.name() == name);
         return found.copied().ok_or_else(|| unknown(name, &all));
     }
-    let robots = graphs().filter(|graph| graph.robot).map(Drawn::Graph).collect::<Vec<_>>();
+    let robots = graphs(checked).filter(|graph| graph.robot).map(Drawn::Graph).collect::<Vec<_>>();
     let parts = checked.parts.iter().map(Drawn::Graph).collect();
-    let kinds = [robots, programs.map(Drawn::Graph).collect(), parts, machines().collect()];
+    let kinds = [robots, programs(checked).map(Drawn::Graph).collect(), parts, machines().collect()];
     match kinds.iter().find(|kind| !kind.is_empty()).map(Vec::as_slice) {
         Some([only]) => Ok(*only),
         Some(_) => {

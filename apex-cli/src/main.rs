@@ -155,7 +155,7 @@ enum Command {
     },
     /// Draw a graph or a state machine.
     #[command(
-        after_help = "Single lines are `->`, double lines `=>`. Data flows from left to right; slots are at the top, events at the bottom.\nDashed lines are asynchronous, dash-dotted lines hybrid. Nodes that can be active are coloured.\n\nExample:\n  apex graph robots/patsy/patsy.afg --graph Simulated -o patsy.svg"
+        after_help = "Single lines are `->`, double lines `=>`. Data flows from left to right; slots are at the top, events at the bottom.\nDashed lines are asynchronous, dash-dotted lines hybrid. Nodes that can be active are coloured.\n\nExamples:\n  apex graph robots/patsy/patsy.afg --graph Simulated -o patsy.svg\n  apex graph robots/explorer/planet.afg --new-to robots/patsy/clinic.afg -o new.svg"
     )]
     Graph {
         /// Source file, or `-` for standard input.
@@ -171,6 +171,10 @@ enum Command {
         /// default, large diagrams are simplified: nested graphs are closed, and chains of nodes drawn as one box.
         #[arg(long, value_name = "N | all")]
         depth: Option<graph::Depth>,
+        /// Highlight what the graphs of this file lack: nodes of types that they do not use, and nested graphs that are
+        /// not in them. Several files: what all of them lack.
+        #[arg(long, value_name = "FILE")]
+        new_to: Vec<PathBuf>,
         /// Output file; by default standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
@@ -467,8 +471,8 @@ fn obey(command: Command, answer: &mut Answer) -> Result<ExitCode, String> {
             };
             explain::run(what.as_deref(), shown, answer)
         }
-        Command::Graph { file, graph, activity, depth, output, format } => {
-            graph::run(&file, &graph::Wanted { graph, activity, depth, output, format })
+        Command::Graph { file, graph, activity, depth, new_to, output, format } => {
+            graph::run(&file, &graph::Wanted { graph, activity, depth, new_to, output, format })
         }
         Command::Import { files, msg: true, output, .. } => import::msg::run(&files, output.as_deref()),
         Command::Import { files, output, nodes, .. } => match files.as_slice() {

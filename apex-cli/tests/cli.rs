@@ -487,6 +487,35 @@ fn state_machines_are_drawn() {
 }
 
 #[test]
+fn what_another_file_lacks_is_highlighted() {
+    let folder = Folder::new("new-to");
+    let old = folder.file("old.afg", BELL);
+    let file =
+        folder.file("bell.afg", BELL.replace("state loud { on push => quiet; }", "state loud { on push => loud; }"));
+    let news = |file: &Path, more: &[&str]| {
+        let output = graph(&[&["--new-to", old.to_str().unwrap()], more].concat(), file);
+        (output.status.code(), stderr(&output), String::from_utf8(output.stdout).unwrap())
+    };
+    let said = |count: &str| format!("note: {count} nodes are of types that `{}` does not use\n", old.display());
+    let (code, errors, svg) = news(&file, &[]);
+    assert_eq!((code, errors), (Some(0), said("1 of 1")));
+    assert!(svg.contains("class=\"item active new\"") || svg.contains("class=\"item new\""), "{svg}");
+    let (_, _, dot) = news(&file, &["--format", "dot"]);
+    assert!(dot.contains("penwidth=3"), "{dot}");
+    let (_, errors, svg) = news(&old, &[]);
+    assert!(errors == said("0 of 1") && !svg.contains(".new"), "{errors}{svg}");
+    // What cannot be compared.
+    let (code, errors, _) = news(&file, &["--graph", "Bell"]);
+    assert!(code == Some(2) && errors.contains("`Bell` is a state machine, which has no nodes"), "{errors}");
+    fs::write(&old, "graph A {\n    node a = Nothing();\n}\n").unwrap();
+    let (code, errors, svg) = news(&file, &[]);
+    assert!(code == Some(1) && errors.contains("unknown-node") && svg.is_empty(), "{errors}");
+    fs::remove_file(&old).unwrap();
+    let (code, errors, _) = news(&file, &[]);
+    assert!(code == Some(2) && errors.contains("cannot read"), "{errors}");
+}
+
+#[test]
 fn large_graphs_are_folded_unless_all_is_wanted() {
     let folder = Folder::new("folded");
     let rooms: String =

@@ -19,6 +19,7 @@ use std::{
 /// Diagram of a graph.
 pub fn diagram(graph: &Graph, machines: &Machines, catalog: &Catalog) -> Item {
     let mut item = Item::new(Shape::Node, &graph.name);
+    item.ty.clone_from(&graph.name);
     item.docs.clone_from(&graph.docs);
     let builder = Builder::new(graph, machines, catalog);
     item.ports = builder.boundaries().map(|node| builder.boundary_port(node)).collect();
@@ -156,6 +157,7 @@ impl<'a> Builder<'a> {
     fn scope(&self, id: ScopeId) -> (Item, Vec<WireEnd>) {
         let scope = &self.graph.scopes[id];
         let mut item = Item::new(Shape::Node, &scope.name);
+        item.ty.clone_from(&scope.graph);
         item.words = [scope.graph.clone()].into_iter().chain(words::arguments(&scope.args)).collect();
         item.docs.clone_from(&scope.docs);
         let pins: Vec<usize> = self.pins(id).collect();
@@ -187,7 +189,7 @@ impl<'a> Builder<'a> {
             NodeKind::Start => Item::new(Shape::Start, "start"),
             NodeKind::Watchdog => Item::new(Shape::Event, "hung"),
             NodeKind::SetBack => Item::new(Shape::Event, "set_back"),
-            NodeKind::Exit(_) => Item::new(Shape::PortId, &node.name),
+            NodeKind::Exit(_) => Item::new(Shape::End, &node.name),
             NodeKind::Reset => Item::new(Shape::Reset, &node.name),
             _ => unreachable!("these are no members"),
         };
@@ -241,12 +243,17 @@ impl<'a> Builder<'a> {
 
     fn library(&self, id: NodeId, node: &Node, library: &Library) -> Item {
         let mut item = Item::new(Shape::Node, &node.name);
+        let signature = &self.catalog.signatures[library.signature];
         item.words.push(words::type_name(library, self.catalog));
         item.words.extend(words::parameters(library, self.catalog));
         item.words.extend(words::modifiers(&node.modifiers));
         item.words.extend(self.throttled.get(&id).map(|real| format!("really every {}", words::duration(*real))));
         item.docs.clone_from(&node.docs);
         item.states = self.machines.get(&library.signature).map(states::machine);
+        item.ty = match &item.states {
+            Some(_) => signature.name.clone(),
+            None => format!("{}:{}", signature.file.display(), signature.name),
+        };
         item
     }
 
@@ -258,6 +265,7 @@ impl<'a> Builder<'a> {
             Some((id, only)) if only.span == body.span && matches!(only.kind, NodeKind::Library(_)) => inner.node(id).0,
             _ => {
                 let mut item = Item::new(Shape::Node, &node.name);
+                item.ty.clone_from(&body.name);
                 item.words.push(body.name.clone());
                 item.docs.clone_from(&body.docs);
                 item.inside = Some(inner.frame(ScopeId::TOP));
@@ -309,6 +317,6 @@ fn shape_side(shape: Shape, kind: PortKind) -> Side {
     match shape {
         Shape::Node | Shape::State => side(kind),
         Shape::Start | Shape::Event => Side::Right,
-        Shape::PortId | Shape::Reset => Side::Left,
+        Shape::End | Shape::Reset => Side::Left,
     }
 }

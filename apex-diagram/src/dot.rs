@@ -18,13 +18,18 @@ fn draw(out: &mut String, item: &Item, id: &str, depth: usize) {
     let pad = "  ".repeat(depth);
     let label = [item.name.clone()].into_iter().chain(item.words.clone()).collect::<Vec<_>>().join("\n");
     let label = quoted(&label);
-    let colour = if item.active { " style=filled fillcolor=\"#fdf0d5\" color=\"#b3701b\"" } else { "" };
+    let colour = match (item.active, item.new) {
+        (true, false) => " style=filled fillcolor=\"#fdf0d5\" color=\"#b3701b\"",
+        (true, true) => " style=filled fillcolor=\"#fdf0d5\" color=\"#1c5d99\" penwidth=3",
+        (false, true) => " color=\"#1c5d99\" penwidth=3",
+        (false, false) => "",
+    };
     let Some(frame) = &item.inside else {
         let _ = match item.shape {
             Shape::Node => writeln!(out, "{pad}{id} [label={label}{colour}];"),
             Shape::State => writeln!(out, "{pad}{id} [label={label} style=\"rounded,filled\" fillcolor=\"#fdf0d5\"];"),
             Shape::Start => writeln!(out, "{pad}{id} [label=\"\" shape=point width=0.15];"),
-            Shape::PortId => writeln!(out, "{pad}{id} [label=\"\" xlabel={label} shape=doublecircle width=0.1];"),
+            Shape::End => writeln!(out, "{pad}{id} [label=\"\" xlabel={label} shape=doublecircle width=0.1];"),
             Shape::Event => {
                 writeln!(out, "{pad}{id} [label=\"\" xlabel={label} shape=circle peripheries=2 width=0.1];")
             }
@@ -32,7 +37,8 @@ fn draw(out: &mut String, item: &Item, id: &str, depth: usize) {
         };
         return;
     };
-    let _ = writeln!(out, "{pad}subgraph cluster_{id} {{\n{pad}  label={label}; color=\"#999999\";");
+    let frame_colour = if item.new { "\"#1c5d99\"; penwidth=3" } else { "\"#999999\"" };
+    let _ = writeln!(out, "{pad}subgraph cluster_{id} {{\n{pad}  label={label}; color={frame_colour};");
     for (index, port) in item.ports.iter().enumerate() {
         let shape = if matches!(port.side, Side::Left | Side::Right) { "plain" } else { "oval" };
         let _ = writeln!(out, "{pad}  {id}_p{index} [label={} shape={shape} fontsize=9];", quoted(&port.name));

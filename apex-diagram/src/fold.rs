@@ -99,7 +99,7 @@ fn chains(frame: &Frame) -> Vec<Vec<usize>> {
 fn is_alike(a: &Item, b: &Item) -> bool {
     let is_plain =
         |item: &Item| item.shape == Shape::Node && item.inside.is_none() && item.states.is_none() && !item.each;
-    is_plain(a) && is_plain(b) && a.active == b.active
+    is_plain(a) && is_plain(b) && a.active == b.active && a.new == b.new
 }
 
 /// Replaces each chain by a box in the position of its first node.
@@ -133,7 +133,7 @@ fn one_box(frame: &Frame, chain: &[usize]) -> (Item, Vec<(usize, usize)>) {
     let (first, last) = (chain[0], chain[chain.len() - 1]);
     let items = || chain.iter().map(|index| &frame.items[*index]);
     let mut item = Item::new(Shape::Node, &format!("{} … {}", frame.items[first].name, frame.items[last].name));
-    item.active = frame.items[first].active;
+    (item.active, item.new) = (frame.items[first].active, frame.items[first].new);
     item.words =
         items().map(|item| format!("{}: {}", item.name, item.words.first().map_or("", String::as_str))).collect();
     item.docs = format!("a chain of {} nodes", chain.len());

@@ -10,12 +10,16 @@ pub struct Item {
     pub shape: Shape,
     /// Instance name.
     pub name: String,
+    /// Its type: of a node type file and name, of a graph or a state machine the name alone; empty for dots and delays.
+    pub ty: String,
     /// Type, parameters and modifiers, one per line.
     pub words: Vec<String>,
     /// Documentation.
     pub docs: String,
     /// `true` if activity can reach it.
     pub active: bool,
+    /// `true` if others lack it (see [`mark_new`](crate::mark_new)).
+    pub new: bool,
     /// `true` if it runs once per element of a list.
     pub each: bool,
     /// Ports.
@@ -36,7 +40,7 @@ pub enum Shape {
     /// A filled dot: the start of activity.
     Start,
     /// A dot in a ring: the program ends.
-    PortId,
+    End,
     /// A ring: the slot `reset`.
     Reset,
     /// Two rings: an event that every program has, such as `hung`.
@@ -116,8 +120,9 @@ pub struct Line {
 impl Item {
     /// An item without ports.
     pub fn new(shape: Shape, name: &str) -> Self {
-        let (name, words, docs) = (name.to_owned(), vec![], String::new());
-        Self { shape, name, words, docs, active: false, each: false, ports: vec![], inside: None, states: None }
+        let (name, ty, docs) = (name.to_owned(), String::new(), String::new());
+        let (words, ports) = (vec![], vec![]);
+        Self { shape, name, ty, words, docs, active: false, new: false, each: false, ports, inside: None, states: None }
     }
 
     /// Number of items in it, including itself.

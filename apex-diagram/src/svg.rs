@@ -28,12 +28,18 @@ text { font-family: Helvetica, Arial, 'DejaVu Sans', sans-serif; fill: #222 }
 .ring { fill: #fff; stroke: #222 }
 ";
 
+/// Style of what is new.
+const NEW: &str = ".new > .box { stroke: #1c5d99; stroke-width: 3 }
+.new > text > .name { fill: #1c5d99 }
+";
+
 /// Diagram of an item as an SVG document.
 pub fn svg(item: &Item) -> String {
     let placed = place(item);
     let (width, height) = (placed.size.0 + 2 * MARGIN, placed.size.1 + 2 * MARGIN);
     let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n<style>\n{STYLE}</style>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n<style>\n{STYLE}{}</style>\n",
+        if has_new(item) { NEW } else { "" }
     );
     let _ = writeln!(text, "<rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>");
     let connected = vec![false; item.ports.len()];
@@ -42,10 +48,14 @@ pub fn svg(item: &Item) -> String {
     text
 }
 
+fn has_new(item: &Item) -> bool {
+    item.new || item.inside.iter().flat_map(|frame| &frame.items).any(has_new)
+}
+
 /// Draws an item with its upper left corner at `at`. `taking` is `true` for ports at which a line from outside ends:
 /// they have an arrow head. `path` is its full name.
 fn draw(out: &mut String, item: &Item, placed: &Placed, path: &str, at: Point, taking: &[bool]) {
-    let classes = [("item", true), ("active", item.active), ("frame", item.inside.is_some())];
+    let classes = [("item", true), ("active", item.active), ("new", item.new), ("frame", item.inside.is_some())];
     let classes: Vec<&str> = classes.into_iter().filter(|(_, on)| *on).map(|(class, _)| class).collect();
     let (classes, name) = (classes.join(" "), escaped(path));
     let _ = writeln!(out, "<g class=\"{classes}\" data-item=\"{name}\" transform=\"translate({} {})\">", at.0, at.1);
@@ -110,7 +120,7 @@ fn shape(out: &mut String, item: &Item, placed: &Placed) {
             writeln!(out, "<rect class=\"box\" width=\"{width}\" height=\"{height}\" rx=\"{radius}\"/>")
         }
         Shape::Start => writeln!(out, "<circle class=\"dot\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/>", middle - 1),
-        Shape::PortId => writeln!(
+        Shape::End => writeln!(
             out,
             "<circle class=\"ring\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/><circle class=\"dot\" cx=\"{middle}\" cy=\"{middle}\" r=\"{}\"/>",
             middle - 1,

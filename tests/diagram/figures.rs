@@ -1,8 +1,13 @@
 //! `docs/figures.md` and its pictures are up to date. `APEX_UPDATE_PICTURES=1` writes them again.
 
 use crate::{Drawer, root};
-use apex_diagram::{Item, diagram, states, svg};
-use std::{collections::BTreeMap, fmt::Write as _, fs, path::Path};
+use apex_diagram::{Item, News, diagram, mark_new, states, svg};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fmt::Write as _,
+    fs,
+    path::Path,
+};
 
 const INTRODUCTION: &str = "# Figures
 
@@ -65,6 +70,10 @@ fn written() -> BTreeMap<String, String> {
     files.insert("docs/images/competition.svg".to_owned(), svg(&mission.clone().closed(1)));
     let activity = states(&mission.closed(2)).expect("there is activity");
     files.insert("docs/images/competition_activity.svg".to_owned(), svg(&activity));
+    for newer in NEWER {
+        let levels = newer.levels;
+        files.insert(format!("docs/images/{}_new.svg", newer.page), svg(&newer.marked().0.closed(levels)));
+    }
     files.extend(patterns());
     files
 }
@@ -92,6 +101,76 @@ fn drawn(folder: &str, file: &str, name: &str) -> Item {
     let graphs = drawer.graphs(&folder, &text).unwrap_or_else(|errors| panic!("{errors}"));
     let graph = graphs.iter().find(|graph| graph.name == name).expect("it is in the text");
     diagram(graph, &drawer.1, &drawer.0)
+}
+
+/// A robot that was built after others.
+struct Newer {
+    /// Its page in the documentation.
+    page: &'static str,
+    robot: Place,
+    others: &'static [Place],
+    /// Levels of its picture.
+    levels: usize,
+}
+
+/// Folder, text and name of a robot.
+type Place = (&'static str, &'static str, &'static str);
+
+const PATSY: Place = ("robots/patsy", "clinic.afg", "Patsy");
+const COMPETITION: Place = ("robots/sick-robot-day", "competition.afg", "Competition");
+const EXPLORER: Place = ("robots/explorer", "planet.afg", "Explorer");
+const SUMMIT: Place = ("robots/follow", "follow.afg", "Summit");
+
+const NEWER: [Newer; 2] = [
+    Newer { page: "explorer", robot: EXPLORER, others: &[PATSY, COMPETITION], levels: 2 },
+    Newer { page: "follow", robot: SUMMIT, others: &[PATSY, COMPETITION, EXPLORER], levels: 1 },
+];
+
+impl Newer {
+    /// The picture of the robot, with what the others lack, and how much that is.
+    fn marked(&self) -> (Item, News) {
+        let drawn = |place: &Place| drawn(place.0, place.1, place.2);
+        let others: Vec<Item> = self.others.iter().map(drawn).collect();
+        let mut item = drawn(&self.robot);
+        let news = mark_new(&mut item, &others);
+        (item, news)
+    }
+}
+
+/// Files that declare the node types of an item: new ones, and others.
+fn files_of(item: &Item, files: &mut [BTreeSet<String>; 2]) {
+    if let (Some((file, _)), None) = (item.ty.rsplit_once(':'), &item.inside) {
+        files[usize::from(!item.new)].insert(file.to_owned());
+    }
+    item.inside.iter().flat_map(|frame| &frame.items).for_each(|inner| files_of(inner, files));
+}
+
+/// Lines of code in a file, without its tests.
+fn lines_of_code(file: &String) -> usize {
+    let text = fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+    code.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with("//")).count()
+}
+
+#[test]
+fn what_is_new_in_a_robot_is_what_its_page_says() {
+    for newer in NEWER {
+        let (item, News { new, all }) = newer.marked();
+        let mut files = <[BTreeSet<String>; 2]>::default();
+        files_of(&item, &mut files);
+        let lines = files.each_ref().map(|files| files.iter().map(lines_of_code).sum::<usize>());
+        let said = format!("{} of its {all} nodes are of types of the other robots", all - new);
+        let page = fs::read_to_string(root().join(format!("docs/{}.md", newer.page))).expect("it can be read");
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(page.contains(&said), "docs/{}.md lacks: {said}", newer.page);
+        // Of lines the page has round numbers, as they change with each change of a node.
+        let (_, also) = page.split_once("declare these types have ").expect("numbers of lines");
+        let said = also.split(' ').filter_map(|word| word.trim_end_matches([',', '.']).parse::<f64>().ok());
+        for (is, said) in [lines[1], lines[0]].into_iter().zip(said) {
+            let ratio = said / f64::from(u32::try_from(is).expect("a small number"));
+            assert!((0.8..1.25).contains(&ratio), "docs/{}.md says {said} instead of {is} lines", newer.page);
+        }
+    }
 }
 
 #[test]

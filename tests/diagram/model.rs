@@ -1,7 +1,9 @@
 //! Every item is drawn, and drawn once.
 
 use crate::{Drawer, root};
-use apex_diagram::{Anchor, Flow, Frame, Item, READABLE, Shape, Side, diagram, folded, folded_states, states};
+use apex_diagram::{
+    Anchor, Flow, Frame, Item, News, READABLE, Shape, Side, diagram, folded, folded_states, mark_new, states,
+};
 use apex_dsl::graph::{Graph, NodeKind, Subject, WireEnd};
 
 const KINDS: &str = "
@@ -190,7 +192,7 @@ robot Runner {
     let item = Drawer::new().one(text);
     let frame = item.inside.as_ref().unwrap();
     let shapes = ["start", "hung", "abort"].map(|name| named(frame, name).1.shape);
-    assert_eq!(shapes, [Shape::Start, Shape::Event, Shape::PortId]);
+    assert_eq!(shapes, [Shape::Start, Shape::Event, Shape::End]);
     assert!(lines(&item).contains(&"hung. -> abort. Asynchronous".to_owned()), "{:?}", lines(&item));
 }
 
@@ -307,4 +309,40 @@ graph Joined {
     let words = |name: &str| named(frame, name).1.words[2..].to_vec();
     assert_eq!(words("fast"), ["every 10 ms skip", "really every 100 ms"]);
     assert_eq!([words("slow"), words("free")], [["every 100 ms"], ["every 10 ms"]]);
+}
+
+/// Full names of what is new.
+fn new_items(item: &Item) -> Vec<String> {
+    let frame = item.inside.iter().flat_map(|frame| &frame.items);
+    let names = frame.flat_map(|inner| {
+        let below = new_items(inner).into_iter().map(|name| format!("{}.{name}", inner.name));
+        inner.new.then(|| inner.name.clone()).into_iter().chain(below).collect::<Vec<_>>()
+    });
+    names.collect()
+}
+
+#[test]
+fn what_others_lack_is_new() {
+    let mut drawer = Drawer::new();
+    let mut all = |text: &str| -> Vec<Item> {
+        let graphs = drawer.graphs(&root().join("tests"), text).unwrap_or_else(|errors| panic!("{errors}"));
+        graphs.iter().map(|graph| diagram(graph, &drawer.1, &drawer.0)).collect()
+    };
+    let old = all(KINDS);
+    // The same text has nothing new, whatever the parameters.
+    let mut same = all(&KINDS.replace("k = 7", "k = 8")).remove(0);
+    let news = mark_new(&mut same, &old);
+    assert!(new_items(&same).is_empty() && news.new == 0 && news.all > 6, "{news:?}");
+    // A node of another type, and the graph around it.
+    let text = KINDS.replace("use apex_tests::nodes::{", "use apex_tests::nodes::{CountUp, ");
+    let mut changed = all(&text.replace(
+        "graph Inner(k: i64 = 3) {",
+        "graph Inner(k: i64 = 3) {\n    node more = CountUp() every 20ms;\n    more -> Snk();",
+    ))
+    .remove(0);
+    assert_eq!(mark_new(&mut changed, &old), News { new: 1, all: news.all + 2 });
+    assert_eq!(new_items(&changed), ["inner", "inner.more"]);
+    // Beside nothing everything is new.
+    let News { new, all } = mark_new(&mut same, &[]);
+    assert_eq!(new, all);
 }
