@@ -195,7 +195,7 @@ impl Drawn<'_> {
     }
 }
 
-/// The programs that are no tests.
+/// The programs without the tests.
 fn programs(checked: &Checked) -> impl Iterator<Item = &Graph> {
     checked.programs.iter().filter(|program| !program.is_test()).map(|program| &program.graph)
 }

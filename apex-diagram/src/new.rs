@@ -1,4 +1,4 @@
-//! What a graph has that others lack.
+//! Marks for what a graph has and others lack.
 
 use crate::model::{Frame, Item};
 use std::collections::BTreeSet;
@@ -12,8 +12,8 @@ pub struct News {
     pub all: usize,
 }
 
-/// Marks the nodes whose types none of the `others` has, at any depth, and the nested graphs that none of them has: with
-/// the same name, nodes and connections. The outermost graph is not marked. A new graph also says how many of its nodes
+/// Marks the nodes whose types none of the `others` has, at any depth, and the nested graphs that none of them has
+/// with the same name, nodes and connections. The outermost graph is not marked. A new graph also says how many of its nodes
 /// are new.
 pub fn mark_new(item: &mut Item, others: &[Item]) -> News {
     let mut known = BTreeSet::new();
@@ -43,7 +43,7 @@ fn collect(item: &Item, known: &mut BTreeSet<String>) {
     item.inside.iter().flat_map(|frame| &frame.items).for_each(|inner| collect(inner, known));
 }
 
-/// Type of a node, with everything that is in a nested graph or a state machine. Parameters are no part of it.
+/// Type of a node, with everything that is in a nested graph or a state machine, but for parameters.
 fn identity(item: &Item) -> String {
     let Some(frame) = item.inside.as_ref().or(item.states.as_ref()) else { return item.ty.clone() };
     let items: Vec<String> = frame.items.iter().map(|inner| format!("{}: {}", inner.name, identity(inner))).collect();
