@@ -13,8 +13,8 @@ pub struct News {
 }
 
 /// Marks the nodes whose types none of the `others` has, at any depth, and the nested graphs that none of them has
-/// with the same name, nodes and connections. The outermost graph is not marked. A new graph also says how many of its nodes
-/// are new.
+/// with the same name, nodes and connections. The outermost graph is not marked. A new graph also says how many of its
+/// nodes are new.
 pub fn mark_new(item: &mut Item, others: &[Item]) -> News {
     let mut known = BTreeSet::new();
     others.iter().for_each(|other| collect(other, &mut known));
