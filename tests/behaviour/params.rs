@@ -394,3 +394,56 @@ fn single_precision_survives() {
         assert!(read == value || value.is_nan() && read.is_nan(), "{text}");
     }
 }
+
+graph! {
+    use apex_tests::nodes::{Gain, Settings};
+
+    graph Ranges(
+        gain: i64 = 4 in 1..=5,
+        length: f64[cm] = 25 in 10..50,
+        pause: Duration[s] = 1 in 1..=2,
+        angle: f64[rad] = 0 in -1..=1,
+        free: i64 = 3,
+    ) {
+        node inner   = Inner(gain = gain);
+        node whole   = Settings(length = length, pause = pause, angle = angle, count = free);
+        node derived = Settings(length = 2 * length);
+        node other   = Inner(gain = 9);
+        node handed  = Gain(gain = free);
+    }
+
+    graph Inner(gain: i64 in 3..=20) {
+        node amplify = Gain(gain = gain);
+    }
+}
+
+#[test]
+fn the_range_of_a_parameter_that_is_passed_on_holds_at_run_time() {
+    let mut program = Ranges::new();
+    let range = |name: &str| Ranges::PARAMS.iter().find(|info| info.name == name).unwrap().range.to_string();
+    let ranges = [
+        ("inner.amplify.gain", "3..=5", &[3, 5][..], &[2, 6, 0][..]),
+        ("other.amplify.gain", "3..=10", &[3, 10], &[2, 11]),
+        ("handed.gain", "0..=10", &[0, 10], &[-1, 11]),
+        ("whole.count", "..", &[-70, 70], &[]),
+        ("whole.pause", "1..=2", &[1, 2], &[0, 3]),
+        ("whole.angle", "-1..=1", &[-1, 0, 1], &[-2, 2]),
+        ("whole.length", "0.1..0.5", &[], &[0, 1]),
+        ("derived.length", "0..=100", &[0, 100], &[101]),
+    ];
+    for (name, known, inside, outside) in ranges {
+        assert_eq!(range(name), known, "{name}");
+        for value in inside {
+            program.set_param(name, *value).unwrap_or_else(|error| panic!("{name} = {value}: {error}"));
+        }
+        for value in outside {
+            let error = program.set_param(name, *value).unwrap_err();
+            assert!(matches!(error, ParamError::Refused { refusal: Rejection::Range, .. }), "{name} = {value}");
+        }
+    }
+    // Numbers, and those that are none.
+    assert!(program.set_param("whole.length", 0.5).is_err() && program.set_param("whole.length", f64::NAN).is_err());
+    program.set_param("whole.length", 0.1).unwrap();
+    let error = set_text(&mut program, "inner.amplify.gain", "7").unwrap_err();
+    assert!(error.to_string().contains("out of range: its range is 3..=5"), "{error}");
+}

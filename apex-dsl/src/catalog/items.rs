@@ -11,6 +11,9 @@ use quote::ToTokens as _;
 use serde::{Deserialize, Serialize};
 use syn::{Attribute, Item as Syn, UseTree, Visibility, spanned::Spanned};
 
+/// Smallest and largest value of a parameter, and `true` if the largest is included.
+pub type Limits = (Option<f64>, Option<f64>, bool);
+
 /// An item that matters to the catalog.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Item {
@@ -243,8 +246,8 @@ pub struct ParamItem {
     pub unit: Option<String>,
     /// Value of instances without an argument for it.
     pub default: Option<Default>,
-    /// Smallest and largest value, and `true` if the largest is included.
-    pub range: Option<(Option<f64>, Option<f64>, bool)>,
+    /// Its range.
+    pub range: Option<Limits>,
     /// `true` for the time without tokens after which the node is called with ⊥.
     pub is_silence: bool,
 }

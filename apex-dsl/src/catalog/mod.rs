@@ -26,7 +26,7 @@ pub use cfg::Conditions;
 pub use constants::{Constant, is_path};
 pub use crates::{CrateSpec, Crates, RustFiles, Site};
 pub use docs::{first_sentence, linkless};
-pub use items::{Default as DefaultValue, Item, Literal, read as read_items};
+pub use items::{Default as DefaultValue, Item, Limits, Literal, read as read_items};
 pub use library::{DURATION, PRIMITIVES, STD, TIME};
 pub use signature::{ArgSig, MachineSig, ParamSig, PortSig, ReturnSig, Signature, SignatureId, SlotSig, WaitSig};
 pub use structs::{Field, Struct, Structure};

@@ -1,6 +1,10 @@
 //! Signature of a node: what the catalog has read of a function or struct with `#[node]`.
 
-use super::{items::Default as DefaultValue, tree::Need, types::Type};
+use super::{
+    items::{Default as DefaultValue, Limits},
+    tree::Need,
+    types::Type,
+};
 use crate::{index::id, syntax::tree::PortKind, units};
 use std::{collections::BTreeMap, path::PathBuf, time::Duration};
 
@@ -178,8 +182,8 @@ pub struct ParamSig {
     pub unit: Option<String>,
     /// Value of instances without an argument for it.
     pub default: Option<DefaultValue>,
-    /// Smallest and largest value, and `true` if the largest is included.
-    pub range: Option<(Option<f64>, Option<f64>, bool)>,
+    /// Its range.
+    pub range: Option<Limits>,
     /// `true` for the time without tokens after which the node is called with ⊥.
     pub is_silence: bool,
 }

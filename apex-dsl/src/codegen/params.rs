@@ -3,6 +3,7 @@
 use super::{distinct::Distinct, generator::Generator, names::constant_name, tokens::ident};
 use crate::{
     analyse::Analysis,
+    catalog::Limits,
     graph::{Graph, Library, NodeId, NodeKind, snake},
 };
 use proc_macro2::{Literal, TokenStream};
@@ -69,6 +70,17 @@ impl ParamRows {
     }
 }
 
+/// A range that holds beside that of the declaration.
+fn within((min, max, inclusive): Limits) -> TokenStream {
+    let [min, max] =
+        [min, max].map(|bound| match bound.map(|bound| (bound < 0.0, Literal::f64_unsuffixed(bound.abs()))) {
+            None => quote!(::core::option::Option::None),
+            Some((true, size)) => quote!(::core::option::Option::Some(-#size)),
+            Some((false, size)) => quote!(::core::option::Option::Some(#size)),
+        });
+    quote!(.within(::apex_rt::params::ParamRange::new(#min, #max, #inclusive)))
+}
+
 impl Generator<'_> {
     /// The parameters of a program.
     pub fn parameters(&self, graph: &Graph, analysis: &Analysis) -> ParamRows {
@@ -106,7 +118,8 @@ impl Generator<'_> {
         for (param, number) in numbers().enumerate() {
             let name = format!("{path}.{}", signature.params[param].name);
             let ty = self.param_type(library, param).to_string();
-            rows.table.push(quote!(#declared[#number].of(#name, #ty)));
+            let within = library.ranges[param].map(within);
+            rows.table.push(quote!(#declared[#number] #within .of(#name, #ty)));
         }
         let numbers = numbers();
         let visit = quote! { ::apex_rt::visit_params!(visitor, PARAMS, #first, #place, #(#numbers)*); };

@@ -6,7 +6,7 @@ use super::{
     value::{Subject, Value},
 };
 use crate::{
-    catalog::{SignatureId, Type},
+    catalog::{Limits, SignatureId, Type},
     source::Span,
     syntax::tree::{Ident, PortKind},
 };
@@ -186,6 +186,8 @@ pub struct Library {
     pub types: Vec<TypeArg>,
     /// Values of the parameters, in the order of the signature.
     pub params: Vec<Value>,
+    /// Ranges of parameters of the graph that are passed on, for each parameter. They hold beside its own.
+    pub ranges: Vec<Option<Limits>>,
     /// `true` if the node is made in Rust and passed to the constructor.
     pub handed_in: bool,
 }

@@ -9,7 +9,7 @@ use super::{
     wanted::Wanted,
 };
 use crate::{
-    catalog::{DefaultValue, Literal, ParamSig, Signature, Type},
+    catalog::{DefaultValue, Limits, Literal, ParamSig, Signature, Type},
     graph::{Modifiers, Number, Value},
     report::{Diagnostic, Diagnostics},
     source::Span,
@@ -158,21 +158,52 @@ pub struct Origin {
     given: Span,
     /// The parameter of the graph that passes the value on.
     declared: Span,
+    /// What that parameter, and those from which it has its value, allow.
+    range: Option<Limits>,
 }
 
 /// Origins of the values of a graph's parameters.
 pub type Origins = BTreeMap<String, Origin>;
 
 /// Origins of the values of `params`: arguments in `args`, which may name parameters of the graph around, or defaults.
-pub fn origins(params: &[ParamItem], args: &[Arg], around: &Origins) -> Origins {
+/// `inside` has the values.
+pub fn origins(params: &[ParamItem], args: &[Arg], around: &Origins, inside: &Scope<'_>) -> Origins {
     let of_param = |param: &ParamItem| {
-        let arg = args.iter().find(|arg| arg.name.as_ref().is_some_and(|name| name.text == param.name.text));
-        let value = arg.map(|arg| &arg.value).or(param.default.as_ref())?;
-        let handed = arg.and_then(|arg| only_param(&arg.value)).and_then(|name| around.get(name));
+        let arg = argument(args, &param.name.text);
+        let value = arg.or(param.default.as_ref())?;
+        let handed = arg.and_then(only_param).and_then(|name| around.get(name));
         let given = handed.map_or(value.span, |origin| origin.given);
-        Some((param.name.text.clone(), Origin { given, declared: param.name.span }))
+        // A mistake in it has been reported.
+        let own = range(param, inside).ok().flatten();
+        let range = both(own, handed.and_then(|origin| origin.range));
+        Some((param.name.text.clone(), Origin { given, declared: param.name.span, range }))
     };
     params.iter().filter_map(of_param).collect()
+}
+
+/// Ranges of the graph's parameters that a node gets as they are, for each of its parameters.
+pub fn passed_on(signature: &Signature, args: &[Arg], origins: &Origins) -> Vec<Option<Limits>> {
+    let range = |param: &ParamSig| origins.get(only_param(argument(args, &param.name)?)?)?.range;
+    signature.params.iter().map(range).collect()
+}
+
+/// Range of the values that are in both ranges.
+fn both(one: Option<Limits>, other: Option<Limits>) -> Option<Limits> {
+    let (Some((low, high, inside)), Some((other_low, other_high, other_inside))) = (one, other) else {
+        return one.or(other);
+    };
+    let low = low.into_iter().chain(other_low).reduce(f64::max);
+    let is_smaller = |one: f64, other: f64| one < other || one == other && !inside;
+    Some(match (high, other_high) {
+        (Some(one), Some(other)) if is_smaller(one, other) => (low, high, inside),
+        (Some(_), None) => (low, high, inside),
+        _ => (low, other_high, other_inside),
+    })
+}
+
+/// The argument with this name.
+fn argument<'a>(args: &'a [Arg], name: &str) -> Option<&'a Expr> {
+    args.iter().find(|arg| arg.name.as_ref().is_some_and(|given| given.text == name)).map(|arg| &arg.value)
 }
 
 /// The name of the parameter, if an expression consists of nothing else.
@@ -259,18 +290,7 @@ pub fn of_graph_inside(
 
 /// Requirements of a parameter of a graph on its value.
 pub fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &Scope<'_>) -> Evaluated<Wanted<'a>> {
-    let range = match &param.range {
-        None => None,
-        Some(range) => {
-            let bound = |expr: &Expr| match declared(param, expr, before)? {
-                Value::Number(n) => Ok(Some(n.value)),
-                Value::Duration(d) => Ok(Some(d.as_secs_f64())),
-                Value::RustDefault => Ok(None),
-                _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "both ends of a range must be numbers"))),
-            };
-            Some((bound(&range.low)?, bound(&range.high)?, range.inclusive))
-        }
-    };
+    let range = range(param, before)?;
     param.unit.as_ref().map(declared_unit).transpose()?;
     let unit = param.unit.as_ref().map(|u| u.text.as_str());
     Ok(Wanted {
@@ -280,6 +300,18 @@ pub fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &Scope<'_>) -
         range,
         declared: format!("`{}` is a parameter of the graph", param.name.text),
     })
+}
+
+/// Range of a parameter of a graph, in SI units.
+fn range(param: &ParamItem, before: &Scope<'_>) -> Evaluated<Option<Limits>> {
+    let Some(range) = &param.range else { return Ok(None) };
+    let bound = |expr: &Expr| match declared(param, expr, before)? {
+        Value::Number(n) => Ok(Some(n.value)),
+        Value::Duration(d) => Ok(Some(d.as_secs_f64())),
+        Value::RustDefault => Ok(None),
+        _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "both ends of a range must be numbers"))),
+    };
+    Ok(Some((bound(&range.low)?, bound(&range.high)?, range.inclusive)))
 }
 
 /// A value in the declaration of a parameter, where a plain number has the unit of the parameter. Values of other

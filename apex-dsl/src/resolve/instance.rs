@@ -85,7 +85,7 @@ impl<'a> Builder<'a> {
                 self.diagnostics,
             );
         }
-        let origins = args::origins(&item.params, &[], &Origins::new());
+        let origins = args::origins(&item.params, &[], &Origins::new(), &self.names(&values));
         self.body(&Body::new(id, ScopeId::TOP, (values.clone(), origins), item), table);
         let (name, docs, robot, span) = (item.name.text.clone(), item.docs.clone(), item.robot, item.name.span);
         if robot && let Some(port) = item.ports.first() {
@@ -297,7 +297,7 @@ impl<'a> Builder<'a> {
                 symbol.push((port.name.text.clone(), port.kind, ty, place));
             }
         }
-        let origins = args::origins(&item.params, &instance.args, &body.origins);
+        let origins = args::origins(&item.params, &instance.args, &body.origins, &self.names(&values));
         self.diagnostics.enter(&name.text);
         self.body(&Body::new(id, scope, (values, origins), item), inside);
         self.diagnostics.leave();

@@ -54,7 +54,8 @@ impl Builder<'_> {
         }
         let mut ports = library_ports(signature);
         generics::substitute_ports(&mut ports, signature, &types);
-        let kind = NodeKind::Library(Library { signature: id, types, params, handed_in: false });
+        let ranges = args::passed_on(signature, &instance.args, &body.origins);
+        let kind = NodeKind::Library(Library { signature: id, types, params, ranges, handed_in: false });
         let docs = if docs.is_empty() { &signature.docs } else { docs };
         let node = self.node(name, body.scope, kind, ports, docs)?;
         self.nodes[node].modifiers = modifiers;
@@ -119,8 +120,9 @@ impl Builder<'_> {
             Ok(Constructor::Node(id)) if !self.catalog.signatures[id].is_function => {
                 let signature = &self.catalog.signatures[id];
                 let params = vec![Value::RustDefault; signature.params.len()];
+                let ranges = vec![None; params.len()];
                 let types = self.type_args(body, signature.generics.len(), types, &instance);
-                let kind = NodeKind::Library(Library { signature: id, types, params, handed_in: true });
+                let kind = NodeKind::Library(Library { signature: id, types, params, ranges, handed_in: true });
                 let docs = if docs.is_empty() { &signature.docs } else { docs };
                 let node = self.node(name, body.scope, kind, library_ports(signature), docs)?;
                 let scope = self.names(&body.values);

@@ -11,7 +11,7 @@ use super::{
     writer::Writer,
 };
 use crate::{
-    catalog::{Catalog, ParamSig, Signature, Type},
+    catalog::{Catalog, Limits, ParamSig, Signature, Type},
     graph::{NodeKind, Value},
     report::Diagnostic,
     script::{Goal, Study, Varied},
@@ -34,7 +34,7 @@ struct Parameter {
     targets: Vec<String>,
     ty: Type,
     unit: Option<String>,
-    range: Option<(Option<f64>, Option<f64>, bool)>,
+    range: Option<Limits>,
     declared: String,
 }
 

@@ -6,7 +6,7 @@ use super::{
     value::{describe, error, kind, limits, si},
 };
 use crate::{
-    catalog::{Match, Type},
+    catalog::{Limits, Match, Type},
     graph::{FieldValue, Number, StructValue, Value},
     report::Diagnostic,
     source::Span,
@@ -23,7 +23,7 @@ pub struct Wanted<'a> {
     /// Unit of the parameter.
     pub unit: Option<&'a str>,
     /// Smallest and largest value in SI units, and `true` if the largest value is included.
-    pub range: Option<(Option<f64>, Option<f64>, bool)>,
+    pub range: Option<Limits>,
     /// Place of the declaration, as a sentence.
     pub declared: String,
 }

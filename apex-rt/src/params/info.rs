@@ -1,5 +1,6 @@
 //! Parameters, as far as they are known at compile time.
 
+use super::ParamRef;
 use core::fmt;
 
 /// A parameter of a program.
@@ -60,6 +61,12 @@ impl Declared {
         Self { unit, range }
     }
 
+    /// Returns such a parameter with values that are also in another range.
+    #[must_use]
+    pub const fn within(&self, range: ParamRange) -> Self {
+        Self { unit: self.unit, range: self.range.and(range) }
+    }
+
     /// Returns the row of such a parameter of a program.
     pub const fn of(&self, name: &'static str, ty: &'static str) -> ParamInfo {
         ParamInfo { name, ty, unit: self.unit, range: self.range }
@@ -75,6 +82,41 @@ impl ParamRange {
     /// Returns `true` if at least one bound is known.
     pub const fn is_known(&self) -> bool {
         self.min.is_some() || self.max.is_some()
+    }
+
+    /// Returns the range of the values that are in both.
+    const fn and(self, other: Self) -> Self {
+        let min = match (self.min, other.min) {
+            (Some(one), Some(other)) if one > other => Some(one),
+            (one, None) => one,
+            (_, other) => other,
+        };
+        let Self { max, inclusive, .. } = match (self.max, other.max) {
+            (Some(one), Some(of_other)) if one < of_other || one == of_other && !self.inclusive => self,
+            (Some(_), None) => self,
+            _ => other,
+        };
+        Self { min, max, inclusive }
+    }
+
+    /// Returns `true` if a number is in the range, or all numbers of a list are. Other values are in every range.
+    pub(super) fn holds(&self, value: &ParamRef<'_>) -> bool {
+        match *value {
+            ParamRef::Integer(value) => self.has(value as f64),
+            ParamRef::Float(value) => self.has(value),
+            ParamRef::Single(value) => {
+                let [min, max] = [self.min, self.max].map(|bound| bound.map(|bound| f64::from(bound as f32)));
+                Self { min, max, ..*self }.has(value.into())
+            }
+            ParamRef::List(list) => (0..list.count()).all(|index| self.holds(&list.element(index))),
+            ParamRef::Bool(_) | ParamRef::Text(_) | ParamRef::Other(_) => true,
+        }
+    }
+
+    fn has(&self, value: f64) -> bool {
+        let is_above = self.min.is_none_or(|min| value >= min);
+        let is_below = |max: f64| if self.inclusive { value <= max } else { value < max };
+        is_above && self.max.is_none_or(is_below)
     }
 }
 

@@ -1,16 +1,16 @@
 //! Access to parameters of any type, for generated code. It calls `visit` on a [`Probe`], which is [`Known::visit`] if
 //! the type is a [`ParamValue`], and [`Opaque::visit`] otherwise, because rustc tries a value before a reference to it.
 
-use super::{Access, IntoParam as _, ParamInfo, ParamRef, ParamValue, ParamVisitor, Rejection};
+use super::{Access, IntoParam as _, ParamInfo, ParamRange, ParamRef, ParamValue, ParamVisitor, Rejection};
 use crate::{Param, ParamField};
 
-/// Parameter number `I` of a node.
-pub struct Probe<'a, N, const I: usize>(&'a mut N);
+/// Parameter number `I` of a node, with the range that it has in its program.
+pub struct Probe<'a, N, const I: usize>(&'a mut N, ParamRange);
 
 impl<'a, N, const I: usize> Probe<'a, N, I> {
     /// Returns the probe of a parameter of `node`.
     pub fn new(node: &'a mut N) -> Self {
-        Self(node)
+        Self(node, ParamRange::new(None, None, true))
     }
 }
 
@@ -24,11 +24,11 @@ where
     }
 
     fn check(&self, value: ParamRef<'_>) -> Result<(), Rejection> {
-        accepted(value, N::accepts).map(drop)
+        accepted(value, N::accepts, &self.1).map(drop)
     }
 
     fn set(&mut self, value: ParamRef<'_>) -> Result<(), Rejection> {
-        *self.0.field() = accepted(value, N::accepts)?;
+        *self.0.field() = accepted(value, N::accepts, &self.1)?;
         Ok(())
     }
 }
@@ -36,9 +36,9 @@ where
 /// Returns the value for a parameter that accepts it.
 ///
 /// It depends on the type of the value alone, so that it is compiled once for all parameters of that type.
-fn accepted<V: ParamValue>(value: ParamRef<'_>, accepts: fn(&V) -> bool) -> Result<V, Rejection> {
-    let value = V::take(value)?;
-    if accepts(&value) { Ok(value) } else { Err(Rejection::Range) }
+fn accepted<V: ParamValue>(given: ParamRef<'_>, accepts: fn(&V) -> bool, range: &ParamRange) -> Result<V, Rejection> {
+    let value = V::take(given)?;
+    if accepts(&value) && range.holds(&given) { Ok(value) } else { Err(Rejection::Range) }
 }
 
 /// A parameter whose type is a [`ParamValue`].
@@ -53,6 +53,7 @@ where
     <N as Param<I>>::Value: ParamValue,
 {
     fn visit(mut self, info: &'static ParamInfo, visitor: &mut dyn ParamVisitor) {
+        self.1 = info.range;
         visitor.param(info, Some(&mut self));
     }
 }
