@@ -3,6 +3,10 @@
 //! The files are those of `../shared/data/lidar3d`. Without them, the tests are skipped; with `CI=true` they fail.
 
 use apex_macros::graph;
+use apex_messages::{
+    Message as _,
+    sensor_msgs::{PointCloud2, PointField},
+};
 use apex_nodes::{
     cloud::{CloudPoint, Label, RingClassifier, RingCloud},
     io::{BagTopic, read_cloud, read_kitti},
@@ -239,6 +243,69 @@ fn points_of_a_turn_are_those_of_another_program() {
     assert!(cloud.points().iter().zip(&theirs).all(|(a, b)| [a.x, a.y, a.z] == b.place));
 }
 
+/// Message of points with these fields: names, places in a point and kinds.
+fn message(fields: &[(&str, u32, u8)], point_step: u32, data: Vec<u8>) -> PointCloud2 {
+    let field = |(name, offset, datatype): &(&str, u32, u8)| PointField {
+        name: (*name).to_owned(),
+        offset: *offset,
+        datatype: *datatype,
+        count: 1,
+    };
+    let (width, row_step) = (data.len() as u32 / point_step, data.len() as u32);
+    let fields = fields.iter().map(field).collect();
+    PointCloud2 { height: 1, width, fields, point_step, row_step, data, ..PointCloud2::default() }
+}
+
+/// The points of the other program as a message.
+fn their_message(file: &Path) -> PointCloud2 {
+    let bytes = fs::read(file).expect("the file");
+    let head = b"DATA binary\n";
+    let start = bytes.windows(head.len()).position(|part| part == head).expect("a header") + head.len();
+    let fields = [("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("intensity", 12, 2), ("channel", 14, 4)];
+    message(&fields, 32, bytes[start..].to_vec())
+}
+
+/// A turn as drivers send it: what is measured, firing by firing, with rings counted from below.
+fn our_message(turn: &RingCloud) -> PointCloud2 {
+    let mut data = vec![];
+    for (i, point) in turn.points().iter().enumerate().filter(|(_, point)| point.is_measured()) {
+        [point.x, point.y, point.z, point.intensity].iter().for_each(|number| data.extend(number.to_le_bytes()));
+        data.extend(((LASERS - 1 - i % LASERS) as u16).to_le_bytes());
+        data.extend(turn.times()[i / LASERS].to_le_bytes());
+    }
+    let fields = [("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("intensity", 12, 7), ("ring", 16, 4), ("time", 18, 7)];
+    message(&fields, 22, data)
+}
+
+fn measured(turn: &RingCloud) -> usize {
+    turn.points().iter().filter(|point| point.is_measured()).count()
+}
+
+/// Number of points that are taken for ground.
+fn ground(turn: &RingCloud) -> f32 {
+    classify(turn, 0.5).iter().filter(|label| **label == Label::Floor).count() as f32
+}
+
+#[test]
+fn turns_are_made_of_points_in_any_order() {
+    let (Some(packets), Some(file)) = (recorded(), file("1673400472138016708.pcd")) else { return };
+    for turn in turns(&packets, PI) {
+        let made = RingCloud::try_from(our_message(&turn)).expect("a turn");
+        println!("{} of {} points, {} of {} columns", measured(&made), measured(&turn), made.columns(), turn.columns());
+        println!("{} points of the ground, {} before", ground(&made), ground(&turn));
+        assert!(made.columns().abs_diff(turn.columns()) <= 3 && measured(&made) * 100 > measured(&turn) * 99);
+        assert!(made.times().is_sorted() && (made.times()[0] + 0.1).abs() < 1e-3, "{:?}", made.times()[0]);
+        assert!((ground(&made) - ground(&turn)).abs() < 0.02 * ground(&turn));
+    }
+    // The other program does not interpolate all directions, so that some columns have two points of a ring.
+    let made = RingCloud::try_from(their_message(&file)).expect("a turn");
+    let whole = &turns(&packets, 0.0)[2];
+    println!("{} of 14831 points, {} columns", measured(&made), made.columns());
+    println!("{} points of the ground, {} in the turn of the packets", ground(&made), ground(whole));
+    assert!((1800..=1820).contains(&made.columns()) && measured(&made) > 12_900 && made.times()[7] == 0.0);
+    assert!((ground(&made) - ground(whole)).abs() < 0.05 * ground(whole));
+}
+
 /// Capture of the network with packets at their times.
 fn capture(packets: &[VelodynePackets]) -> Vec<u8> {
     let words = |words: &[u32]| words.iter().flat_map(|word| word.to_be_bytes()).collect::<Vec<u8>>();
@@ -283,7 +350,8 @@ fn a_program_runs_on_a_recording_and_on_a_capture() {
 
 /// Labels of the points of a turn, of a scanner at a height above the ground, in m, that stands.
 fn classify(turn: &RingCloud, height: f32) -> Vec<Label> {
-    let mut columns = apex_nodes::cloud::Columns { height: LASERS, origin: [0.0, 0.0, height], ..Default::default() };
+    let mut columns =
+        apex_nodes::cloud::Columns { height: turn.rings(), origin: [0.0, 0.0, height], ..Default::default() };
     for point in turn.points() {
         columns.x.push(point.x);
         columns.y.push(point.y);

@@ -1,6 +1,9 @@
 //! ROS 2 message of point clouds, which Foxglove and Python can show.
 
-use super::{CloudPoint, MAX_POINTS, PointCloud, RingCloud};
+use super::{
+    CloudPoint, MAX_POINTS, PointCloud, RingCloud,
+    gather::{RingPoint, gather},
+};
 use crate::scan::message::FRAME;
 use apex_messages::{
     Reason, converted,
@@ -13,6 +16,10 @@ use apex_rt::Time;
 const FIELDS: [&str; 4] = ["x", "y", "z", "intensity"];
 /// Fields of a point of a scanner with rings: the last is its time after that of the cloud, in s.
 const RING_FIELDS: [&str; 5] = ["x", "y", "z", "intensity", "time"];
+
+/// Fields of the points of scanners with rings, in the clouds of their drivers: after the intensity two names for the
+/// ring, and three for the time. It is in s or in ns after that of the cloud, or in s since 1970.
+const DRIVERS: [&str; 9] = ["x", "y", "z", "intensity", "ring", "channel", "time", "t", "timestamp"];
 
 /// Message of `height` rows of points, each of some numbers.
 fn message<const N: usize>(
@@ -93,11 +100,26 @@ impl Points {
         Ok((Self { stamp, width, height, step, row, is_bigendian, data }, places))
     }
 
-    /// The numbers of a point at these places; 0 for a field that is missing.
-    fn numbers<const N: usize>(&self, row: usize, column: usize, places: [Option<Place>; N]) -> [f32; N] {
+    /// The numbers of a point at these places, if they are there.
+    fn numbers<const N: usize>(&self, row: usize, column: usize, places: [Option<Place>; N]) -> [Option<f64>; N] {
         let point = &self.data[row * self.row + column * self.step..];
-        places.map(|place| place.map_or(0.0, |place| place.number(point, self.is_bigendian)))
+        places.map(|place| place.map(|place| place.number(point, self.is_bigendian)))
     }
+
+    /// A point, the number of its ring, and its time in s after that of the cloud, at the places of [`DRIVERS`].
+    fn of_ring(&self, row: usize, column: usize, places: [Option<Place>; 9]) -> RingPoint {
+        let [x, y, z, intensity, ring, channel, time, t, timestamp] = self.numbers(row, column, places);
+        let nanos = t.map(|nanos| nanos * 1e-9);
+        let since_epoch = || timestamp.map(|seconds| seconds - self.stamp.as_nanos() as f64 * 1e-9);
+        let time = time.or(nanos).or_else(since_epoch).unwrap_or(0.0) as f32;
+        RingPoint { point: point([x, y, z, intensity]), ring: ring.or(channel).unwrap_or(0.0) as u32, time }
+    }
+}
+
+/// A point of these numbers; 0 stands for those that are missing.
+fn point(numbers: [Option<f64>; 4]) -> CloudPoint {
+    let [x, y, z, intensity] = numbers.map(|number| number.unwrap_or(0.0) as f32);
+    CloudPoint { x, y, z, intensity }
 }
 
 impl TryFrom<PointCloud2> for PointCloud {
@@ -107,30 +129,36 @@ impl TryFrom<PointCloud2> for PointCloud {
         let (points, places) = Points::of(message, FIELDS)?;
         let mut cloud = Self::default();
         cloud.reset(points.stamp, (points.width, points.height));
-        for (i, point) in cloud.points_mut().iter_mut().enumerate() {
-            let [x, y, z, intensity] = points.numbers(i / points.width, i % points.width, places);
-            *point = CloudPoint { x, y, z, intensity };
+        for (i, to) in cloud.points_mut().iter_mut().enumerate() {
+            *to = point(points.numbers(i / points.width, i % points.width, places));
         }
         Ok(cloud)
     }
 }
 
-/// The columns have the times of their uppermost points. A cloud without times is one of a scanner that stands.
+/// A message with a row for each ring is taken as it is: the columns have the times of their uppermost points. In a
+/// message with a single row, as many drivers send it, the points say in a field `ring` or `channel` to which ring they
+/// belong; the columns are made of their directions. A cloud without times is one of a scanner that stands.
 impl TryFrom<PointCloud2> for RingCloud {
     type Error = Reason;
 
     fn try_from(message: PointCloud2) -> Result<Self, Reason> {
-        let tells_rings = message.fields.iter().any(|field| field.name == "ring");
-        let (points, places) = Points::of(message, RING_FIELDS)?;
-        if points.height == 1 && points.width > 1 && (tells_rings || places[4].is_none()) {
-            return Err("its points are in one row, instead of a row for each ring; `PointCloud` takes them".into());
+        let (points, places) = Points::of(message, DRIVERS)?;
+        let [.., ring, channel, time, _, _] = places;
+        if points.height == 1 && ring.or(channel).is_some() {
+            let all = (0..points.width).map(|column| points.of_ring(0, column, places)).collect();
+            return gather(points.stamp, all).map_err(Reason::from);
+        }
+        if points.height == 1 && points.width > 1 && time.is_none() {
+            let why = "its points are in one row, and have no field `ring`; `PointCloud` takes them";
+            return Err(why.into());
         }
         let mut cloud = Self::default();
         cloud.reset(points.stamp, points.height, points.width);
         for column in 0..points.width {
             for ring in 0..points.height {
-                let [x, y, z, intensity, time] = points.numbers(ring, column, places);
-                cloud.points_mut()[column * points.height + ring] = CloudPoint { x, y, z, intensity };
+                let RingPoint { point, time, .. } = points.of_ring(ring, column, places);
+                cloud.points_mut()[column * points.height + ring] = point;
                 if ring == 0 {
                     cloud.times_mut()[column] = time;
                 }
@@ -164,7 +192,7 @@ impl Place {
     }
 
     /// Number in a point.
-    fn number(self, point: &[u8], is_bigendian: bool) -> f32 {
+    fn number(self, point: &[u8], is_bigendian: bool) -> f64 {
         let bytes = self.end().and_then(|end| point.get(self.offset..end)).unwrap_or_default();
         // The lowest byte first.
         let mut number = [0; 8];
@@ -173,12 +201,12 @@ impl Place {
         }
         let bits = u64::from_le_bytes(number);
         match self.datatype {
-            PointField::INT8 => f32::from(bits as i8),
-            PointField::INT16 => f32::from(bits as i16),
-            PointField::INT32 => bits as i32 as f32,
-            PointField::FLOAT32 => f32::from_bits(bits as u32),
-            PointField::FLOAT64 => f64::from_bits(bits) as f32,
-            _ => bits as f32,
+            PointField::INT8 => f64::from(bits as i8),
+            PointField::INT16 => f64::from(bits as i16),
+            PointField::INT32 => f64::from(bits as i32),
+            PointField::FLOAT32 => f32::from_bits(bits as u32).into(),
+            PointField::FLOAT64 => f64::from_bits(bits),
+            _ => bits as f64,
         }
     }
 }
@@ -238,13 +266,28 @@ mod tests {
     }
 
     #[test]
-    fn points_in_one_row_are_no_rings() {
+    fn points_in_one_row_need_the_numbers_of_their_rings() {
         let float = |name| (name, PointField::FLOAT32);
         let plain = foreign(&["x", "y", "z"].map(float), 12, &[1.0; 6]);
-        let told = foreign(&[float("x"), float("y"), float("z"), float("time"), ("ring", 4)], 20, &[1.0; 10]);
-        for cloud in [plain, told] {
-            assert!(reason::<RingCloud>(&cloud).is_err_and(|why| why.contains("in one row")));
+        assert!(reason::<RingCloud>(&plain).is_err_and(|why| why.contains("have no field `ring`")));
+        // Two points of ring 0, a degree from each other, with times of all kinds.
+        let one = f32::from_bits(1_000_000);
+        let places = [[1.0, 0.0, 0.0], [1.0, 1_f32.to_radians().tan(), 0.0]];
+        for (name, kind, first, second, apart) in [
+            ("time", PointField::FLOAT32, -0.1, -0.099, 0.001),
+            ("t", PointField::UINT32, 0.0, one, 0.001),
+            ("timestamp", PointField::FLOAT32, 0.0, 0.25, 0.25),
+            ("range", PointField::FLOAT32, 0.0, 0.25, 0.0),
+        ] {
+            let fields = [float("x"), float("y"), float("z"), ("ring", PointField::UINT16), (name, kind)];
+            let numbers = [places[0].as_slice(), &[0.0, first], &places[1], &[0.0, second]].concat();
+            let turn: RingCloud = again(&foreign(&fields, 20, &numbers)).expect("a turn");
+            assert_eq!((turn.rings(), turn.columns()), (1, 360), "{name}");
+            assert_eq!((turn.points()[0].x, turn.points()[1].x), (1.0, 1.0), "{name}");
+            assert!((turn.times()[1] - turn.times()[0] - apart).abs() < 1e-5, "{name}: {:?}", &turn.times()[..2]);
         }
+        let told = foreign(&[float("x"), float("y"), float("z"), ("channel", 4)], 16, &[1.0; 8]);
+        assert!(reason::<RingCloud>(&told).is_err_and(|why| why.contains("two points in different directions")));
     }
 
     /// Message of a cloud of two points, with these fields and their kinds, of four bytes each.

@@ -22,6 +22,8 @@ mod edge;
 mod euclid;
 mod floor;
 mod fresh;
+#[cfg(feature = "record")]
+mod gather;
 mod ground;
 mod grow;
 mod hazard;
