@@ -40,6 +40,65 @@ impl<K: FromStr<Err = String>> FromStr for Fault<K> {
     }
 }
 
+/// Declares the kinds of faults of a robot: an `enum` with the name of each kind on the command line and in tables. The
+/// type has `ALL` kinds and their `name`, and is read and written by its name.
+///
+/// ```
+/// apex_sim::fault_kinds! {
+///     /// Kind of a fault.
+///     pub enum FaultKind {
+///         /// The scanner sends nothing.
+///         LaserSilent = "laser-silent",
+///         /// The images of the camera are black.
+///         EyeBlack = "eye-black",
+///     }
+/// }
+///
+/// assert_eq!("eye-black".parse(), Ok(FaultKind::EyeBlack));
+/// assert_eq!(FaultKind::ALL.map(FaultKind::name), ["laser-silent", "eye-black"]);
+/// ```
+#[macro_export]
+macro_rules! fault_kinds {
+    (
+        $(#[doc = $docs:literal])*
+        pub enum $Kind:ident {
+            $($(#[doc = $doc:literal])* $kind:ident = $name:literal,)*
+        }
+    ) => {
+        $(#[doc = $docs])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum $Kind {
+            $($(#[doc = $doc])* $kind,)*
+        }
+
+        impl $Kind {
+            /// All kinds of faults.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$kind),*];
+
+            /// Name of the kind.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $name,)*
+                }
+            }
+        }
+
+        impl ::std::str::FromStr for $Kind {
+            type Err = ::std::string::String;
+
+            fn from_str(text: &str) -> ::std::result::Result<Self, Self::Err> {
+                $crate::fault_named(text, &Self::ALL, Self::name)
+            }
+        }
+
+        impl ::std::fmt::Display for $Kind {
+            fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
+                f.pad(self.name())
+            }
+        }
+    };
+}
+
 /// The kind of fault with this name, among `all` kinds.
 ///
 /// # Errors

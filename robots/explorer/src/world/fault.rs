@@ -1,5 +1,5 @@
-use apex_sim::{Promise, Stops, fault_named};
-use std::{fmt, str::FromStr, time::Duration};
+use apex_sim::{Promise, Stops, fault_kinds};
+use std::time::Duration;
 
 /// Temporary fault of a device of the robot.
 pub type Fault = apex_sim::Fault<FaultKind>;
@@ -7,54 +7,29 @@ pub type Fault = apex_sim::Fault<FaultKind>;
 /// Period of all sensors.
 const PERIOD: Duration = Duration::from_millis(50);
 
-/// Kind of a fault.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FaultKind {
-    /// The scanner sends nothing.
-    LaserSilent,
-    /// The scanner sends the same scan repeatedly, with its stamp.
-    LaserRepeated,
-    /// The scanner measures infinity in all directions.
-    BeamsInfinite,
-    /// The wheels send nothing.
-    WheelsSilent,
-    /// The wheels send NaN.
-    WheelsNan,
-    /// The wheels send the same pose repeatedly, and afterwards continue at their real pose.
-    WheelsStopped,
-    /// The gauge of the battery sends nothing.
-    ChargeSilent,
-    /// The images of the camera are black.
-    EyeBlack,
+fault_kinds! {
+    /// Kind of a fault.
+    pub enum FaultKind {
+        /// The scanner sends nothing.
+        LaserSilent = "laser-silent",
+        /// The scanner sends the same scan repeatedly, with its stamp.
+        LaserRepeated = "laser-repeated",
+        /// The scanner measures infinity in all directions.
+        BeamsInfinite = "beams-infinite",
+        /// The wheels send nothing.
+        WheelsSilent = "wheels-silent",
+        /// The wheels send NaN.
+        WheelsNan = "wheels-nan",
+        /// The wheels send the same pose repeatedly, and afterwards continue at their real pose.
+        WheelsStopped = "wheels-stopped",
+        /// The gauge of the battery sends nothing.
+        ChargeSilent = "charge-silent",
+        /// The images of the camera are black.
+        EyeBlack = "eye-black",
+    }
 }
 
 impl FaultKind {
-    /// All kinds of faults.
-    pub const ALL: [Self; 8] = [
-        Self::LaserSilent,
-        Self::LaserRepeated,
-        Self::BeamsInfinite,
-        Self::WheelsSilent,
-        Self::WheelsNan,
-        Self::WheelsStopped,
-        Self::ChargeSilent,
-        Self::EyeBlack,
-    ];
-
-    /// Name of the fault on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::LaserSilent => "laser-silent",
-            Self::LaserRepeated => "laser-repeated",
-            Self::BeamsInfinite => "beams-infinite",
-            Self::WheelsSilent => "wheels-silent",
-            Self::WheelsNan => "wheels-nan",
-            Self::WheelsStopped => "wheels-stopped",
-            Self::ChargeSilent => "charge-silent",
-            Self::EyeBlack => "eye-black",
-        }
-    }
-
     /// Promises of the robot about each of [`ALL`](Self::ALL).
     pub fn promises() -> [Promise; Self::ALL.len()] {
         Self::ALL.map(Self::promise)
@@ -74,20 +49,6 @@ impl FaultKind {
             Self::ChargeSilent | Self::EyeBlack => Stops::No,
         };
         Promise { fault: self.name(), period: PERIOD, stops }
-    }
-}
-
-impl FromStr for FaultKind {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        fault_named(text, &Self::ALL, Self::name)
-    }
-}
-
-impl fmt::Display for FaultKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
     }
 }
 

@@ -13,7 +13,7 @@ pub struct Row<'a>(pub &'a Run);
 
 /// Fault of a kind at a random time of the seed, in the first two thirds of a run of this duration.
 pub fn fault_at(kind: FaultKind, seed: u64, duration: Duration) -> Fault {
-    let number = FaultKind::MEASURED.iter().position(|other| *other == kind).unwrap_or_default() as u64;
+    let number = FaultKind::ALL.iter().position(|other| *other == kind).unwrap_or_default() as u64;
     let mut random = Random::new(seed.wrapping_mul(31).wrapping_add(number));
     let from = Time::ZERO + duration.mul_f32(random.uniform(0.1, 0.65));
     Fault { kind, from, until: from + kind.duration() }

@@ -1,36 +1,37 @@
-use apex_sim::{Promise, Stops, fault_named};
-use std::{str::FromStr, time::Duration};
+use apex_sim::{Promise, Stops, fault_kinds};
+use std::time::Duration;
 
 /// Temporary fault of a device of the vehicle.
 pub type Fault = apex_sim::Fault<FaultKind>;
 
-/// Kind of a fault.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FaultKind {
-    /// The camera measures nothing.
-    CameraBlack,
-    /// The camera sends the same cloud repeatedly, with its stamp.
-    CameraFrozen,
-    /// The camera sends NaN as all values.
-    CameraNan,
-    /// The scanner sends nothing.
-    ScannerFrozen,
-    /// The wheel odometry sends the same pose repeatedly, and afterwards continues at its real pose.
-    OdometryStopped,
-    /// The lift does not move.
-    LiftJammed,
-    /// The scanner measures NaN in all directions.
-    ScannerNan,
-    /// The scanner measures infinity in all directions.
-    ScannerInfinite,
-    /// The scanner on the trailer sends nothing.
-    RearFrozen,
-    /// The scanner on the trailer measures NaN in all directions.
-    RearNan,
-    /// The wheels and the hitch send nothing.
-    OdometrySilent,
-    /// The wheels send NaN.
-    OdometryNan,
+fault_kinds! {
+    /// Kind of a fault.
+    pub enum FaultKind {
+        /// The camera measures nothing.
+        CameraBlack = "camera-black",
+        /// The camera sends the same cloud repeatedly, with its stamp.
+        CameraFrozen = "camera-frozen",
+        /// The camera sends NaN as all values.
+        CameraNan = "camera-nan",
+        /// The scanner sends nothing.
+        ScannerFrozen = "scanner-frozen",
+        /// The wheel odometry sends the same pose repeatedly, and afterwards continues at its real pose.
+        OdometryStopped = "odometry-stopped",
+        /// The lift does not move.
+        LiftJammed = "lift-jammed",
+        /// The scanner measures NaN in all directions.
+        ScannerNan = "scanner-nan",
+        /// The scanner measures infinity in all directions.
+        ScannerInfinite = "scanner-infinite",
+        /// The scanner on the trailer sends nothing.
+        RearFrozen = "rear-frozen",
+        /// The scanner on the trailer measures NaN in all directions.
+        RearNan = "rear-nan",
+        /// The wheels and the hitch send nothing.
+        OdometrySilent = "odometry-silent",
+        /// The wheels send NaN.
+        OdometryNan = "odometry-nan",
+    }
 }
 
 impl FaultKind {
@@ -85,36 +86,9 @@ impl FaultKind {
         Promise { fault: self.name(), period: Duration::from_millis(period), stops }
     }
 
-    /// Name of the fault in tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::CameraBlack => "camera-black",
-            Self::CameraFrozen => "camera-frozen",
-            Self::CameraNan => "camera-nan",
-            Self::ScannerFrozen => "scanner-frozen",
-            Self::OdometryStopped => "odometry-stopped",
-            Self::LiftJammed => "lift-jammed",
-            Self::ScannerNan => "scanner-nan",
-            Self::ScannerInfinite => "scanner-infinite",
-            Self::RearFrozen => "rear-frozen",
-            Self::RearNan => "rear-nan",
-            Self::OdometrySilent => "odometry-silent",
-            Self::OdometryNan => "odometry-nan",
-        }
-    }
-
     /// Duration of the fault: long enough to meet a lift that moves.
     pub const fn duration(self) -> Duration {
         Duration::from_secs(if matches!(self, Self::LiftJammed) { 60 } else { 10 })
-    }
-}
-
-impl FromStr for FaultKind {
-    type Err = String;
-
-    /// Kind of a fault whose cost is measured, by its name.
-    fn from_str(text: &str) -> Result<Self, String> {
-        fault_named(text, &Self::MEASURED, Self::name)
     }
 }
 

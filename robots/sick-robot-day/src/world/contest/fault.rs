@@ -1,88 +1,41 @@
 use apex_nodes::scan::Scan;
-use apex_sim::{Promise, Random, Stops, fault_named};
-use std::{fmt, str::FromStr, time::Duration};
+use apex_sim::{Promise, Random, Stops, fault_kinds};
+use std::time::Duration;
 
 /// Temporary fault of a device of our robot.
 pub type Fault = apex_sim::Fault<FaultKind>;
 
-/// Kind of a fault.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FaultKind {
-    /// The front scanner sends nothing.
-    LaserFrozen,
-    /// The images of the front camera are black.
-    CameraBlack,
-    /// The images of the front camera have a wrong size: 17×3 and 0×0 alternately.
-    CameraTorn,
-    /// The front scanner measures NaN in all directions.
-    BeamsNan,
-    /// The front scanner measures infinity in all directions.
-    BeamsInfinite,
-    /// The front scanner measures 0 in all directions.
-    BeamsZero,
-    /// Each beam of the front scanner measures infinity with a probability of ½.
-    BeamsMissing,
-    /// The wheel odometry sends the same pose repeatedly, and afterwards continues at its real pose.
-    OdometryStopped,
-    /// The front scanner sends the same scan repeatedly, with its stamp.
-    LaserRepeated,
-    /// The rear scanner sends nothing.
-    RearFrozen,
-    /// The wheel odometry sends nothing.
-    OdometrySilent,
-    /// The wheel odometry sends NaN.
-    OdometryNan,
-}
-
-impl FromStr for FaultKind {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        fault_named(text, &Self::ALL, Self::name)
-    }
-}
-
-impl fmt::Display for FaultKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+fault_kinds! {
+    /// Kind of a fault.
+    pub enum FaultKind {
+        /// The front scanner sends nothing.
+        LaserFrozen = "laser-frozen",
+        /// The images of the front camera are black.
+        CameraBlack = "camera-black",
+        /// The images of the front camera have a wrong size: 17×3 and 0×0 alternately.
+        CameraTorn = "camera-torn",
+        /// The front scanner measures NaN in all directions.
+        BeamsNan = "beams-nan",
+        /// The front scanner measures infinity in all directions.
+        BeamsInfinite = "beams-infinite",
+        /// The front scanner measures 0 in all directions.
+        BeamsZero = "beams-zero",
+        /// Each beam of the front scanner measures infinity with a probability of ½.
+        BeamsMissing = "beams-missing",
+        /// The wheel odometry sends the same pose repeatedly, and afterwards continues at its real pose.
+        OdometryStopped = "odometry-stopped",
+        /// The front scanner sends the same scan repeatedly, with its stamp.
+        LaserRepeated = "laser-repeated",
+        /// The rear scanner sends nothing.
+        RearFrozen = "rear-frozen",
+        /// The wheel odometry sends nothing.
+        OdometrySilent = "odometry-silent",
+        /// The wheel odometry sends NaN.
+        OdometryNan = "odometry-nan",
     }
 }
 
 impl FaultKind {
-    /// All kinds of faults.
-    pub const ALL: [Self; 12] = [
-        Self::LaserFrozen,
-        Self::CameraBlack,
-        Self::CameraTorn,
-        Self::BeamsNan,
-        Self::BeamsInfinite,
-        Self::BeamsZero,
-        Self::BeamsMissing,
-        Self::OdometryStopped,
-        Self::LaserRepeated,
-        Self::RearFrozen,
-        Self::OdometrySilent,
-        Self::OdometryNan,
-    ];
-
-    /// Name of the fault on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::LaserFrozen => "laser-frozen",
-            Self::CameraBlack => "camera-black",
-            Self::CameraTorn => "camera-torn",
-            Self::BeamsNan => "beams-nan",
-            Self::BeamsInfinite => "beams-infinite",
-            Self::BeamsZero => "beams-zero",
-            Self::BeamsMissing => "beams-missing",
-            Self::OdometryStopped => "odometry-stopped",
-            Self::LaserRepeated => "laser-repeated",
-            Self::RearFrozen => "rear-frozen",
-            Self::OdometrySilent => "odometry-silent",
-            Self::OdometryNan => "odometry-nan",
-        }
-    }
-
     /// Promises of the robot about each of [`ALL`](Self::ALL).
     pub fn promises() -> [Promise; Self::ALL.len()] {
         Self::ALL.map(Self::promise)
