@@ -59,7 +59,7 @@ struct Graph {
 }
 
 enum Member {
-    Node(Item),
+    Node(Box<Item>),
     Graph(usize),
 }
 
@@ -97,7 +97,7 @@ impl Graphs {
         item.words.push(kind.to_owned());
         docs.clone_into(&mut item.docs);
         self.place.insert(node, (graph, self.all[graph].items.len()));
-        self.all[graph].items.push(Member::Node(item));
+        self.all[graph].items.push(Member::Node(Box::new(item)));
     }
 
     /// A state of a state machine, which comes before it. What leads from one to another is not known.
@@ -190,7 +190,7 @@ impl Graphs {
         while let Some(Graph { mut item, items, lines, .. }) = self.all.pop() {
             let at = self.all.len();
             let items = items.into_iter().filter_map(|member| match member {
-                Member::Node(item) => Some(item),
+                Member::Node(item) => Some(*item),
                 Member::Graph(inner) => done.remove(&inner),
             });
             let frame = Frame { items: items.collect(), lines };

@@ -206,7 +206,8 @@ mod tests {
     #[test]
     fn what_is_missing_has_no_points_and_times_between() {
         let mut points = cylinder();
-        points.retain(|one| !(0.02..0.05).contains(&one.time) && !(one.ring == 1 && one.time > 0.08));
+        let is_lost = |one: &RingPoint| (0.02..0.05).contains(&one.time) || one.ring == 1 && one.time > 0.08;
+        points.retain(|one| !is_lost(one));
         let left = points.len();
         let (made, whole) = (turn(points), turn(cylinder()));
         assert_eq!((made.rings(), made.columns()), (3, COLUMNS));
