@@ -1,25 +1,22 @@
 //! Arguments of nodes and graphs.
 
 use super::{
-    condition::names_in,
+    declared,
+    origins::{Origins, handed_down},
     scope::{Evaluated, RustNames, Scope},
     suggest::suggest,
     time::{duration, period, seconds},
-    value::{declared_unit, describe, evaluate},
+    value::{describe, evaluate},
     wanted::Wanted,
 };
 use crate::{
-    catalog::{DefaultValue, Limits, Literal, ParamSig, Signature, Type},
+    catalog::{DefaultValue, Literal, ParamSig, Signature, Type},
     graph::{Modifiers, Number, Value},
     report::{Diagnostic, Diagnostics},
     source::Span,
-    syntax::tree::{Arg, Expr, ExprKind, Ident, Modifier, ModifierKind, ParamItem},
-    units,
+    syntax::tree::{Arg, Expr, Ident, Modifier, ModifierKind, ParamItem},
 };
-use std::{
-    collections::{BTreeMap, BTreeSet},
-    time::Duration,
-};
+use std::{collections::BTreeMap, time::Duration};
 
 /// Placeholder for an unknown time.
 pub const ANY_TIME: Duration = Duration::from_secs(1);
@@ -151,87 +148,6 @@ fn default(signature: &Signature, param: &ParamSig, at: Span, fed: &dyn Fn(&str)
     }
 }
 
-/// Origin of a parameter's value that is passed on.
-#[derive(Debug, Clone, Copy)]
-pub struct Origin {
-    /// The value as written.
-    given: Span,
-    /// The parameter of the graph that passes the value on.
-    declared: Span,
-    /// What that parameter, and those from which it has its value, allow.
-    range: Option<Limits>,
-}
-
-/// Origins of the values of a graph's parameters.
-pub type Origins = BTreeMap<String, Origin>;
-
-/// Origins of the values of `params`: arguments in `args`, which may name parameters of the graph around, or defaults.
-/// `inside` has the values.
-pub fn origins(params: &[ParamItem], args: &[Arg], around: &Origins, inside: &Scope<'_>) -> Origins {
-    let of_param = |param: &ParamItem| {
-        let arg = argument(args, &param.name.text);
-        let value = arg.or(param.default.as_ref())?;
-        let handed = arg.and_then(only_param).and_then(|name| around.get(name));
-        let given = handed.map_or(value.span, |origin| origin.given);
-        // A mistake in it has been reported.
-        let own = range(param, inside).ok().flatten();
-        let range = both(own, handed.and_then(|origin| origin.range));
-        Some((param.name.text.clone(), Origin { given, declared: param.name.span, range }))
-    };
-    params.iter().filter_map(of_param).collect()
-}
-
-/// Ranges of the graph's parameters that a node gets as they are, for each of its parameters.
-pub fn passed_on(signature: &Signature, args: &[Arg], origins: &Origins) -> Vec<Option<Limits>> {
-    let range = |param: &ParamSig| origins.get(only_param(argument(args, &param.name)?)?)?.range;
-    signature.params.iter().map(range).collect()
-}
-
-/// Range of the values that are in both ranges.
-fn both(one: Option<Limits>, other: Option<Limits>) -> Option<Limits> {
-    let (Some((low, high, inside)), Some((other_low, other_high, other_inside))) = (one, other) else {
-        return one.or(other);
-    };
-    let low = low.into_iter().chain(other_low).reduce(f64::max);
-    let is_smaller = |one: f64, other: f64| one < other || one == other && !inside;
-    Some(match (high, other_high) {
-        (Some(one), Some(other)) if is_smaller(one, other) => (low, high, inside),
-        (Some(_), None) => (low, high, inside),
-        _ => (low, other_high, other_inside),
-    })
-}
-
-/// The argument with this name.
-fn argument<'a>(args: &'a [Arg], name: &str) -> Option<&'a Expr> {
-    args.iter().find(|arg| arg.name.as_ref().is_some_and(|given| given.text == name)).map(|arg| &arg.value)
-}
-
-/// The name of the parameter, if an expression consists of nothing else.
-fn only_param(expr: &Expr) -> Option<&str> {
-    match &expr.kind {
-        ExprKind::Path(path) => match path.segments.as_slice() {
-            [name] => Some(&name.text),
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
-/// Adds the origins of the parameters in `expr` to an error about its value. A single parameter that is out of range is
-/// reported where its value was given; all other errors are reported where the value is used.
-fn handed_down(mut error: Box<Diagnostic>, expr: &Expr, origins: &Origins) -> Box<Diagnostic> {
-    if let Some(origin) = only_param(expr).and_then(|name| origins.get(name))
-        && error.code == "out-of-range"
-        && error.primary.span == expr.span
-    {
-        error.primary.span = origin.given;
-        return Box::new(error.also(origin.declared, "this parameter").also(expr.span, "is passed on here"));
-    }
-    let names: BTreeSet<&str> = names_in(expr).into_iter().map(|name| name.text.as_str()).collect();
-    let given = names.into_iter().filter_map(|name| Some((name, origins.get(name)?)));
-    given.fold(error, |error, (name, origin)| Box::new(error.also(origin.given, format!("`{name}` is given here"))))
-}
-
 /// Values of all parameters of a graph that is not nested.
 pub fn of_graph(
     name: &Ident,
@@ -263,17 +179,17 @@ pub fn of_graph_inside(
     let mut values: BTreeMap<String, Value> = BTreeMap::new();
     for (param, ty) in params {
         // If the default does not fit its own parameter, only that is reported: arguments cannot be checked then.
-        let default = graph_default(name, (param, ty), at, &Scope { params: &values, rust }, false);
+        let default = declared::default(name, (param, ty), at, &Scope { params: &values, rust }, false);
         let value = match (exprs.get(param.name.text.as_str()), given) {
             (Some(_), Some(_)) if default.is_err() => default,
             (Some(expr), Some((_, scope))) => {
-                let fitting = graph_param(param, ty, &Scope { params: &values, rust })
+                let fitting = declared::wanted(param, ty, &Scope { params: &values, rust })
                     .and_then(|w| w.fit(evaluate(expr, scope)?, expr));
                 fitting.map_err(|error| handed_down(error, expr, origins))
             }
             _ if !whole && param.default.is_none() => Ok(Value::RustDefault),
             // The parameters of a graph need no value while it is not used.
-            _ => graph_default(name, (param, ty), at, &Scope { params: &values, rust }, given.is_some()),
+            _ => declared::default(name, (param, ty), at, &Scope { params: &values, rust }, given.is_some()),
         };
         match value {
             Ok(value) => {
@@ -286,84 +202,6 @@ pub fn of_graph_inside(
         }
     }
     values
-}
-
-/// Requirements of a parameter of a graph on its value.
-pub fn graph_param<'a>(param: &'a ParamItem, ty: &'a Type, before: &Scope<'_>) -> Evaluated<Wanted<'a>> {
-    let range = range(param, before)?;
-    param.unit.as_ref().map(declared_unit).transpose()?;
-    let unit = param.unit.as_ref().map(|u| u.text.as_str());
-    Ok(Wanted {
-        name: &param.name.text,
-        ty,
-        unit,
-        range,
-        declared: format!("`{}` is a parameter of the graph", param.name.text),
-    })
-}
-
-/// Range of a parameter of a graph, in SI units.
-fn range(param: &ParamItem, before: &Scope<'_>) -> Evaluated<Option<Limits>> {
-    let Some(range) = &param.range else { return Ok(None) };
-    let bound = |expr: &Expr| match declared(param, expr, before)? {
-        Value::Number(n) => Ok(Some(n.value)),
-        Value::Duration(d) => Ok(Some(d.as_secs_f64())),
-        Value::RustDefault => Ok(None),
-        _ => Err(Box::new(Diagnostic::error("wrong-value", expr.span, "both ends of a range must be numbers"))),
-    };
-    Ok(Some((bound(&range.low)?, bound(&range.high)?, range.inclusive)))
-}
-
-/// A value in the declaration of a parameter, where a plain number has the unit of the parameter. Values of other
-/// parameters are already converted: their dimension shows it, except for dimensionless units such as `%`.
-fn declared(param: &ParamItem, expr: &Expr, before: &Scope<'_>) -> Evaluated<Value> {
-    let value = evaluate(expr, before)?;
-    let unit = param.unit.as_ref().and_then(|unit| units::parse(&unit.text).ok());
-    Ok(match unit {
-        Some(unit) if !(unit.dimension.is_none() && names_parameter(expr)) => in_unit(value, unit),
-        _ => value,
-    })
-}
-
-/// Returns `true` if a parameter is part of an expression.
-fn names_parameter(expr: &Expr) -> bool {
-    match &expr.kind {
-        ExprKind::Path(_) => true,
-        ExprKind::List(items) => items.iter().any(names_parameter),
-        ExprKind::Struct(_, fields) => fields.iter().any(|(_, value)| names_parameter(value)),
-        ExprKind::Unary(_, inner) => names_parameter(inner),
-        ExprKind::Binary(_, left, right) => names_parameter(left) || names_parameter(right),
-        ExprKind::Number(..) | ExprKind::Text(_) | ExprKind::Bool(_) => false,
-    }
-}
-
-fn in_unit(value: Value, unit: units::Unit) -> Value {
-    match value {
-        Value::Number(n) if n.dimension.is_none() => Value::Number(n.times(unit)),
-        Value::List(items) => Value::List(items.into_iter().map(|item| in_unit(item, unit)).collect()),
-        value => value,
-    }
-}
-
-fn graph_default(
-    name: &Ident,
-    (param, ty): (&ParamItem, &Type),
-    at: Span,
-    before: &Scope<'_>,
-    is_used: bool,
-) -> Evaluated<Value> {
-    let wanted = graph_param(param, ty, before)?;
-    match &param.default {
-        Some(expr) => wanted.fit(declared(param, expr, before)?, expr),
-        None if !is_used => Ok(Value::RustDefault),
-        None => {
-            let message = format!("`{}` needs a value for `{}`", name.text, param.name.text);
-            Err(Box::new(
-                Diagnostic::error("missing-argument", at, message)
-                    .also(param.name.span, "declared here, without a default"),
-            ))
-        }
-    }
 }
 
 /// Modifiers that remain with a node; `each` and `delay` are left to the caller.

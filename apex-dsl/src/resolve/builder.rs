@@ -1,10 +1,10 @@
 //! The flat graph that is being built, and the body that is being expanded into it.
 
 use super::{
-    args::Origins,
     budget::{Budget, MAX_NODES},
     link::Link,
     names::{Constructor, GraphId, SourceSet},
+    origins::Origins,
     scope::{RustNames, Scope as Names},
 };
 use crate::{

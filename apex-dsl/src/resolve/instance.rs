@@ -1,7 +1,7 @@
 //! Construction of one flat graph: its body is resolved, and nested graphs are expanded in place.
 
 use super::{
-    args::{self, Origins},
+    args,
     budget::{Budget, MAX_NESTING},
     builder::{Body, Builder},
     flatten, generics, given,
@@ -9,6 +9,7 @@ use super::{
     lists,
     names::{Constructor, GraphId, SourceSet},
     nodes::require_function_params,
+    origins::{self, Origins},
     record::record,
     scope::RustNames,
     table::{Symbol, Table},
@@ -85,7 +86,7 @@ impl<'a> Builder<'a> {
                 self.diagnostics,
             );
         }
-        let origins = args::origins(&item.params, &[], &Origins::new(), &self.names(&values));
+        let origins = origins::origins(&item.params, &[], &Origins::new(), &self.names(&values));
         self.body(&Body::new(id, ScopeId::TOP, (values.clone(), origins), item), table);
         let (name, docs, robot, span) = (item.name.text.clone(), item.docs.clone(), item.robot, item.name.span);
         if robot && let Some(port) = item.ports.first() {
@@ -297,7 +298,7 @@ impl<'a> Builder<'a> {
                 symbol.push((port.name.text.clone(), port.kind, ty, place));
             }
         }
-        let origins = args::origins(&item.params, &instance.args, &body.origins, &self.names(&values));
+        let origins = origins::origins(&item.params, &instance.args, &body.origins, &self.names(&values));
         self.diagnostics.enter(&name.text);
         self.body(&Body::new(id, scope, (values, origins), item), inside);
         self.diagnostics.leave();

@@ -5,6 +5,7 @@ use super::{
     builder::{Body, Builder},
     generics,
     names::Constructor,
+    origins,
     table::Symbol,
     types,
 };
@@ -54,7 +55,7 @@ impl Builder<'_> {
         }
         let mut ports = library_ports(signature);
         generics::substitute_ports(&mut ports, signature, &types);
-        let ranges = args::passed_on(signature, &instance.args, &body.origins);
+        let ranges = origins::passed_on(signature, &instance.args, &body.origins);
         let kind = NodeKind::Library(Library { signature: id, types, params, ranges, handed_in: false });
         let docs = if docs.is_empty() { &signature.docs } else { docs };
         let node = self.node(name, body.scope, kind, ports, docs)?;

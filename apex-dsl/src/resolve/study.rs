@@ -3,6 +3,7 @@
 use super::{
     args,
     condition::names_in,
+    declared,
     names::{Constructor, GraphId, SourceSet},
     scope::{Evaluated, Scope},
     suggest::suggest,
@@ -265,7 +266,7 @@ impl Resolver<'_> {
     ) -> Option<Evaluated<Parameter>> {
         let param = self.texts.graph(id).params.iter().find(|param| param.name.text == name.text)?;
         let ty = self.catalog.type_in_text(&self.texts.ty(&param.ty), &[]);
-        let wanted = match args::graph_param(param, &ty, writer.scope) {
+        let wanted = match declared::wanted(param, &ty, writer.scope) {
             Ok(wanted) => wanted,
             Err(error) => return Some(Err(error)),
         };
