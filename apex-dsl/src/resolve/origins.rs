@@ -16,7 +16,7 @@ pub struct Origin {
     given: Span,
     /// The parameter of the graph that passes the value on.
     declared: Span,
-    /// What that parameter, and those from which it has its value, allow.
+    /// Range of that parameter, and of those from which it has its value.
     range: Option<Limits>,
 }
 

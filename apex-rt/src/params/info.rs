@@ -1,6 +1,5 @@
 //! Parameters, as far as they are known at compile time.
 
-use super::ParamRef;
 use core::fmt;
 
 /// A parameter of a program.
@@ -99,21 +98,8 @@ impl ParamRange {
         Self { min, max, inclusive }
     }
 
-    /// Returns `true` if a number is in the range, or all numbers of a list are. Other values are in every range.
-    pub(super) fn holds(&self, value: &ParamRef<'_>) -> bool {
-        match *value {
-            ParamRef::Integer(value) => self.has(value as f64),
-            ParamRef::Float(value) => self.has(value),
-            ParamRef::Single(value) => {
-                let [min, max] = [self.min, self.max].map(|bound| bound.map(|bound| f64::from(bound as f32)));
-                Self { min, max, ..*self }.has(value.into())
-            }
-            ParamRef::List(list) => (0..list.count()).all(|index| self.holds(&list.element(index))),
-            ParamRef::Bool(_) | ParamRef::Text(_) | ParamRef::Other(_) => true,
-        }
-    }
-
-    fn has(&self, value: f64) -> bool {
+    /// Returns `true` if a number is in the range.
+    pub(super) fn has(&self, value: f64) -> bool {
         let is_above = self.min.is_none_or(|min| value >= min);
         let is_below = |max: f64| if self.inclusive { value <= max } else { value < max };
         is_above && self.max.is_none_or(is_below)

@@ -38,7 +38,21 @@ where
 /// It depends on the type of the value alone, so that it is compiled once for all parameters of that type.
 fn accepted<V: ParamValue>(given: ParamRef<'_>, accepts: fn(&V) -> bool, range: &ParamRange) -> Result<V, Rejection> {
     let value = V::take(given)?;
-    if accepts(&value) && range.holds(&given) { Ok(value) } else { Err(Rejection::Range) }
+    if accepts(&value) && holds(range, &given) { Ok(value) } else { Err(Rejection::Range) }
+}
+
+/// Returns `true` if a number is in a range, or all numbers of a list are. Other values are in every range.
+fn holds(range: &ParamRange, given: &ParamRef<'_>) -> bool {
+    match *given {
+        ParamRef::Integer(value) => range.has(value as f64),
+        ParamRef::Float(value) => range.has(value),
+        ParamRef::Single(value) => {
+            let [min, max] = [range.min, range.max].map(|bound| bound.map(|bound| f64::from(bound as f32)));
+            ParamRange { min, max, ..*range }.has(value.into())
+        }
+        ParamRef::List(list) => (0..list.count()).all(|index| holds(range, &list.element(index))),
+        ParamRef::Bool(_) | ParamRef::Text(_) | ParamRef::Other(_) => true,
+    }
 }
 
 /// A parameter whose type is a [`ParamValue`].
