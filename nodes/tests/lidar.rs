@@ -3,10 +3,7 @@
 //! The files are those of `../shared/data/lidar3d`. Without them, the tests are skipped; with `CI=true` they fail.
 
 use apex_macros::graph;
-use apex_messages::{
-    Message as _,
-    sensor_msgs::{PointCloud2, PointField},
-};
+use apex_messages::sensor_msgs::{PointCloud2, PointField};
 use apex_nodes::{
     cloud::{CloudPoint, Label, RingClassifier, RingCloud},
     io::{BagTopic, read_cloud, read_kitti},

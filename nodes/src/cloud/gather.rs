@@ -34,6 +34,7 @@ pub const TOO_FEW: &str = "no ring has two points in different directions";
 pub fn gather(stamp: Time, mut points: Vec<RingPoint>) -> Result<RingCloud, &'static str> {
     points.retain(|one| one.point.is_measured() && one.time.is_finite());
     let mut turn = RingCloud::default();
+    turn.reset(stamp, 0, 0);
     if points.is_empty() {
         return Ok(turn);
     }
