@@ -5,7 +5,7 @@
 //! and pictures), `map` (grid maps), `cloud` (point clouds of depth cameras and of scanners with rings), the turns of
 //! `lidar`, and path planning and following in `nav`. Further features add `image` (camera images), `learn` (training,
 //! and networks), `optim` (optimization of parameters), `slam` (localization and mapping), `localize` (localization on
-//! a plan), `dxf` (plans from DXF files) and `urdf` (models of robots).
+//! a plan), `fuse` (a pose outdoors), `dxf` (plans from DXF files) and `urdf` (models of robots).
 //!
 //! Units are SI (metres, radians, seconds). Axes follow the ROS convention: x forward, y left, angles
 //! counter-clockwise.

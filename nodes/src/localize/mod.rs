@@ -1,11 +1,13 @@
 //! Localization (feature `localize`): on a map of line segments (thesis 6.9), by a look-up table of visible segments
-//! and a particle filter on it; and outdoors, by a Kalman filter of wheels, a gyroscope and satellites.
+//! and a particle filter on it; and outdoors (feature `fuse`), by a Kalman filter of wheels, a gyroscope and
+//! satellites.
 
 mod beam;
 mod bins;
 mod cache;
 mod estimate;
 mod filter;
+#[cfg(feature = "fuse")]
 mod fuse;
 mod motion;
 mod node;
@@ -18,6 +20,7 @@ pub use beam::BeamModel;
 pub use cache::Cached;
 pub use estimate::PoseEstimate;
 pub use filter::{Change, Filter, Settings};
+#[cfg(feature = "fuse")]
 pub use fuse::{
     FixUse, FusePose, FusedPose, FusionSettings, GeoFix, Inertial, PlaceFix, PoseFilter, PositionFix, TangentPlane,
 };
