@@ -125,9 +125,14 @@ impl Item {
         Self { shape, name, ty, words, docs, active: false, new: false, each: false, ports, inside: None, states: None }
     }
 
+    /// Items directly in it.
+    pub fn items(&self) -> impl Iterator<Item = &Self> {
+        self.inside.iter().flat_map(|frame| &frame.items)
+    }
+
     /// Number of items in it, including itself.
     pub fn count(&self) -> usize {
-        1 + self.inside.iter().flat_map(|frame| &frame.items).map(Self::count).sum::<usize>()
+        1 + self.items().map(Self::count).sum::<usize>()
     }
 
     /// Closes everything that is nested deeper than `depth`, so that boxes with ports remain.

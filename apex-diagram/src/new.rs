@@ -40,7 +40,7 @@ fn mark(frame: &mut Frame, known: &BTreeSet<String>) -> News {
 /// Adds what an item has, and itself.
 fn collect(item: &Item, known: &mut BTreeSet<String>) {
     known.insert(identity(item));
-    item.inside.iter().flat_map(|frame| &frame.items).for_each(|inner| collect(inner, known));
+    item.items().for_each(|inner| collect(inner, known));
 }
 
 /// Type of a node, with everything that is in a nested graph or a state machine, but for parameters.

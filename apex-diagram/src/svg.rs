@@ -49,7 +49,7 @@ pub fn svg(item: &Item) -> String {
 }
 
 fn has_new(item: &Item) -> bool {
-    item.new || item.inside.iter().flat_map(|frame| &frame.items).any(has_new)
+    item.new || item.items().any(has_new)
 }
 
 /// Draws an item with its upper left corner at `at`. `taking` is `true` for ports at which a line from outside ends:

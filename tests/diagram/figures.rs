@@ -142,7 +142,7 @@ fn files_of(item: &Item, files: &mut [BTreeSet<String>; 2]) {
     if let (Some((file, _)), None) = (item.ty.rsplit_once(':'), &item.inside) {
         files[usize::from(!item.new)].insert(file.to_owned());
     }
-    item.inside.iter().flat_map(|frame| &frame.items).for_each(|inner| files_of(inner, files));
+    item.items().for_each(|inner| files_of(inner, files));
 }
 
 /// Lines of code in a file, without its tests.

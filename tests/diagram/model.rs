@@ -313,8 +313,7 @@ graph Joined {
 
 /// Full names of what is new.
 fn new_items(item: &Item) -> Vec<String> {
-    let frame = item.inside.iter().flat_map(|frame| &frame.items);
-    let names = frame.flat_map(|inner| {
+    let names = item.items().flat_map(|inner| {
         let below = new_items(inner).into_iter().map(|name| format!("{}.{name}", inner.name));
         inner.new.then(|| inner.name.clone()).into_iter().chain(below).collect::<Vec<_>>()
     });

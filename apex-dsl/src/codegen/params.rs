@@ -118,8 +118,8 @@ impl Generator<'_> {
         for (param, number) in numbers().enumerate() {
             let name = format!("{path}.{}", signature.params[param].name);
             let ty = self.param_type(library, param).to_string();
-            let within = library.ranges[param].map(within);
-            rows.table.push(quote!(#declared[#number] #within .of(#name, #ty)));
+            let within = library.ranges[param].iter().map(|range| within(*range));
+            rows.table.push(quote!(#declared[#number] #(#within)* .of(#name, #ty)));
         }
         let numbers = numbers();
         let visit = quote! { ::apex_rt::visit_params!(visitor, PARAMS, #first, #place, #(#numbers)*); };

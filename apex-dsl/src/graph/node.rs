@@ -187,7 +187,7 @@ pub struct Library {
     /// Values of the parameters, in the order of the signature.
     pub params: Vec<Value>,
     /// Ranges of parameters of the graph that are passed on, for each parameter. They hold beside its own.
-    pub ranges: Vec<Option<Limits>>,
+    pub ranges: Vec<Vec<Limits>>,
     /// `true` if the node is made in Rust and passed to the constructor.
     pub handed_in: bool,
 }

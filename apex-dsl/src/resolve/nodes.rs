@@ -121,7 +121,7 @@ impl Builder<'_> {
             Ok(Constructor::Node(id)) if !self.catalog.signatures[id].is_function => {
                 let signature = &self.catalog.signatures[id];
                 let params = vec![Value::RustDefault; signature.params.len()];
-                let ranges = vec![None; params.len()];
+                let ranges = vec![vec![]; params.len()];
                 let types = self.type_args(body, signature.generics.len(), types, &instance);
                 let kind = NodeKind::Library(Library { signature: id, types, params, ranges, handed_in: true });
                 let docs = if docs.is_empty() { &signature.docs } else { docs };

@@ -10,14 +10,14 @@ use crate::{
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Origin of a parameter's value that is passed on.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Origin {
     /// The value as written.
     given: Span,
     /// The parameter of the graph that passes the value on.
     declared: Span,
-    /// Range of that parameter, and of those from which it has its value.
-    range: Option<Limits>,
+    /// Ranges of that parameter, and of those from which it has its value.
+    ranges: Vec<Limits>,
 }
 
 /// Origins of the values of a graph's parameters.
@@ -33,30 +33,17 @@ pub fn origins(params: &[ParamItem], args: &[Arg], around: &Origins, inside: &Sc
         let given = handed.map_or(value.span, |origin| origin.given);
         // A mistake in it has been reported.
         let own = range(param, inside).ok().flatten();
-        let range = both(own, handed.and_then(|origin| origin.range));
-        Some((param.name.text.clone(), Origin { given, declared: param.name.span, range }))
+        let ranges = own.into_iter().chain(handed.into_iter().flat_map(|origin| origin.ranges.clone())).collect();
+        Some((param.name.text.clone(), Origin { given, declared: param.name.span, ranges }))
     };
     params.iter().filter_map(of_param).collect()
 }
 
 /// Ranges of the graph's parameters that a node gets as they are, for each of its parameters.
-pub fn passed_on(signature: &Signature, args: &[Arg], origins: &Origins) -> Vec<Option<Limits>> {
-    let range = |param: &ParamSig| origins.get(only_param(argument(args, &param.name)?)?)?.range;
-    signature.params.iter().map(range).collect()
-}
-
-/// Range of the values that are in both ranges.
-fn both(one: Option<Limits>, other: Option<Limits>) -> Option<Limits> {
-    let (Some((low, high, inside)), Some((other_low, other_high, other_inside))) = (one, other) else {
-        return one.or(other);
-    };
-    let low = low.into_iter().chain(other_low).reduce(f64::max);
-    let is_smaller = |one: f64, other: f64| one < other || one == other && !inside;
-    Some(match (high, other_high) {
-        (Some(one), Some(other)) if is_smaller(one, other) => (low, high, inside),
-        (Some(_), None) => (low, high, inside),
-        _ => (low, other_high, other_inside),
-    })
+pub fn passed_on(signature: &Signature, args: &[Arg], origins: &Origins) -> Vec<Vec<Limits>> {
+    let origin = |param: &ParamSig| origins.get(only_param(argument(args, &param.name)?)?);
+    let ranges = |param| origin(param).map(|origin| origin.ranges.clone()).unwrap_or_default();
+    signature.params.iter().map(ranges).collect()
 }
 
 /// The argument with this name.
