@@ -126,16 +126,23 @@ fn a_robot_goes_back_to_checkpoints_and_does_the_same_again() {
     let robot = Own::start("checkpoints", 3, None);
     let (mut viewer, begin) = meet(&robot);
     assert_eq!(begin, 0);
-    let (happened, checkpoints) = run_to(&mut viewer, 600);
+    // How soon there are some depends on the machine: those that take long to make are rare.
+    let (mut happened, mut checkpoints, mut end) = (vec![], vec![], 0);
+    while checkpoints.len() < 4 && end < 6000 {
+        end += 600;
+        let (more, all) = run_to(&mut viewer, end);
+        happened.extend(more);
+        checkpoints = all;
+    }
     assert!(checkpoints.len() >= 4 && checkpoints[0] == 0 && checkpoints.is_sorted(), "{checkpoints:?}");
     assert_eq!(robot.processes().len(), checkpoints.len() + 1);
     // Again and again to the past of the past.
-    for goal in [599, 400, 401, 1] {
+    for goal in [end - 1, 400, 401, 1] {
         go_back(&mut viewer, goal);
         let (next, reactions) = meet(&robot);
         assert!(reactions <= goal, "{reactions} for {goal}");
         viewer = next;
-        let (again, _) = run_to(&mut viewer, 600);
+        let (again, _) = run_to(&mut viewer, end);
         let was = after(&happened, usize::try_from(reactions).expect("a small number"));
         assert!(again == was, "{reactions}: {} and {}", again.len(), was.len());
         assert_eq!(robot.zombies(), 0);

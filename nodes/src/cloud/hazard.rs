@@ -52,7 +52,7 @@ pub struct Area {
 ///
 /// `map` is the window in this frame: occupied where m_o is at least `threshold` or floor is missing, free where floor
 /// was seen, unknown elsewhere. An obstacle whose top is up to `low` high on average is a low one. `hazard` is ⊥ if the
-/// area is free. All outputs are ⊥ if the inputs differ in size, or if the pose is not a number or more than 1000 km
+/// area is free. All outputs are ⊥ if the inputs differ in size, or if the pose is not a number or more than 100 km
 /// away.
 #[node]
 #[derive(Debug, Clone)]

@@ -15,7 +15,7 @@ pub struct ReadError {
 }
 
 impl ReadError {
-    pub(super) fn open(path: &Path, message: impl fmt::Display) -> Self {
+    pub(crate) fn open(path: &Path, message: impl fmt::Display) -> Self {
         Self { path: path.into(), line: None, message: message.to_string() }
     }
 }

@@ -189,7 +189,7 @@ pub fn write_map_file(path: impl AsRef<Path>, map: &Grid<Occupancy>) -> std::io:
 }
 
 /// Writes a file beside the old one, and then replaces it: readers see one or the other.
-fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let mut new = path.as_os_str().to_owned();
     new.push(".new");
     let new = PathBuf::from(new);

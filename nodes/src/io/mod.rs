@@ -42,6 +42,8 @@ pub use kitti::read_kitti;
 #[cfg(feature = "slam")]
 pub(crate) use lines::{Lines, shown};
 pub use log_entry::LogEntry;
+#[cfg(feature = "slam")]
+pub(crate) use map_file::replace;
 pub use map_file::{MapFile, SaveMap, SaveMapError, read_map_file, write_map_file};
 pub use pcd::{RecordedCloud, read_cloud};
 #[cfg(feature = "figure")]

@@ -41,7 +41,7 @@ impl core::error::Error for LocalizerError {}
 /// Without an `initial` pose the robot begins anywhere in the building, and has to drive some metres. With one that
 /// scans confirm the pose is known after some scans, before the robot moves. `localized` comes
 /// with the pose as soon as it is known; `lost` if scans no longer agree with the plan, for example because the robot
-/// was carried away. Then it searches the whole plan. If odometry is not a number or more than 1000 km away, both
+/// was carried away. Then it searches the whole plan. If odometry is not a number or more than 100 km away, both
 /// outputs are ⊥.
 ///
 /// The first firing reads the plan and builds its look-up table, which takes seconds; `cache` stores it for the next

@@ -176,6 +176,19 @@ impl PoseGraph {
         BlockMatrix::new(self.poses.len(), self.edges.iter().map(|e| (e.from, e.to)))
     }
 
+    /// Moves the poses from a number on as one.
+    pub(super) fn move_from(&mut self, first: usize, by: &Pose) {
+        for pose in self.poses.iter_mut().skip(first) {
+            *pose = by * *pose;
+        }
+    }
+
+    /// Removes the poses from a number on, and all edges to them.
+    pub(super) fn truncate(&mut self, poses: usize) {
+        self.poses.truncate(poses);
+        self.edges.retain(|edge| edge.from.max(edge.to) < poses);
+    }
+
     /// Moves only the last pose, to best agreement with the most recently added edges that end there.
     pub(super) fn settle_last(&mut self) {
         let Some(last) = self.poses.len().checked_sub(1) else { return };

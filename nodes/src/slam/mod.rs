@@ -6,12 +6,16 @@ mod drawer;
 mod edge;
 mod graph;
 mod kernel;
+mod loops;
+mod lost;
 mod mapper;
 mod matcher;
 mod node;
 mod posed;
 mod read;
+mod saved;
 mod sparse;
+mod spread;
 mod start;
 mod table;
 
@@ -19,9 +23,10 @@ pub use drawer::{DrawScans, ScanDrawer};
 pub use edge::Edge;
 pub use graph::{NoSuchPose, Optimized, PoseGraph};
 pub use kernel::RobustKernel;
+pub use lost::Change;
 pub use mapper::{Mapper, Settings};
 pub use matcher::Window;
-pub use node::GraphSlam;
+pub use node::{GraphSlam, MappedPose, SlamError};
 pub use posed::{PosedScans, selected_scans};
 
 /// Pose in the plane, in m and rad.

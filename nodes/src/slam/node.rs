@@ -1,7 +1,52 @@
-use super::{Mapper, Pose, PosedScans, Settings, Window, heading, pose, selected_scans};
-use crate::scan::{BeamDirections, Pose2, Scan};
-use apex_rt::{Out, node};
-use core::f32::consts::PI;
+use super::{Change, Mapper, Pose, PosedScans, Settings, Window, heading, pose, selected_scans};
+use crate::{
+    io::ReadError,
+    scan::{BeamDirections, Pose2, Scan},
+};
+use apex_rt::{Event, Out, node};
+use core::{f32::consts::PI, fmt};
+use std::path::Path;
+
+/// Pose on the map of a [`GraphSlam`], and how sure it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct MappedPose {
+    /// Corrected pose in the frame of the map.
+    pub pose: Pose2,
+    /// Covariance of x, y and heading along the axes of the map, in m², m rad and rad²: the drift since the first scan,
+    /// by the path of measurements that says most.
+    pub covariance: [[f32; 3]; 3],
+    /// Agreement of the last kept scan with the scans before: 1 if all its points are where they have points, 0 if it
+    /// has none within reach.
+    pub response: f32,
+}
+
+impl MappedPose {
+    /// Standard deviation of the position: the root of the sum of both variances, in m.
+    pub fn deviation(&self) -> f32 {
+        (self.covariance[0][0] + self.covariance[1][1]).sqrt()
+    }
+}
+
+/// Error of the map of a [`GraphSlam`].
+#[derive(Debug)]
+pub enum SlamError {
+    /// The map cannot be read.
+    Read(ReadError),
+    /// The map cannot be written: file and error.
+    Write(&'static str, std::io::Error),
+}
+
+impl fmt::Display for SlamError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read(error) => error.fmt(f),
+            Self::Write(file, error) => write!(f, "cannot write `{file}`: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for SlamError {}
 
 /// Simultaneous localization and mapping with a pose graph, in the manner of Karto, with a bounded number of scans for
 /// the map (thesis 4.3.5; see [`Mapper`] and [`selected_scans`]).
@@ -10,7 +55,16 @@ use core::f32::consts::PI;
 /// pose in the frame of the map, which is that of odometry at the first scan; it is sent for every scan. `scans` are
 /// those of which [`DrawScans`] draws the map, at their corrected poses; they are sent for the first kept scan and then
 /// for every `map_every`-th one, otherwise ⊥. With `whole` they are all of them, not a bounded number. If odometry is
-/// not a number or more than 1000 km away, both outputs are ⊥ and the scan is not used.
+/// not a number or more than 100 km away, all outputs are ⊥ and the scan is not used.
+///
+/// `estimate` says how sure the pose is. `lost` comes after three scans in a row that agree neither with those before
+/// nor with odometry, each `travel` or `turn` after the other: the robot was carried away, or its wheels slipped by
+/// metres. Then all outputs are ⊥, and the node compares what it sees with the whole map. `localized` comes with the
+/// pose as soon as one place alone fits; this takes a firing for two metres of the path of the map, and the robot may
+/// have to move if places look alike. What was seen in the meantime gets into the map.
+///
+/// With a `file` the node begins lost on the map that the slot `save` wrote there, if there is one; `pose` is then in
+/// the frame of that map, which grows.
 ///
 /// Scans should show stationary objects only: remove other robots with [`ShortSegmentFilter`].
 ///
@@ -65,26 +119,56 @@ pub struct GraphSlam {
     /// Choice of all kept scans for each map, so that no place is forgotten. The time to draw a map grows with them.
     #[param(default = false)]
     whole: bool,
+    /// File of the map for [`Mapper::read`]; empty for none.
+    #[param(default = "")]
+    file: &'static str,
     mapper: Option<Mapper>,
     directions: BeamDirections,
+    /// Number of scans of the map at the last firing.
+    mapped: usize,
+    failed: bool,
 }
 
 #[node]
 impl GraphSlam {
-    fn process(&mut self, odometry: &Pose2, scan: &Scan, pose: &mut Out<Pose2>, scans: &mut Out<PosedScans>) {
-        let Some(odometry) = usable(odometry) else { return };
-        let settings = self.settings();
-        let mapper = self.mapper.get_or_insert_with(|| Mapper::new(settings));
-        let due = mapper.is_due(&odometry);
+    fn process(
+        &mut self,
+        odometry: &Pose2,
+        scan: &Scan,
+        pose: &mut Out<Pose2>,
+        scans: &mut Out<PosedScans>,
+        estimate: &mut Out<MappedPose>,
+        localized: Event<Pose2>,
+        lost: Event<()>,
+    ) -> Result<(), SlamError> {
+        let Some(odometry) = usable(odometry).filter(|_| !self.failed) else { return Ok(()) };
+        let mut mapper = match self.mapper.take() {
+            Some(mapper) => mapper,
+            None => self.open().inspect_err(|_| self.failed = true)?,
+        };
         let mount = Pose2::new(self.mount_x, self.mount_y, self.mount_theta);
-        if due {
+        let due = mapper.is_due(&odometry);
+        let change = if due {
             let mount = mount.transform();
-            mapper.add(&odometry, self.directions.points(scan).map(|(_, p)| mount.to_outer(p)).collect());
+            mapper.add(&odometry, self.directions.points(scan).map(|(_, p)| mount.to_outer(p)).collect())
+        } else {
+            mapper.search()
+        };
+        let at = shown(&mapper.locate(&odometry));
+        match change {
+            Some(Change::Localized) => localized.emit(at),
+            Some(Change::Lost) => lost.emit(()),
+            None => {}
         }
-        let here = mapper.locate(&odometry);
-        pose.set(Pose2::new(here.translation.x as f32, here.translation.y as f32, heading(&here) as f32));
-        let count = mapper.scans().len();
-        if due && (count - 1).is_multiple_of(self.map_every.max(1) as usize) {
+        if let Some(covariance) = mapper.covariance(&odometry) {
+            pose.set(at);
+            let covariance = core::array::from_fn(|i| core::array::from_fn(|j| covariance[(i, j)] as f32));
+            estimate.set(MappedPose { pose: at, covariance, response: mapper.response() as f32 });
+        }
+        let count = mapper.mapped();
+        let grown = count != self.mapped;
+        self.mapped = count;
+        if grown && (change.is_some() || (count - 1).is_multiple_of(self.map_every.max(1) as usize)) {
             let scans = scans.get_mut();
             if self.whole {
                 mapper.write_scans(0..count, mount.position(), scans);
@@ -92,12 +176,35 @@ impl GraphSlam {
                 mapper.write_scans(selected_scans(count), mount.position(), scans);
             }
         }
+        self.mapper = Some(mapper);
+        Ok(())
     }
 
     /// Discards map and poses, and begins a new map at the next odometry.
     #[slot]
     fn reset(&mut self) {
-        self.mapper = None;
+        self.mapper = Some(Mapper::new(self.settings()));
+        (self.mapped, self.failed) = (0, false);
+    }
+
+    /// Writes the map to its file.
+    #[slot]
+    fn save(&mut self) -> Result<(), SlamError> {
+        match &self.mapper {
+            // A shadow repeats the run of another process, which has written the map.
+            Some(mapper) if !self.file.is_empty() && !apex_rt::is_shadow() => {
+                mapper.write(self.file).map_err(|error| SlamError::Write(self.file, error))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Begins a map, or goes on with the one of the file.
+    fn open(&self) -> Result<Mapper, SlamError> {
+        if self.file.is_empty() || !Path::new(self.file).exists() {
+            return Ok(Mapper::new(self.settings()));
+        }
+        Mapper::read(self.file, self.settings()).map_err(SlamError::Read)
     }
 
     fn settings(&self) -> Settings {
@@ -116,6 +223,10 @@ impl GraphSlam {
     }
 }
 
+fn shown(pose: &Pose) -> Pose2 {
+    Pose2::new(pose.translation.x as f32, pose.translation.y as f32, heading(pose) as f32)
+}
+
 /// Odometry in double precision, or `None` if it is NaN or out of range.
 fn usable(odometry: &Pose2) -> Option<Pose> {
     odometry.is_usable().then(|| pose(odometry.x.into(), odometry.y.into(), odometry.theta.into()))
@@ -129,13 +240,34 @@ mod tests {
         scan::Point2,
         slam::ScanDrawer,
     };
-    use apex_rt::Construct;
+    use apex_rt::{Construct, event};
 
     const MOUNT: Pose2 = Pose2::new(0.2, 0.0, 0.1);
 
-    fn node(map_every: u32) -> GraphSlam {
+    fn node(map_every: u32, file: &'static str) -> GraphSlam {
         let Pose2 { x, y, theta } = MOUNT;
-        GraphSlam::construct((x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.06, 20, 0.04, 4.0, 0.6, map_every, false))
+        GraphSlam::construct((
+            x, y, theta, 0.3, 0.35, 20.0, 0.4, 0.35, 0.06, 20, 0.04, 4.0, 0.6, map_every, false, file,
+        ))
+    }
+
+    /// What a firing sends.
+    #[derive(Debug, Default, PartialEq)]
+    struct Sent {
+        pose: Option<Pose2>,
+        scans: Option<PosedScans>,
+        estimate: Option<MappedPose>,
+        localized: Option<Pose2>,
+        lost: bool,
+    }
+
+    fn fire(node: &mut GraphSlam, odometry: &Pose2, scan: &Scan) -> Result<Sent, SlamError> {
+        let (mut pose, mut scans, mut estimate) = (Out::new(), Out::new(), Out::new());
+        let (mut localized, mut lost) = (None, None);
+        let events = (event(&mut localized), event(&mut lost));
+        node.process(odometry, scan, &mut pose, &mut scans, &mut estimate, events.0, events.1)?;
+        let (scans, lost) = (scans.get().cloned(), lost.is_some());
+        Ok(Sent { pose: pose.get().copied(), scans, estimate: estimate.get().copied(), localized, lost })
     }
 
     /// A scan of a room of 8 m × 6 m with its centre at the origin, and with a pillar in it.
@@ -171,12 +303,14 @@ mod tests {
         let (mut truth, mut odometry) = (start, start);
         let (mut worst, mut off, mut maps) = (0.0_f32, 0.0_f32, Vec::new());
         for _ in 0..steps {
-            let (mut pose, mut scans) = (Out::new(), Out::new());
-            node.process(&odometry, &scan(&truth), &mut pose, &mut scans);
-            let estimate = pose.get().expect("a pose");
-            worst = worst.max((estimate.position() - truth.position()).norm());
+            let sent = fire(node, &odometry, &scan(&truth)).expect("no file");
+            let estimate = sent.estimate.expect("an estimate");
+            assert!(sent.pose == Some(estimate.pose) && !sent.lost && sent.localized.is_none());
+            let error = (estimate.pose.position() - truth.position()).norm();
+            assert!(error < 0.05 + 3.0 * estimate.deviation() && estimate.deviation() < 0.5, "{error} m, {estimate:?}");
+            worst = worst.max(error);
             off = off.max((odometry.position() - truth.position()).norm());
-            maps.extend(scans.get().map(drawn));
+            maps.extend(sent.scans.as_ref().map(drawn));
             truth = truth.compose(&step);
             odometry = odometry.compose(&Pose2::new(0.1, 0.0, 0.045));
         }
@@ -185,7 +319,7 @@ mod tests {
 
     #[test]
     fn poses_are_corrected_and_maps_are_sent() {
-        let mut node = node(5);
+        let mut node = node(5, "");
         let (worst, odometry, maps) = drive(&mut node, 300);
         assert!(worst < 0.15 && odometry > 1.0, "{worst} m, odometry {odometry} m");
         let mapper = node.mapper.as_ref().expect("a mapper");
@@ -205,24 +339,65 @@ mod tests {
 
     #[test]
     fn what_is_no_number_is_no_pose() {
-        let mut node = node(1);
-        let (mut pose, mut scans) = (Out::new(), Out::new());
+        let mut node = node(1, "");
+        let fire = |node: &mut GraphSlam, odometry, scan: &Scan| fire(node, &odometry, scan).expect("no file");
         for x in [f32::NAN, f32::INFINITY, 1e30] {
-            node.process(&Pose2::new(x, 0.0, 0.0), &Scan::default(), &mut pose, &mut scans);
-            assert!(pose.get().is_none() && scans.get().is_none());
+            assert_eq!(fire(&mut node, Pose2::new(x, 0.0, 0.0), &Scan::default()), Sent::default());
         }
-        for x in [0.0, 0.5, 1e6, -1e6] {
+        for x in [0.0, 0.5, 9e4, -9e4] {
             let odd = Scan {
                 angle_increment: f32::NAN,
                 ranges: [1.0, 1e30, f32::NAN].into_iter().collect(),
                 ..Scan::default()
             };
-            node.process(&Pose2::new(x, 0.0, 0.0), &Scan::default(), &mut pose, &mut scans);
-            node.process(&Pose2::new(x, 1.0, 0.0), &odd, &mut pose, &mut scans);
-            assert!(pose.get().is_some());
+            fire(&mut node, Pose2::new(x, 0.0, 0.0), &Scan::default());
+            assert!(fire(&mut node, Pose2::new(x, 1.0, 0.0), &odd).pose.is_some(), "{x}");
         }
         node.reset();
-        node.process(&Pose2::new(5.0, 0.0, 0.0), &Scan::default(), &mut pose, &mut scans);
-        assert_eq!(pose.get(), Some(&Pose2::new(5.0, 0.0, 0.0)), "a new map begins where odometry is");
+        let sent = fire(&mut node, Pose2::new(5.0, 0.0, 0.0), &Scan::default());
+        assert_eq!(sent.pose, Some(Pose2::new(5.0, 0.0, 0.0)), "a new map begins where odometry is");
+    }
+
+    #[test]
+    fn a_lost_robot_has_no_pose() {
+        let mut node = node(1, "");
+        drive(&mut node, 40);
+        // It looks through a wall, and what it sees turns with it.
+        let strange = Scan { ranges: (0..200).map(|i| [1.0, 6.0][i % 2]).collect(), ..scan(&Pose2::default()) };
+        let mut odometry = Pose2::new(3.0, 3.0, 0.0);
+        let sent: Vec<Sent> = (0..20)
+            .map(|_| {
+                odometry = odometry.compose(&Pose2::new(0.15, 0.0, 0.0));
+                fire(&mut node, &odometry, &strange).expect("no file")
+            })
+            .collect();
+        let at = sent.iter().position(|sent| sent.lost).expect("it is lost");
+        assert!(sent[..at].iter().all(|sent| sent.pose.is_some()));
+        assert!(sent[at + 1..].iter().all(|sent| *sent == Sent::default()), "{:?}", sent[at + 1]);
+    }
+
+    #[test]
+    fn a_map_is_saved_and_read_again() {
+        let file = std::env::temp_dir().join(format!("apex-slam-node-{}.g2o", std::process::id()));
+        let name: &'static str = file.to_str().expect("UTF-8").to_owned().leak();
+        let mut first = node(5, name);
+        drive(&mut first, 100);
+        let scans = first.mapper.as_ref().expect("a mapper").scans().len();
+        first.save().expect("a temporary file");
+        let mut second = node(5, name);
+        let sent = fire(&mut second, &Pose2::default(), &scan(&Pose2::default())).expect("what was written");
+        assert_eq!(sent, Sent::default(), "nothing says where it is");
+        assert_eq!(second.mapper.as_ref().expect("a mapper").mapped(), scans);
+        std::fs::write(&file, "VERTEX_SE2 0 1 2\n").expect("a temporary file");
+        let mut third = node(5, name);
+        let mut fire = || fire(&mut third, &Pose2::default(), &scan(&Pose2::default()));
+        let error = fire().expect_err("a number is missing").to_string();
+        assert!(error.ends_with(".g2o:1: 3 numbers are expected (x y θ), there are 2"), "{error}");
+        assert_eq!(fire().expect("an error is said once"), Sent::default());
+        std::fs::remove_file(&file).expect("it is there");
+        let mut nowhere = node(5, "/nowhere/map.g2o");
+        drive(&mut nowhere, 2);
+        let error = nowhere.save().expect_err("no folder").to_string();
+        assert!(error.starts_with("cannot write `/nowhere/map.g2o`: "), "{error}");
     }
 }

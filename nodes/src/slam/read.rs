@@ -1,5 +1,8 @@
 use super::{Edge, PoseGraph, RobustKernel, pose};
-use crate::io::{Lines, ReadError, shown};
+use crate::{
+    io::{Lines, ReadError, shown},
+    scan::Point2,
+};
 use nalgebra::Matrix3;
 use std::{collections::BTreeMap, path::Path, str::SplitWhitespace};
 
@@ -22,12 +25,16 @@ struct Line {
     edge: Edge,
 }
 
+/// Points of scans, in m, by the number of the pose.
+pub(super) type Scans = BTreeMap<usize, Vec<Point2>>;
+
 /// Content of a file.
 #[derive(Default)]
 struct Content {
     graph: PoseGraph,
     numbers: BTreeMap<u64, usize>,
     edges: Vec<Line>,
+    scans: Scans,
 }
 
 impl PoseGraph {
@@ -36,20 +43,27 @@ impl PoseGraph {
     /// - `VERTEX_SE2 id x y θ` and `EDGE_SE2 from to x y θ I₁₁ I₁₂ I₁₃ I₂₂ I₂₃ I₃₃` (g2o),
     /// - `VERTEX2 id x y θ` and `EDGE2 from to x y θ I₁₁ I₁₂ I₂₂ I₃₃ I₁₃ I₂₃` (TORO).
     ///
-    /// Comments (`#`) and `FIX` are skipped. Poses are numbered in the order of their lines, independent of their ids.
+    /// Comments (`#`), `FIX` and the scans of a [map](super::Mapper::write) are skipped. Poses are numbered in the order of their lines, independent of their ids.
     /// In a file without vertices they are numbered in the order of their ids, the first one is at the origin, and the
     /// others are [initialized from a tree](Self::initialize_from_tree).
     ///
     /// # Errors
     /// If the file cannot be read, or a line has another content.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
-        let mut lines = Lines::open(path.as_ref())?;
-        let mut content = Content::default();
-        while lines.next()?.is_some() {
-            content.add(lines.current(), lines.number()).map_err(|message| lines.error(message))?;
-        }
-        content.graph().map_err(|(number, message)| lines.error_at(number, message))
+        read(path.as_ref()).map(|(graph, _)| graph)
     }
+}
+
+/// Reads a graph, and the scans of its poses.
+pub(super) fn read(path: &Path) -> Result<(PoseGraph, Scans), ReadError> {
+    let mut lines = Lines::open(path)?;
+    let mut content = Content::default();
+    while lines.next()?.is_some() {
+        content.add(lines.current(), lines.number()).map_err(|message| lines.error(message))?;
+    }
+    let scans = std::mem::take(&mut content.scans);
+    let graph = content.graph().map_err(|(number, message)| lines.error_at(number, message))?;
+    Ok((graph, scans))
 }
 
 impl Content {
@@ -59,6 +73,7 @@ impl Content {
             "VERTEX_SE2" | "VERTEX2" => self.add_vertex(&mut words),
             "EDGE_SE2" => self.add_edge(&mut words, number, Order::G2o),
             "EDGE2" => self.add_edge(&mut words, number, Order::Toro),
+            "SCAN" => self.add_scan(&mut words),
             word if word.starts_with('#') || word == "FIX" => Ok(()),
             word => Err(format!(
                 "a line of a pose graph in the plane begins with `VERTEX_SE2` or `EDGE_SE2` (g2o), or with `VERTEX2` or \
@@ -93,6 +108,21 @@ impl Content {
         let (measured, kernel) = (pose(x, y, theta), RobustKernel::Square);
         self.edges.push(Line { number, ends, edge: Edge { from: 0, to: 0, measured, information, kernel } });
         Ok(())
+    }
+
+    fn add_scan(&mut self, words: &mut SplitWhitespace<'_>) -> Result<(), String> {
+        let id = id(words)?;
+        let pose = *self.numbers.get(&id).ok_or_else(|| format!("there is no vertex {id} above its scan"))?;
+        let mut points = Vec::new();
+        while let Some(x) = words.next() {
+            let y = words.next().ok_or("the last point of the scan has no y: points are pairs of x and y")?;
+            let [x, y] = [finite(x)?, finite(y)?].map(|value| value as f32);
+            points.push(Point2::new(x, y));
+        }
+        match self.scans.insert(pose, points) {
+            Some(_) => Err(format!("vertex {id} has a scan already")),
+            None => Ok(()),
+        }
     }
 
     /// The graph, or the number of a line and the error there.
@@ -166,13 +196,17 @@ fn values<const N: usize>(words: &mut SplitWhitespace<'_>, names: &str) -> Resul
     let mut values = [0.0; N];
     for (i, value) in values.iter_mut().enumerate() {
         let word = words.next().ok_or_else(|| format!("{N} numbers are expected ({names}), there are {i}"))?;
-        let number: Option<f64> = word.parse().ok().filter(|v: &f64| v.is_finite());
-        *value = number.ok_or_else(|| format!("`{}` is not a finite number", shown(word)))?;
+        *value = finite(word)?;
     }
     match words.next() {
         Some(word) => Err(format!("{N} numbers are expected ({names}), `{}` is one more", shown(word))),
         None => Ok(values),
     }
+}
+
+fn finite(word: &str) -> Result<f64, String> {
+    let number: Option<f64> = word.parse().ok().filter(|v: &f64| v.is_finite());
+    number.ok_or_else(|| format!("`{}` is not a finite number", shown(word)))
 }
 
 #[cfg(test)]
@@ -231,6 +265,9 @@ mod tests {
             ("VERTEX_SE2 3 1 2 3", "there is a vertex 3 already: each vertex has one line"),
             ("VERTEX2 -1 1 2 3", "`-1` is not the id of a vertex, which is a whole number"),
             ("VERTEX_SE2", "the id of a vertex is missing, a whole number"),
+            ("SCAN 5 1 2", "there is no vertex 5 above its scan"),
+            ("SCAN 3 1 2 0.5", "the last point of the scan has no y: points are pairs of x and y"),
+            ("SCAN 3 1 nan", "`nan` is not a finite number"),
             ("VERTEX_XY 1 2", "a line of a pose graph in the plane begins with `VERTEX_SE2` or `EDGE_SE2` (g2o), or"),
         ]
         .into_iter()

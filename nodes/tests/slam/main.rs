@@ -5,6 +5,7 @@
 
 mod arena;
 mod graphs;
+mod lost;
 mod recordings;
 
 use apex_nodes::{

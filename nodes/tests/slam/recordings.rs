@@ -73,7 +73,7 @@ pub fn play(recording: &Recording, settings: Settings) -> (Mapper, Vec<Pose>, Du
     for (odometry, points) in &recording.scans {
         let start = Instant::now();
         if mapper.is_due(odometry) {
-            mapper.add(odometry, points.clone());
+            assert_eq!(mapper.add(odometry, points.clone()), None, "scan {} of a drive", seen.len());
         }
         slowest = slowest.max(start.elapsed());
         let last = mapper.graph().poses().len() - 1;

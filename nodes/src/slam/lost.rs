@@ -1,0 +1,183 @@
+use super::{
+    Mapper, Pose, Window, heading,
+    loops::{CHAIN, is_certain},
+    matcher::Match,
+    pose,
+};
+use crate::scan::Point2;
+use std::f64::consts::PI;
+
+/// Minimum number of points of a scan that can contradict the map, or be found in it.
+pub(super) const ENOUGH: usize = 20;
+/// Distance between the places with which a scan is compared, in m.
+const SPACING: f64 = 1.0;
+/// Half of the width of the window around each of them, in m.
+const AROUND: f64 = 0.8;
+/// Number of places to each side of the path of the map, where it was seen to be free.
+const ASIDE: i32 = 3;
+/// Half of the angle in which a place has to be free for the scanner, in rad.
+const CONE: f64 = 0.1;
+/// Number of places with which a scan is compared at once.
+const PLACES: usize = 2;
+/// Number of points by which places are compared first.
+const FEW: usize = 60;
+/// Minimum response at a place of interest.
+const LEAST: f64 = 0.5;
+/// Maximum response at a second place, relative to the best one: where two places look alike, none is right for sure.
+const RIVAL: f64 = 0.85;
+/// Maximum distance and difference of the headings of two poses at the same place, in m and rad.
+const SAME: (f64, f64) = (0.5, 0.3);
+
+/// Change of what a [`Mapper`] knows about the robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Change {
+    /// The place of the robot on the map is known.
+    Localized,
+    /// Scans agree neither with those before nor with odometry.
+    Lost,
+}
+
+/// Place at which the robot may be.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// Scan of the map from which it was seen.
+    scan: usize,
+    at: Pose,
+}
+
+impl Place {
+    fn distance(&self, pose: &Pose) -> f64 {
+        (self.at.translation.vector - pose.translation.vector).norm()
+    }
+}
+
+/// What a lost robot has seen, and the search for it on the map.
+#[derive(Debug, Clone)]
+pub(super) struct Lost {
+    /// The first scan that was kept since. Those before are the map.
+    pub first: usize,
+    /// The scan whose place is searched, or was searched last.
+    asked: Option<usize>,
+    /// Places that were not compared with it yet.
+    places: Vec<Place>,
+    /// Scans of the map at which it may have been taken, and its poses there.
+    found: Vec<(usize, Match)>,
+}
+
+impl Lost {
+    pub fn new(first: usize) -> Self {
+        Self { first, asked: None, places: Vec::new(), found: Vec::new() }
+    }
+
+    /// The only place at which the scan can have been taken, if there is one.
+    fn place(&self, least: f64) -> Option<&(usize, Match)> {
+        let best = self.found.iter().max_by(|(_, a), (_, b)| a.response.total_cmp(&b.response))?;
+        let is_rival = |other: &Match| {
+            let offset = best.1.pose.inv_mul(&other.pose);
+            let is_elsewhere = offset.translation.vector.norm() > SAME.0 || heading(&offset).abs() > SAME.1;
+            is_elsewhere && other.response > RIVAL * best.1.response
+        };
+        let is_alone = !self.found.iter().any(|(_, other)| is_rival(other));
+        (is_alone && best.1.response >= least && is_certain(&best.1)).then_some(best)
+    }
+}
+
+impl Mapper {
+    /// Continues the search for a robot that is lost: compares its newest scan with some places of the map, at any
+    /// heading, which takes some milliseconds. Does nothing while the robot is not lost.
+    ///
+    /// If the scan fits one place alone, all that was seen since the robot was lost gets to its place on the map.
+    pub fn search(&mut self) -> Option<Change> {
+        let mut lost = self.lost.take()?;
+        if lost.places.is_empty() {
+            self.begin_search(&mut lost);
+        }
+        let Some(scan) = lost.asked.filter(|_| !lost.places.is_empty()) else {
+            self.lost = Some(lost);
+            return None;
+        };
+        let points = std::mem::take(&mut self.scans[scan]);
+        for place in lost.places.split_off(lost.places.len().saturating_sub(PLACES)).into_iter().rev() {
+            let found = self.find_at(&place, &points, lost.first);
+            lost.found.extend(found.map(|found| (place.scan, found)));
+        }
+        self.scans[scan] = points;
+        match lost.place(self.settings.loop_response).filter(|_| lost.places.is_empty()) {
+            Some((place, found)) => {
+                self.join(lost.first, *place, scan, found);
+                Some(Change::Localized)
+            }
+            None => {
+                self.lost = Some(lost);
+                None
+            }
+        }
+    }
+
+    /// Begins to search the newest scan, unless that was done before.
+    fn begin_search(&self, lost: &mut Lost) {
+        let newest = self.scans.len().checked_sub(1).filter(|newest| *newest >= lost.first);
+        if newest == lost.asked {
+            return;
+        }
+        lost.asked = newest;
+        lost.found.clear();
+        if let Some(scan) = newest.filter(|&scan| self.scans[scan].len() >= ENOUGH) {
+            lost.places = self.places(lost.first, scan);
+        }
+    }
+
+    /// Places some distance from each other where the robot has been, or that it saw to be free. The nearest to a scan is
+    /// the last.
+    fn places(&self, first: usize, scan: usize) -> Vec<Place> {
+        let poses = self.graph.poses();
+        let mut places: Vec<Place> = Vec::new();
+        for (scan, pose) in poses.iter().enumerate().take(first) {
+            add(&mut places, Place { scan, at: *pose });
+        }
+        for k in 0..places.len() {
+            let Place { scan, at } = places[k];
+            let around = (-ASIDE..=ASIDE).flat_map(|x| (-ASIDE..=ASIDE).map(move |y| (x, y)));
+            for (x, y) in around.map(|(x, y)| (SPACING * f64::from(x), SPACING * f64::from(y))) {
+                if is_free(&self.scans[scan], x, y) {
+                    add(&mut places, Place { scan, at: at * pose(x, y, 0.0) });
+                }
+            }
+        }
+        places.sort_by(|a, b| b.distance(&poses[scan]).total_cmp(&a.distance(&poses[scan])));
+        places
+    }
+
+    /// Finds the pose of a scan near a place.
+    fn find_at(&mut self, place: &Place, points: &[Point2], end: usize) -> Option<Match> {
+        let chain = || place.scan.saturating_sub(CHAIN)..(place.scan + CHAIN + 1).min(end);
+        let few: Vec<Point2> = points.iter().step_by((points.len() / FEW).max(1)).copied().collect();
+        let roughly = Window { distance: AROUND, angle: PI };
+        let found = self.compare(&few, &place.at, chain(), &roughly, LEAST)?;
+        let nearly = Window { distance: 0.2, angle: 0.05 };
+        self.compare(points, &found.pose, chain(), &nearly, LEAST)
+    }
+
+    /// Moves all that was seen since the robot was lost to its place on the map.
+    fn join(&mut self, first: usize, place: usize, scan: usize, found: &Match) {
+        let moved: Pose = found.pose * self.graph.poses()[scan].inverse();
+        self.graph.move_from(first, &moved);
+        self.close_loop(place, scan, found);
+        self.spread_from(scan, first);
+    }
+}
+
+/// Adds a place unless there is one nearby.
+fn add(places: &mut Vec<Place>, place: Place) {
+    if places.iter().all(|other| other.distance(&place.at) >= 0.999 * SPACING) {
+        places.push(place);
+    }
+}
+
+/// Returns `true` if the scanner saw something behind a position, in m in the frame of the robot, and nothing before it.
+fn is_free(points: &[Point2], x: f64, y: f64) -> bool {
+    let (distance, direction) = (x.hypot(y), y.atan2(x));
+    let turn = |p: &Point2| (f64::from(p.angle()) - direction + PI).rem_euclid(2.0 * PI) - PI;
+    let mut toward = points.iter().filter(|p| turn(p).abs() < CONE).peekable();
+    toward.peek().is_some() && toward.all(|p| f64::from(p.norm()) > distance)
+}
