@@ -1,18 +1,16 @@
-use super::{Mapper, Settings, Window, matcher::Match};
+use super::{Settings, Window, matcher::Match, scan_graph::ScanGraph};
 use std::{cmp::Reverse, collections::BinaryHeap};
 
 /// Number of scans on each side of the nearest one in which a loop is searched.
 pub(super) const CHAIN: usize = 10;
-/// Maximum distance that a loop edge contributes to the drift, in m.
-pub(super) const LOOP_LENGTH: f64 = 0.5;
 /// χ² above which a loop contradicts the graph: the mean for a correct measurement of a pose.
 const CONTRADICTION: f64 = 3.0;
 /// Maximum number of steps of the optimizer after a loop that contradicts the graph.
 const STEPS: usize = 10;
 
-impl Mapper {
+impl ScanGraph {
     /// Compares the last kept scan with earlier scans around it.
-    pub(super) fn close_loops(&mut self) {
+    pub fn close_loops(&mut self) {
         let new = self.scans.len() - 1;
         let points = std::mem::take(&mut self.scans[new]);
         let before = self.graph.edges().len();
@@ -26,7 +24,7 @@ impl Mapper {
             let prediction = self.graph.poses()[new];
             let found = self.compare(&points, &prediction, chain, &window, self.settings.loop_response);
             if let Some(found) = found.filter(is_certain) {
-                self.close_loop(nearest, new, &found);
+                self.connect(nearest, new, &found.pose, found.information);
             }
         }
         self.scans[new] = points;
@@ -38,14 +36,9 @@ impl Mapper {
         }
     }
 
-    /// Adds the measurement of a scan at an earlier one.
-    pub(super) fn close_loop(&mut self, earlier: usize, scan: usize, found: &Match) {
-        self.connect(earlier, scan, &found.pose, found.information, LOOP_LENGTH);
-        self.loops += 1;
-    }
-
     /// Chains of consecutive scans that are near the scan `new`, but far away along the graph: for each of them the
-    /// nearest scan, and the length of the path to it. While the robot is lost, only what it has seen since is searched.
+    /// nearest scan, and the length of the path to it. Scans to which there is no path are left out: those of a map on
+    /// which the robot is lost.
     fn loop_candidates(&self, new: usize) -> Vec<(usize, f64)> {
         let Settings { travel, window_scans, drift, loop_distance, .. } = self.settings;
         let ways = self.ways(new);

@@ -1,8 +1,9 @@
 use super::{
-    Mapper, Pose, Window, heading,
+    Pose, Window, heading,
     loops::{CHAIN, is_certain},
     matcher::Match,
     pose,
+    scan_graph::ScanGraph,
 };
 use crate::scan::Point2;
 use std::f64::consts::PI;
@@ -51,7 +52,7 @@ impl Place {
     }
 }
 
-/// What a lost robot has seen, and the search for it on the map.
+/// Search for a lost robot on the map, and the scans that it has kept since.
 #[derive(Debug, Clone)]
 pub(super) struct Lost {
     /// The first scan that was kept since. Those before are the map.
@@ -80,91 +81,79 @@ impl Lost {
         let is_alone = !self.found.iter().any(|(_, other)| is_rival(other));
         (is_alone && best.1.response >= least && is_certain(&best.1)).then_some(best)
     }
-}
 
-impl Mapper {
-    /// Continues the search for a robot that is lost: compares its newest scan with some places of the map, at any
-    /// heading, which takes some milliseconds. Does nothing while the robot is not lost.
-    ///
-    /// If the scan fits one place alone, all that was seen since the robot was lost gets to its place on the map.
-    pub fn search(&mut self) -> Option<Change> {
-        let mut lost = self.lost.take()?;
-        if lost.places.is_empty() {
-            self.begin_search(&mut lost);
+    /// Compares the newest scan with some places of the map, at any heading, which takes some milliseconds. If it fits
+    /// one place alone, all that was seen since the robot was lost gets to its place on the map: then the robot is not
+    /// lost any more, and this returns `true`.
+    pub fn search(&mut self, map: &mut ScanGraph) -> bool {
+        if self.places.is_empty() {
+            self.begin(map);
         }
-        let Some(scan) = lost.asked.filter(|_| !lost.places.is_empty()) else {
-            self.lost = Some(lost);
-            return None;
-        };
-        let points = std::mem::take(&mut self.scans[scan]);
-        for place in lost.places.split_off(lost.places.len().saturating_sub(PLACES)).into_iter().rev() {
-            let found = self.find_at(&place, &points, lost.first);
-            lost.found.extend(found.map(|found| (place.scan, found)));
+        let Some(scan) = self.asked.filter(|_| !self.places.is_empty()) else { return false };
+        let points = std::mem::take(&mut map.scans[scan]);
+        for place in self.places.split_off(self.places.len().saturating_sub(PLACES)).into_iter().rev() {
+            let found = find_at(&place, &points, map, self.first);
+            self.found.extend(found.map(|found| (place.scan, found)));
         }
-        self.scans[scan] = points;
-        match lost.place(self.settings.loop_response).filter(|_| lost.places.is_empty()) {
-            Some((place, found)) => {
-                self.join(lost.first, *place, scan, found);
-                Some(Change::Localized)
-            }
-            None => {
-                self.lost = Some(lost);
-                None
-            }
+        map.scans[scan] = points;
+        let place = self.place(map.settings.loop_response).filter(|_| self.places.is_empty());
+        if let Some((place, found)) = place {
+            join(map, self.first, *place, scan, found);
         }
+        place.is_some()
     }
 
     /// Begins to search the newest scan, unless that was done before.
-    fn begin_search(&self, lost: &mut Lost) {
-        let newest = self.scans.len().checked_sub(1).filter(|newest| *newest >= lost.first);
-        if newest == lost.asked {
+    fn begin(&mut self, map: &ScanGraph) {
+        let newest = map.last().filter(|newest| *newest >= self.first);
+        if newest == self.asked {
             return;
         }
-        lost.asked = newest;
-        lost.found.clear();
-        if let Some(scan) = newest.filter(|&scan| self.scans[scan].len() >= ENOUGH) {
-            lost.places = self.places(lost.first, scan);
+        self.asked = newest;
+        self.found.clear();
+        if let Some(scan) = newest.filter(|&scan| map.scans[scan].len() >= ENOUGH) {
+            self.places = places(map, self.first, scan);
         }
     }
+}
 
-    /// Places some distance from each other where the robot has been, or that it saw to be free. The nearest to a scan is
-    /// the last.
-    fn places(&self, first: usize, scan: usize) -> Vec<Place> {
-        let poses = self.graph.poses();
-        let mut places: Vec<Place> = Vec::new();
-        for (scan, pose) in poses.iter().enumerate().take(first) {
-            add(&mut places, Place { scan, at: *pose });
-        }
-        for k in 0..places.len() {
-            let Place { scan, at } = places[k];
-            let around = (-ASIDE..=ASIDE).flat_map(|x| (-ASIDE..=ASIDE).map(move |y| (x, y)));
-            for (x, y) in around.map(|(x, y)| (SPACING * f64::from(x), SPACING * f64::from(y))) {
-                if is_free(&self.scans[scan], x, y) {
-                    add(&mut places, Place { scan, at: at * pose(x, y, 0.0) });
-                }
+/// Places some distance from each other where the robot has been, or that it saw to be free, of the scans before one.
+/// The nearest to another scan is the last.
+fn places(map: &ScanGraph, first: usize, scan: usize) -> Vec<Place> {
+    let poses = map.graph.poses();
+    let mut places: Vec<Place> = Vec::new();
+    for (scan, pose) in poses.iter().enumerate().take(first) {
+        add(&mut places, Place { scan, at: *pose });
+    }
+    for k in 0..places.len() {
+        let Place { scan, at } = places[k];
+        let around = (-ASIDE..=ASIDE).flat_map(|x| (-ASIDE..=ASIDE).map(move |y| (x, y)));
+        for (x, y) in around.map(|(x, y)| (SPACING * f64::from(x), SPACING * f64::from(y))) {
+            if is_free(&map.scans[scan], x, y) {
+                add(&mut places, Place { scan, at: at * pose(x, y, 0.0) });
             }
         }
-        places.sort_by(|a, b| b.distance(&poses[scan]).total_cmp(&a.distance(&poses[scan])));
-        places
     }
+    places.sort_by(|a, b| b.distance(&poses[scan]).total_cmp(&a.distance(&poses[scan])));
+    places
+}
 
-    /// Finds the pose of a scan near a place.
-    fn find_at(&mut self, place: &Place, points: &[Point2], end: usize) -> Option<Match> {
-        let chain = || place.scan.saturating_sub(CHAIN)..(place.scan + CHAIN + 1).min(end);
-        let few: Vec<Point2> = points.iter().step_by((points.len() / FEW).max(1)).copied().collect();
-        let roughly = Window { distance: AROUND, angle: PI };
-        let found = self.compare(&few, &place.at, chain(), &roughly, LEAST)?;
-        let nearly = Window { distance: 0.2, angle: 0.05 };
-        self.compare(points, &found.pose, chain(), &nearly, LEAST)
-    }
+/// Finds the pose of a scan near a place.
+fn find_at(place: &Place, points: &[Point2], map: &mut ScanGraph, end: usize) -> Option<Match> {
+    let chain = || place.scan.saturating_sub(CHAIN)..(place.scan + CHAIN + 1).min(end);
+    let few: Vec<Point2> = points.iter().step_by((points.len() / FEW).max(1)).copied().collect();
+    let roughly = Window { distance: AROUND, angle: PI };
+    let found = map.compare(&few, &place.at, chain(), &roughly, LEAST)?;
+    let nearly = Window { distance: 0.2, angle: 0.05 };
+    map.compare(points, &found.pose, chain(), &nearly, LEAST)
+}
 
-    /// Moves all that was seen since the robot was lost to its place on the map.
-    fn join(&mut self, first: usize, place: usize, scan: usize, found: &Match) {
-        let moved: Pose = found.pose * self.graph.poses()[scan].inverse();
-        self.graph.move_from(first, &moved);
-        self.close_loop(place, scan, found);
-        self.spread_from(scan, first);
-    }
+/// Moves all that was seen since the robot was lost to its place on the map.
+fn join(map: &mut ScanGraph, first: usize, place: usize, scan: usize, found: &Match) {
+    let moved: Pose = found.pose * map.graph.poses()[scan].inverse();
+    map.graph.move_from(first, &moved);
+    map.connect(place, scan, &found.pose, found.information);
+    map.spread.carry(scan, first, map.graph.poses());
 }
 
 /// Adds a place unless there is one nearby.
@@ -174,7 +163,8 @@ fn add(places: &mut Vec<Place>, place: Place) {
     }
 }
 
-/// Returns `true` if the scanner saw something behind a position, in m in the frame of the robot, and nothing before it.
+/// Returns `true` if the scanner saw something behind a position and nothing before it. It is in m in the frame of the
+/// robot.
 fn is_free(points: &[Point2], x: f64, y: f64) -> bool {
     let (distance, direction) = (x.hypot(y), y.atan2(x));
     let turn = |p: &Point2| (f64::from(p.angle()) - direction + PI).rem_euclid(2.0 * PI) - PI;

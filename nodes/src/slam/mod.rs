@@ -14,6 +14,8 @@ mod node;
 mod posed;
 mod read;
 mod saved;
+mod scan_graph;
+mod settings;
 mod sparse;
 mod spread;
 mod start;
@@ -24,10 +26,11 @@ pub use edge::Edge;
 pub use graph::{NoSuchPose, Optimized, PoseGraph};
 pub use kernel::RobustKernel;
 pub use lost::Change;
-pub use mapper::{Mapper, Settings};
+pub use mapper::Mapper;
 pub use matcher::Window;
 pub use node::{GraphSlam, MappedPose, SlamError};
 pub use posed::{PosedScans, selected_scans};
+pub use settings::Settings;
 
 /// Pose in the plane, in m and rad.
 pub type Pose = nalgebra::Isometry2<f64>;

@@ -251,7 +251,7 @@ mod tests {
         ))
     }
 
-    /// What a firing sends.
+    /// Tokens that a firing sends.
     #[derive(Debug, Default, PartialEq)]
     struct Sent {
         pose: Option<Pose2>,

@@ -43,9 +43,10 @@ impl PoseGraph {
     /// - `VERTEX_SE2 id x y θ` and `EDGE_SE2 from to x y θ I₁₁ I₁₂ I₁₃ I₂₂ I₂₃ I₃₃` (g2o),
     /// - `VERTEX2 id x y θ` and `EDGE2 from to x y θ I₁₁ I₁₂ I₂₂ I₃₃ I₁₃ I₂₃` (TORO).
     ///
-    /// Comments (`#`), `FIX` and the scans of a [map](super::Mapper::write) are skipped. Poses are numbered in the order of their lines, independent of their ids.
-    /// In a file without vertices they are numbered in the order of their ids, the first one is at the origin, and the
-    /// others are [initialized from a tree](Self::initialize_from_tree).
+    /// Comments (`#`), `FIX` and the scans of a [map](super::Mapper::write) are skipped. Poses are numbered in the
+    /// order of their lines, independent of their ids. In a file without vertices they are numbered in the order of
+    /// their ids, the first one is at the origin, and the others are
+    /// [initialized from a tree](Self::initialize_from_tree).
     ///
     /// # Errors
     /// If the file cannot be read, or a line has another content.

@@ -1,4 +1,4 @@
-use super::{Edge, Mapper, Settings, heading, lost::Lost, read::read};
+use super::{Edge, Mapper, Settings, heading, read::read, scan_graph::ScanGraph};
 use crate::io::{ReadError, replace};
 use std::{
     io::{self, Write},
@@ -7,8 +7,8 @@ use std::{
 
 impl Mapper {
     /// Writes the map to a file: the graph in the format of g2o (see [`PoseGraph::read`](super::PoseGraph::read)), and
-    /// after it the points of each scan in the frame of the robot, in m: `SCAN id x y x y …`. What a lost robot has seen
-    /// is not part of the map.
+    /// after it the points of each scan in the frame of the robot, in m: `SCAN id x y x y …`. Scans that a lost robot
+    /// has kept are not part of the map.
     ///
     /// # Errors
     /// If the file cannot be written. An old one is left as it was.
@@ -40,18 +40,17 @@ impl Mapper {
     pub fn read(path: impl AsRef<Path>, settings: Settings) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let (graph, mut scans) = read(path)?;
-        let mut mapper = Self::new(settings);
+        let mut map = ScanGraph::new(settings);
         for (k, pose) in graph.poses().iter().enumerate() {
             let points = scans.remove(&k).ok_or_else(|| {
                 ReadError::open(path, format!("the scan of vertex {k} is missing: a map has one for each vertex"))
             })?;
-            mapper.push(*pose, points);
+            map.push(*pose, points);
         }
-        if mapper.scans().is_empty() {
+        if map.scans.is_empty() {
             return Err(ReadError::open(path, "a map has at least one vertex and its scan"));
         }
-        mapper.lost = Some(Lost::new(mapper.scans().len()));
-        mapper.restore(&graph);
-        Ok(mapper)
+        map.connect_all(&graph);
+        Ok(Self::resume(map))
     }
 }

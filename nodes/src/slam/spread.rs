@@ -1,4 +1,4 @@
-use super::{Mapper, Pose, heading};
+use super::{Pose, heading};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// Covariances of the kept poses along the axes of the map, by their number: what is known about a pose when its
@@ -33,6 +33,15 @@ impl Spread {
         Some(carried(&spread, &(there.translation.vector - pose.translation.vector)) + error)
     }
 
+    /// The poses from `first` on are known as well as one of them: they have moved as one.
+    pub fn carry(&mut self, known: usize, first: usize, poses: &[Pose]) {
+        let Some(spread) = self.covariances.get(known).copied().flatten() else { return };
+        for (k, pose) in poses.iter().enumerate().skip(first) {
+            let arm = pose.translation.vector - poses[known].translation.vector;
+            self.set(k, carried(&spread, &arm));
+        }
+    }
+
     pub fn truncate(&mut self, poses: usize) {
         self.covariances.truncate(poses);
     }
@@ -42,18 +51,6 @@ impl Spread {
             self.covariances.resize(pose + 1, None);
         }
         self.covariances[pose] = Some(covariance);
-    }
-}
-
-impl Mapper {
-    /// The poses from `first` on are known as well as one of them: they have moved as one.
-    pub(super) fn spread_from(&mut self, known: usize, first: usize) {
-        let Some(spread) = self.spread.covariances.get(known).copied().flatten() else { return };
-        let poses = self.graph.poses();
-        for (k, pose) in poses.iter().enumerate().skip(first) {
-            let arm = pose.translation.vector - poses[known].translation.vector;
-            self.spread.set(k, carried(&spread, &arm));
-        }
     }
 }
 

@@ -37,11 +37,11 @@ struct Robot {
     mapper: Mapper,
     at: Pose2,
     wheels: Odometry,
-    /// Where odometry begins, and what it says.
+    /// Pose at which odometry begins, and the pose by odometry.
     origin: Pose2,
     odometry: Pose2,
     random: Random,
-    /// What has changed, and the distance of the estimated from the true pose then, in m.
+    /// Changes of the mapper, and the distance of the estimated from the true pose then, in m.
     changes: Vec<(Change, f32)>,
 }
 
@@ -194,7 +194,7 @@ fn maps_with_mistakes_are_refused() {
     }
 }
 
-/// How often robots that are carried to another place of a recording notice it, and where they find themselves then.
+/// Numbers of robots that are carried to another place of a recording and notice it, and that find themselves then.
 #[derive(Debug, Default, PartialEq)]
 struct Carried {
     unnoticed: usize,
