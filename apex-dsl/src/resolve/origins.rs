@@ -42,7 +42,7 @@ pub fn origins(params: &[ParamItem], args: &[Arg], around: &Origins, inside: &Sc
 /// Ranges of the graph's parameters that a node gets as they are, for each of its parameters.
 pub fn passed_on(signature: &Signature, args: &[Arg], origins: &Origins) -> Vec<Vec<Limits>> {
     let origin = |param: &ParamSig| origins.get(only_param(argument(args, &param.name)?)?);
-    let ranges = |param| origin(param).map(|origin| origin.ranges.clone()).unwrap_or_default();
+    let ranges = |param| origin(param).into_iter().flat_map(|origin| origin.ranges.clone()).collect();
     signature.params.iter().map(ranges).collect()
 }
 

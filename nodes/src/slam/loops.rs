@@ -37,8 +37,8 @@ impl ScanGraph {
     }
 
     /// Chains of consecutive scans that are near the scan `new`, but far away along the graph: for each of them the
-    /// nearest scan, and the length of the path to it. Scans to which there is no path are left out: those of a map on
-    /// which the robot is lost.
+    /// nearest scan, and the length of the path to it. Scans that no path reaches are left out: those of a map on which
+    /// the robot is lost.
     fn loop_candidates(&self, new: usize) -> Vec<(usize, f64)> {
         let Settings { travel, window_scans, drift, loop_distance, .. } = self.settings;
         let ways = self.ways(new);

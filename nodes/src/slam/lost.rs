@@ -96,7 +96,10 @@ impl Lost {
             self.found.extend(found.map(|found| (place.scan, found)));
         }
         map.scans[scan] = points;
-        let place = self.place(map.settings.loop_response).filter(|_| self.places.is_empty());
+        if !self.places.is_empty() {
+            return false;
+        }
+        let place = self.place(map.settings.loop_response);
         if let Some((place, found)) = place {
             join(map, self.first, *place, scan, found);
         }
@@ -122,15 +125,19 @@ impl Lost {
 fn places(map: &ScanGraph, first: usize, scan: usize) -> Vec<Place> {
     let poses = map.graph.poses();
     let mut places: Vec<Place> = Vec::new();
-    for (scan, pose) in poses.iter().enumerate().take(first) {
-        add(&mut places, Place { scan, at: *pose });
+    for (scan, at) in poses.iter().copied().enumerate().take(first) {
+        if is_apart(&places, &at) {
+            places.push(Place { scan, at });
+        }
     }
     for k in 0..places.len() {
         let Place { scan, at } = places[k];
+        let seen: Vec<(f64, f64)> = map.scans[scan].iter().map(|p| (p.angle().into(), p.norm().into())).collect();
         let around = (-ASIDE..=ASIDE).flat_map(|x| (-ASIDE..=ASIDE).map(move |y| (x, y)));
         for (x, y) in around.map(|(x, y)| (SPACING * f64::from(x), SPACING * f64::from(y))) {
-            if is_free(&map.scans[scan], x, y) {
-                add(&mut places, Place { scan, at: at * pose(x, y, 0.0) });
+            let at = at * pose(x, y, 0.0);
+            if is_apart(&places, &at) && is_free(&seen, x, y) {
+                places.push(Place { scan, at });
             }
         }
     }
@@ -156,18 +163,16 @@ fn join(map: &mut ScanGraph, first: usize, place: usize, scan: usize, found: &Ma
     map.spread.carry(scan, first, map.graph.poses());
 }
 
-/// Adds a place unless there is one nearby.
-fn add(places: &mut Vec<Place>, place: Place) {
-    if places.iter().all(|other| other.distance(&place.at) >= 0.999 * SPACING) {
-        places.push(place);
-    }
+/// Returns `true` if no place is near a pose.
+fn is_apart(places: &[Place], pose: &Pose) -> bool {
+    places.iter().all(|place| place.distance(pose) >= 0.999 * SPACING)
 }
 
-/// Returns `true` if the scanner saw something behind a position and nothing before it. It is in m in the frame of the
-/// robot.
-fn is_free(points: &[Point2], x: f64, y: f64) -> bool {
+/// Returns `true` if the scanner saw something behind a position and nothing before it. The position is in m in the
+/// frame of the robot, what was seen are angles and distances.
+fn is_free(seen: &[(f64, f64)], x: f64, y: f64) -> bool {
     let (distance, direction) = (x.hypot(y), y.atan2(x));
-    let turn = |p: &Point2| (f64::from(p.angle()) - direction + PI).rem_euclid(2.0 * PI) - PI;
-    let mut toward = points.iter().filter(|p| turn(p).abs() < CONE).peekable();
-    toward.peek().is_some() && toward.all(|p| f64::from(p.norm()) > distance)
+    let turn = |angle: f64| (angle - direction + PI).rem_euclid(2.0 * PI) - PI;
+    let mut toward = seen.iter().filter(|(angle, _)| turn(*angle).abs() < CONE).peekable();
+    toward.peek().is_some() && toward.all(|(_, range)| *range > distance)
 }

@@ -124,8 +124,6 @@ pub struct GraphSlam {
     file: &'static str,
     mapper: Option<Mapper>,
     directions: BeamDirections,
-    /// Number of scans of the map at the last firing.
-    mapped: usize,
     failed: bool,
 }
 
@@ -146,6 +144,7 @@ impl GraphSlam {
             Some(mapper) => mapper,
             None => self.open().inspect_err(|_| self.failed = true)?,
         };
+        let before = mapper.mapped();
         let mount = Pose2::new(self.mount_x, self.mount_y, self.mount_theta);
         let due = mapper.is_due(&odometry);
         let change = if due {
@@ -166,9 +165,7 @@ impl GraphSlam {
             estimate.set(MappedPose { pose: at, covariance, response: mapper.response() as f32 });
         }
         let count = mapper.mapped();
-        let grown = count != self.mapped;
-        self.mapped = count;
-        if grown && (change.is_some() || (count - 1).is_multiple_of(self.map_every.max(1) as usize)) {
+        if count != before && (change.is_some() || (count - 1).is_multiple_of(self.map_every.max(1) as usize)) {
             let scans = scans.get_mut();
             if self.whole {
                 mapper.write_scans(0..count, mount.position(), scans);
@@ -184,7 +181,7 @@ impl GraphSlam {
     #[slot]
     fn reset(&mut self) {
         self.mapper = Some(Mapper::new(self.settings()));
-        (self.mapped, self.failed) = (0, false);
+        self.failed = false;
     }
 
     /// Writes the map to its file.

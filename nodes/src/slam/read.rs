@@ -113,7 +113,10 @@ impl Content {
 
     fn add_scan(&mut self, words: &mut SplitWhitespace<'_>) -> Result<(), String> {
         let id = id(words)?;
-        let pose = *self.numbers.get(&id).ok_or_else(|| format!("there is no vertex {id} above its scan"))?;
+        let pose = *self
+            .numbers
+            .get(&id)
+            .ok_or_else(|| format!("a scan follows the line of its vertex, and vertex {id} has no line above"))?;
         let mut points = Vec::new();
         while let Some(x) = words.next() {
             let y = words.next().ok_or("the last point of the scan has no y: points are pairs of x and y")?;
@@ -266,7 +269,7 @@ mod tests {
             ("VERTEX_SE2 3 1 2 3", "there is a vertex 3 already: each vertex has one line"),
             ("VERTEX2 -1 1 2 3", "`-1` is not the id of a vertex, which is a whole number"),
             ("VERTEX_SE2", "the id of a vertex is missing, a whole number"),
-            ("SCAN 5 1 2", "there is no vertex 5 above its scan"),
+            ("SCAN 5 1 2", "a scan follows the line of its vertex, and vertex 5 has no line above"),
             ("SCAN 3 1 2 0.5", "the last point of the scan has no y: points are pairs of x and y"),
             ("SCAN 3 1 nan", "`nan` is not a finite number"),
             ("VERTEX_XY 1 2", "a line of a pose graph in the plane begins with `VERTEX_SE2` or `EDGE_SE2` (g2o), or"),

@@ -126,7 +126,7 @@ fn a_robot_that_is_carried_away_is_lost_and_found() {
 }
 
 #[test]
-fn somebody_before_the_scanner_does_not_make_it_lost() {
+fn a_person_before_the_scanner_does_not_make_it_lost() {
     let mut robot = explored();
     let at = robot.at.compose(&Pose2::new(0.7, 0.0, 0.0)).position();
     robot.world.disc(at, 0.45);
@@ -142,12 +142,19 @@ fn file(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("apex-slam-{}-{name}.g2o", std::process::id()))
 }
 
+/// Writes a map, and begins with it.
+fn read_again(mapper: &Mapper, name: &str) -> Mapper {
+    let file = file(name);
+    mapper.write(&file).expect("a temporary file");
+    let read = Mapper::read(&file, Settings::default()).expect("what was written");
+    std::fs::remove_file(&file).expect("it is there");
+    read
+}
+
 #[test]
 fn a_robot_finds_itself_again_on_a_saved_map() {
-    let (file, robot) = (file("saved"), explored());
-    robot.mapper.write(&file).expect("a temporary file");
-    let mapper = Mapper::read(&file, Settings::default()).expect("what was written");
-    std::fs::remove_file(&file).expect("it is there");
+    let robot = explored();
+    let mapper = read_again(&robot.mapper, "saved");
     assert_eq!(mapper.scans(), robot.mapper.scans());
     assert_eq!(mapper.graph().edges().len(), robot.mapper.graph().edges().len());
     let mapped = mapper.mapped();
@@ -169,10 +176,7 @@ fn a_place_that_looks_like_another_one_is_not_taken_for_it() {
     let mut robot = Robot::new(bare_room(), Mapper::new(Settings::default()), Pose2::new(2.0, 2.0, 0.0));
     robot.drive(6.0, 4.0);
     robot.drive(2.0, 3.0);
-    let file = file("bare");
-    robot.mapper.write(&file).expect("a temporary file");
-    let mapper = Mapper::read(&file, Settings::default()).expect("what was written");
-    std::fs::remove_file(&file).expect("it is there");
+    let mapper = read_again(&robot.mapper, "bare");
     let mut robot = Robot::new(bare_room(), mapper, Pose2::new(6.0, 2.0, 1.0));
     robot.drive(2.0, 4.0);
     robot.wait();
