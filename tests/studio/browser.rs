@@ -15,8 +15,9 @@ use std::{
 };
 use tungstenite::{Message, WebSocket, client};
 
-/// Time that a page has to show something.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// Time that a page has to show something. On a busy machine, one that takes nothing for ten seconds loses its
+/// connection, and begins again.
+const PATIENCE: Duration = Duration::from_secs(60);
 /// The control key, as a modifier of events.
 const CONTROL: u32 = 2;
 

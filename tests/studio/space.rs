@@ -68,6 +68,9 @@ fn seen(name: &'static str, nodes: &[&str]) -> Option<(Browser, Started)> {
 #[test]
 fn clouds_and_boxes_are_seen_in_space_and_the_mouse_moves_the_eye() {
     let Some((mut page, _robot)) = seen("space-cloud", &["wall_ahead", "box_ahead"]) else { return };
+    // The box stays beside the wall, wherever the robot is by then.
+    page.choose("document.querySelector('[data-channel^=box_ahead] select')", "option.value === 'pose.out'");
+    page.wait_for("document.getElementById('world').dataset.from === '2'");
     page.press("d");
     page.wait_for(&format!("!{SPACE}.hidden && document.getElementById('world').hidden"));
     page.wait_for(&format!("{PIXELS}.every((count) => count > 40)"));
