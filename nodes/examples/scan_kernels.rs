@@ -380,6 +380,7 @@ fn search_curves(_rounds: usize) {
         margin: 0.1,
         backing_gain: 2.5,
         straight: 0.0,
+        comes_straight: false,
         short: 0.0,
     };
     let map = hall(60);

@@ -23,7 +23,8 @@ use apex_rt::{Event, Out, node};
 /// drive, and backs up only over places that are free on it. Without it, floor is everywhere.
 ///
 /// After `stay_forward` the next way leads only forward, and after `begin_back` it begins backward, if there is such a
-/// way: for example because something that is not on the map holds the vehicle in the other direction. If something
+/// way: for example because something that is not on the map holds the vehicle in the other direction. After
+/// `come_straight` ways end with a straight line until the goal is another one, if there are such ways. If something
 /// stands at the goals, `turn` leads to a place up to `short` before one of them, from where it can be seen if it is
 /// still there. Without a way, the outputs are ⊥ and `no_path` gives the reason.
 #[node]
@@ -63,6 +64,10 @@ pub struct CurvePlanner {
     short: f32,
     /// Limit of the next way.
     next: Limit,
+    /// The last goal.
+    goal: Pose2,
+    /// `true` if ways to it end with a straight line.
+    comes_straight: bool,
     search: CurveSearch,
 }
 
@@ -98,8 +103,11 @@ impl CurvePlanner {
         let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry], clearance });
         let Self { radius, vehicle: shape, margin, straight, short, .. } = *self;
         let limit = core::mem::take(&mut self.next);
+        self.comes_straight &= self.goal == *goal;
+        self.goal = *goal;
         let load = [self.load_length, self.load_width];
-        let vehicle = CurveDrive { radius, shape, load, margin, backing_gain: self.backing_gain, straight, short };
+        let (backing_gain, comes_straight) = (self.backing_gain, self.comes_straight);
+        let vehicle = CurveDrive { radius, shape, load, margin, backing_gain, straight, comes_straight, short };
         let trailer = start.theta + trailer.filter(|pose| pose.is_finite()).map_or(0.0, |pose| pose.theta);
         let start = Start { pose: *start, trailer, is_back: false };
         let other_goal = Goal { pose: *other.unwrap_or(goal), cost: self.other_cost };
@@ -111,7 +119,10 @@ impl CurvePlanner {
             Limit::StaysForward => Some((CurveDrive { backing_gain: 0.0, ..vehicle }, start)),
             Limit::BeginsBack => Some((vehicle, Start { is_back: true, ..start })),
         };
-        let way = limited.and_then(|(vehicle, start)| search.plan(&ground, &vehicle, &start, goals).ok());
+        let straight = comes_straight.then_some((vehicle, start));
+        let mut preferred = limited.into_iter().chain(straight);
+        let way = preferred.find_map(|(vehicle, start)| search.plan(&ground, &vehicle, &start, goals).ok());
+        let vehicle = CurveDrive { comes_straight: false, ..vehicle };
         match way.map_or_else(|| search.plan(&ground, &vehicle, &start, goals), Ok) {
             Ok(way) => match way.first_section(path.get_mut(), back.get_mut()) {
                 Section::ToGoal => back.clear(),
@@ -136,6 +147,12 @@ impl CurvePlanner {
     #[slot]
     fn begin_back(&mut self) {
         self.next = Limit::BeginsBack;
+    }
+
+    /// Plans ways to this goal with a straight line at their ends, for example because the trailer was bent after a curve.
+    #[slot]
+    fn come_straight(&mut self) {
+        self.comes_straight = true;
     }
 }
 

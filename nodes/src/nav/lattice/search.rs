@@ -267,7 +267,8 @@ impl CurveSearch {
         let mut ways = core::mem::take(&mut self.curves);
         ways.clear();
         let lines = if vehicle.straight > 0.0 { LINES } else { 1 };
-        for straight in (0..lines).map(|i| vehicle.straight * f32::from(i) / f32::from(LINES - 1)) {
+        let first = u8::from(vehicle.comes_straight).min(lines - 1);
+        for straight in (first..lines).map(|i| vehicle.straight * f32::from(i) / f32::from(LINES - 1)) {
             let begin = goal.pose.compose(&Pose2::new(-straight, 0.0, 0.0));
             ways.extend(curves(&node.pose, &begin, vehicle.radius, straight));
         }

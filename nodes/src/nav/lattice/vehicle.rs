@@ -26,6 +26,8 @@ pub struct CurveDrive {
     pub backing_gain: f32,
     /// Longest straight line before a goal, in m, on which the trailer comes into line; 0 if it may be bent there.
     pub straight: f32,
+    /// `true` if there has to be such a line: the trailer may also come into line in a curve.
+    pub comes_straight: bool,
     /// Distance before a goal, in m, up to which a way may end if something stands at the goal.
     pub short: f32,
 }

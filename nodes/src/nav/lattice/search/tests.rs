@@ -18,6 +18,7 @@ const VEHICLE: CurveDrive = CurveDrive {
     margin: 0.05,
     backing_gain: 0.0,
     straight: 0.0,
+    comes_straight: false,
     short: 0.0,
 };
 const LOAD: [f32; 2] = [1.2, 0.7];
@@ -120,6 +121,23 @@ fn a_trailer_is_in_line_at_a_goal_that_asks_for_it() {
         let bend = bend_at_end(1.5, start, heading);
         assert!(bend <= IN_LINE, "{bend} rad from {start:?}");
     }
+}
+
+#[test]
+fn a_way_may_have_to_end_with_a_straight_line() {
+    let raster = Raster { corner: Point2::default(), resolution: 0.1, width: 120, height: 80 };
+    let map = Grid::new(raster, Occupancy::Free).expect("small");
+    let ground = Ground { terrain: Terrain { map: &map, costs: None, unknown_is_open: false }, floor: None };
+    let goal = Pose2::new(6.0, 4.0, 0.0);
+    let bend_before_end = |start: &Start, comes_straight: bool| {
+        let vehicle = CurveDrive { load: LOAD, straight: 2.4, comes_straight, ..VEHICLE };
+        let way = CurveSearch::default().plan(&ground, &vehicle, start, &[free(goal)]).expect("a way");
+        bend(&way.end.at(way.end.length() - 0.7).0, goal.theta)
+    };
+    let starts = (1..8).map(|k| at(Pose2::new(3.0 + 0.3 * k as f32, 1.5, FRAC_PI_2), FRAC_PI_2));
+    let bends: Vec<_> = starts.map(|start| [false, true].map(|is| bend_before_end(&start, is))).collect();
+    assert!(bends.iter().any(|bend| bend[0] > 0.1), "a curve brings the trailer into line: {bends:?}");
+    assert!(bends.iter().all(|bend| bend[1] < 0.01), "{bends:?}");
 }
 
 #[test]
