@@ -30,6 +30,8 @@ const DRAWN = {
   },
   "geometry_msgs/msg/PoseStamped": (pen, { pose }, color) => pen.arrow(posed(pose), color),
   "geometry_msgs/msg/Pose": (pen, pose, color) => pen.arrow(posed(pose), color),
+  "geometry_msgs/msg/PoseWithCovarianceStamped": (pen, { pose }, color) => uncertain(pen, pose, color),
+  "nav_msgs/msg/Odometry": (pen, { pose }, color) => uncertain(pen, pose, color),
   "nav_msgs/msg/Path": (pen, { poses }, color) => {
     /** @type {Pose[]} */
     const all = poses.map((/** @type {any} */ { pose }) => posed(pose)).filter((/** @type {Pose} */ { x }) => Number.isFinite(x));
@@ -64,6 +66,25 @@ const DRAWN = {
   "visualization_msgs/msg/MarkerArray": (pen, { markers }) => markers.forEach((/** @type {any} */ marker) => drawMarker(pen, marker)),
 };
 
+/** Points of an ellipse. */
+const CORNERS = 48;
+
+/** Draws a pose, and the ellipse of two standard deviations of its position. @param {Pen} pen @param {any} estimate @param {string} color */
+function uncertain(pen, { pose, covariance }, color) {
+  const own = posed(pose);
+  pen.arrow(own, color);
+  // A root of the covariance (Cholesky) makes the ellipse of a circle.
+  const [xx, xy, yy] = [covariance[0], covariance[1], covariance[7]];
+  const a = Math.sqrt(xx);
+  const b = a > 0 ? xy / a : 0;
+  const c = Math.sqrt(Math.max(0, yy - b * b));
+  if (!(a > 0 || c > 0)) return;
+  pen.line(Array.from({ length: CORNERS + 1 }, (_, at) => {
+    const angle = (2 * Math.PI * at) / CORNERS;
+    return [own.x + 2 * a * Math.cos(angle), own.y + 2 * (b * Math.cos(angle) + c * Math.sin(angle)), own.z];
+  }), color);
+}
+
 /** Draws a marker. Bodies are boxes of their size. @param {Pen} pen @param {any} marker */
 function drawMarker(pen, { type, action, pose, scale, color, points }) {
   const ADD = 0;
@@ -97,14 +118,17 @@ export const hasPlace = (schema) => schema in DRAWN;
 export const isMeasured = (schema) => ["sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"].includes(schema);
 
 /** `true` if tokens of a type can give others their place. @param {string} schema */
-export const isPose = (schema) => schema.startsWith("geometry_msgs/msg/Pose");
+export const isPose = (schema) => schema.startsWith("geometry_msgs/msg/Pose") || schema === "nav_msgs/msg/Odometry";
+
+/** The pose in a message for which that is true. @param {any} message @returns {any} */
+const poseIn = (message) => message.pose?.pose ?? message.pose ?? message;
 
 /** A token with a place, which may be seen from a pose. @typedef {{schema: string, message: any, from: any}} Token */
 
 /** Draws tokens; `seen` is told from where each is seen before it is drawn. @param {Pen} pen @param {Token[]} tokens @param {(from: Pose, draw: () => void) => void} seen */
 export function drawAll(pen, tokens, seen) {
   tokens.forEach(({ schema, message, from }, at) => {
-    seen(from ? posed(from.pose ?? from) : ORIGIN, () => DRAWN[schema](pen, message, COLORS[at % COLORS.length]));
+    seen(from ? posed(poseIn(from)) : ORIGIN, () => DRAWN[schema](pen, message, COLORS[at % COLORS.length]));
   });
 }
 

@@ -1,7 +1,7 @@
 //! `fusion.afg`: the tests of the source file, and sensors of a robot that drives to the north with 1 m/s.
 
 use apex_nodes::{
-    localize::{FusedPose, GeoFix, Inertial, TangentPlane},
+    localize::{GeoFix, Inertial, TangentPlane},
     scan::Pose2,
 };
 use apex_rt::prelude::*;
@@ -49,11 +49,4 @@ impl Receiver {
             ..GeoFix::default()
         }
     }
-}
-
-/// Standard deviation of the position.
-#[node]
-#[unit("m")]
-pub fn deviation(estimate: &FusedPose) -> f32 {
-    estimate.deviation()
 }

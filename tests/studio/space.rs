@@ -132,3 +132,31 @@ fn a_viewer_that_reads_slowly_gets_the_newest_tokens() {
     }
     assert!(tokens < 500, "{tokens} tokens have waited");
 }
+
+#[test]
+fn an_uncertain_pose_has_an_ellipse() {
+    let Some((mut page, _robot)) = seen("space-ellipse", &[]) else { return };
+    // Of all points of the ellipse, the Mahalanobis distance from the pose is 2.
+    let distances = "import('./drawn.js').then(({ drawAll, hasPlace }) => {
+        const drawn = [];
+        const pen = { arrow: () => {}, line: (all) => drawn.push(...all) };
+        const orientation = { x: 0, y: 0, z: 0, w: 1 };
+        const covariance = Array(36).fill(0);
+        [covariance[0], covariance[1], covariance[6], covariance[7]] = [0.5, 0.2, 0.2, 0.3];
+        const estimate = { pose: { position: { x: 3, y: -1, z: 0 }, orientation }, covariance };
+        const schemas = ['geometry_msgs/msg/PoseWithCovarianceStamped', 'nav_msgs/msg/Odometry'];
+        const from = { pose: { pose: estimate.pose } };
+        drawAll(pen, schemas.map((schema) => ({ schema, message: { pose: estimate }, from: null })), (_, draw) => draw());
+        const seen = [];
+        drawAll(pen, [{ schema: schemas[0], message: { pose: { ...estimate, covariance: Array(36).fill(0) } }, from }], ({ x }) => seen.push(x));
+        const distance = ([x, y]) => {
+            const [dx, dy, determinant] = [x - 3, y + 1, 0.5 * 0.3 - 0.2 * 0.2];
+            return Math.sqrt((0.3 * dx * dx - 2 * 0.2 * dx * dy + 0.5 * dy * dy) / determinant);
+        };
+        return [schemas.every(hasPlace), drawn.length, Math.min(...drawn.map(distance)), Math.max(...drawn.map(distance)), seen];
+    })";
+    let found = page.value(distances);
+    assert_eq!((&found[0], &found[1], &found[4]), (&true.into(), &98.into(), &serde_json::json!([3])));
+    let [least, most] = [2, 3].map(|at| found[at].as_f64().expect("a distance"));
+    assert!((least - 2.0).abs() < 1e-9 && (most - 2.0).abs() < 1e-9, "{least} {most}");
+}

@@ -531,7 +531,7 @@ mod tests {
             let occupied = map.iter().filter(|(_, cell)| **cell == Occupancy::Occupied);
             occupied.map(|(cell, _)| map.raster().centre(cell).x).collect::<Vec<f32>>()
         };
-        assert_eq!(look(), [], "one cloud may be wrong");
+        assert!(look().is_empty(), "one cloud may be wrong");
         let ahead = look();
         let map = map.get().expect("a map");
         assert!(!ahead.is_empty() && ahead.iter().all(|x| (0.7..0.9).contains(x)), "{ahead:?}");

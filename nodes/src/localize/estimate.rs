@@ -1,18 +1,14 @@
 use super::{bins::Bins, particle::Particle};
-use crate::scan::{Point2, Pose2, wrap_angle};
+use crate::scan::{Point2, Pose2, UncertainPose, wrap_angle};
 
 /// Radius of a cluster of particles, in m and rad.
 const RADIUS: f32 = 1.0;
 const ANGLE: f32 = 0.6;
 
-/// Pose of the robot on the map, and its certainty.
+/// Agreement of an estimated pose with the particles and with the last scan.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct PoseEstimate {
-    /// Mean of the heaviest cluster of particles.
-    pub pose: Pose2,
-    /// Covariance of x, y and heading in the cluster, in m², m rad and rad².
-    pub covariance: [[f32; 3]; 3],
+pub struct PoseFit {
     /// Weight of the cluster among all particles, from 0 to 1.
     pub share: f32,
     /// Share of the beams that agree with the map at the pose.
@@ -23,14 +19,18 @@ pub struct PoseEstimate {
     pub particles: u32,
 }
 
-impl PoseEstimate {
-    /// Standard deviation of the position: the root of the sum of both variances, in m.
-    pub fn deviation(&self) -> f32 {
-        (self.covariance[0][0] + self.covariance[1][1]).sqrt()
-    }
+/// Particles that are near to one another.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Cluster {
+    /// Their mean and covariance.
+    pub estimate: UncertainPose,
+    /// Their weight among all particles, from 0 to 1.
+    pub share: f32,
+}
 
-    /// Heaviest cluster of particles whose weights have the sum 1.
-    pub(super) fn of(particles: &[Particle], bins: &mut Bins) -> Self {
+impl Cluster {
+    /// The heaviest one of particles whose weights have the sum 1.
+    pub fn heaviest(particles: &[Particle], bins: &mut Bins) -> Self {
         bins.clear();
         let mut heaviest = (0.0, Pose2::default());
         for particle in particles {
@@ -39,24 +39,26 @@ impl PoseEstimate {
                 heaviest = (weight, particle.pose);
             }
         }
-        let mut estimate = Self { pose: heaviest.1, particles: particles.len() as u32, ..Self::default() };
+        let estimate = UncertainPose { pose: heaviest.1, ..UncertainPose::default() };
+        let mut cluster = Self { estimate, share: 0.0 };
         for _ in 0..3 {
-            estimate.recentre(particles);
+            cluster.recentre(particles);
         }
-        estimate
+        cluster
     }
 
     /// Moves the pose to the mean of the particles around it.
     fn recentre(&mut self, particles: &[Particle]) {
+        let middle = self.estimate.pose;
         let near = |p: &&Particle| {
-            let offset = p.pose.position() - self.pose.position();
-            offset.norm_squared() < RADIUS * RADIUS && turn(p, &self.pose).abs() < ANGLE
+            let offset = p.pose.position() - middle.position();
+            offset.norm_squared() < RADIUS * RADIUS && turn(p, &middle).abs() < ANGLE
         };
         let (mut sum, mut mean) = (0.0, [0.0; 3]);
         let mut squares = [[0.0; 3]; 3];
         for particle in particles.iter().filter(near) {
-            let Point2 { x, y } = particle.pose.position() - self.pose.position();
-            let offset = [x, y, turn(particle, &self.pose)];
+            let Point2 { x, y } = particle.pose.position() - middle.position();
+            let offset = [x, y, turn(particle, &middle)];
             sum += particle.weight;
             for i in 0..3 {
                 mean[i] += particle.weight * offset[i];
@@ -69,10 +71,9 @@ impl PoseEstimate {
             return;
         }
         mean = mean.map(|value| value / sum);
-        self.covariance = core::array::from_fn(|i| core::array::from_fn(|j| squares[i][j] / sum - mean[i] * mean[j]));
-        self.share = sum.min(1.0);
-        let Pose2 { x, y, theta } = self.pose;
-        self.pose = Pose2::new(x + mean[0], y + mean[1], wrap_angle(theta + mean[2]));
+        let covariance = core::array::from_fn(|i| core::array::from_fn(|j| squares[i][j] / sum - mean[i] * mean[j]));
+        let pose = Pose2::new(middle.x + mean[0], middle.y + mean[1], wrap_angle(middle.theta + mean[2]));
+        *self = Self { estimate: UncertainPose { pose, covariance }, share: sum.min(1.0) };
     }
 }
 
@@ -96,10 +97,10 @@ mod tests {
             particles.push(Particle { pose: Pose2::new(3.0 + side, 1.0, theta), weight: 0.007 });
             particles.push(Particle { pose: Pose2::new(9.0, 5.0, 0.0), weight: 0.003 });
         }
-        let estimate = PoseEstimate::of(&particles, &mut Bins::new(200));
+        let Cluster { estimate, share } = Cluster::heaviest(&particles, &mut Bins::new(200));
         assert!((estimate.pose.x - 3.0).abs() < 1e-3 && (estimate.pose.theta.abs() - PI).abs() < 1e-3, "{estimate:?}");
-        assert!((estimate.share - 0.7).abs() < 1e-3 && (estimate.deviation() - 0.1).abs() < 1e-3, "{estimate:?}");
+        assert!((share - 0.7).abs() < 1e-3 && (estimate.deviation() - 0.1).abs() < 1e-3, "{share} {estimate:?}");
         assert!((estimate.covariance[2][2] - 0.0025).abs() < 1e-4, "{estimate:?}");
-        assert_eq!(PoseEstimate::of(&[], &mut Bins::new(4)), PoseEstimate::default());
+        assert_eq!(Cluster::heaviest(&[], &mut Bins::new(4)), Cluster::default());
     }
 }

@@ -1,13 +1,14 @@
 use super::{
-    BeamModel, MotionNoise, PoseEstimate, SearchSettings, VisibilityTable,
+    BeamModel, MotionNoise, PoseFit, SearchSettings, VisibilityTable,
     beam::Beams,
     bins::{Bins, enough_particles},
+    estimate::Cluster,
     particle::{Particle, cumulate, drawn, normalize},
     search::Search,
 };
 use crate::{
     math::Random,
-    scan::{BeamDirections, Pose2, Scan},
+    scan::{BeamDirections, Pose2, Scan, UncertainPose},
 };
 
 /// Minimum number of measured beams of a scan that is used.
@@ -118,7 +119,8 @@ pub struct Filter {
     random: Random,
     /// Odometry at the last used scan.
     odometry: Pose2,
-    estimate: PoseEstimate,
+    estimate: UncertainPose,
+    fit: PoseFit,
     is_localized: bool,
     /// Number of used scans in a row that agreed.
     confirmed: u32,
@@ -150,7 +152,8 @@ impl Filter {
             search: Search::new(settings.search),
             random: Random::new(settings.seed),
             odometry: Pose2::default(),
-            estimate: PoseEstimate::default(),
+            estimate: UncertainPose::default(),
+            fit: PoseFit::default(),
             is_localized: false,
             confirmed: 0,
             at_start: 0,
@@ -171,9 +174,14 @@ impl Filter {
         self.is_localized
     }
 
-    /// Estimate at the last used scan.
-    pub const fn estimate(&self) -> &PoseEstimate {
+    /// Estimate at the last used scan: mean and covariance of the heaviest cluster of particles.
+    pub const fn estimate(&self) -> &UncertainPose {
         &self.estimate
+    }
+
+    /// Agreement of that estimate with the particles and the scan.
+    pub const fn fit(&self) -> &PoseFit {
+        &self.fit
     }
 
     /// Poses of all particles.
@@ -203,7 +211,14 @@ impl Filter {
         self.odometry = *odometry;
         (self.is_localized, self.confirmed, self.at_start) = (false, 0, AT_START);
         (self.fast, self.slow) = (0.0, 0.0);
-        self.estimate = PoseEstimate::of(&self.particles, &mut self.bins);
+        self.gather();
+    }
+
+    /// Takes the heaviest cluster of particles for the pose.
+    fn gather(&mut self) {
+        let Cluster { estimate, share } = Cluster::heaviest(&self.particles, &mut self.bins);
+        self.estimate = estimate;
+        self.fit = PoseFit { share, particles: self.particles.len() as u32, ..PoseFit::default() };
     }
 
     /// Returns `true` if a scan at this odometry would be used: the first one, those that confirm a given pose, and
@@ -282,11 +297,11 @@ impl Filter {
 
     /// Estimates the pose, decides if it is known, and draws the next generation.
     fn judge(&mut self, predicted: &Pose2) -> Option<Change> {
-        self.estimate = PoseEstimate::of(&self.particles, &mut self.bins);
+        self.gather();
         let agreement = self.exact.agreement(&self.table, &self.estimate.pose);
-        (self.estimate.hits, self.estimate.beyond) = (agreement.hits, agreement.beyond);
+        (self.fit.hits, self.fit.beyond) = (agreement.hits, agreement.beyond);
         let Settings { certain, agreement, .. } = self.settings;
-        let PoseEstimate { pose, hits, share, .. } = self.estimate;
+        let (UncertainPose { pose, .. }, PoseFit { hits, share, .. }) = (self.estimate, self.fit);
         let was = self.is_localized;
         let jumped = (pose.position() - predicted.position()).norm() > JUMP;
         if was {
@@ -332,7 +347,7 @@ impl Filter {
             // Only the given pose is asked for: other places may look alike until the robot moves.
             false if self.at_start > 0 => 0.0,
             // Much furniture, or a person beside the scanner: the pose is kept.
-            true if self.estimate.hits >= self.settings.agreement => 0.0,
+            true if self.fit.hits >= self.settings.agreement => 0.0,
             true => worse - 0.2,
             false => worse.max(0.05),
         };

@@ -18,12 +18,10 @@ mod table;
 
 pub use beam::BeamModel;
 pub use cache::Cached;
-pub use estimate::PoseEstimate;
+pub use estimate::PoseFit;
 pub use filter::{Change, Filter, Settings};
 #[cfg(feature = "fuse")]
-pub use fuse::{
-    FixUse, FusePose, FusedPose, FusionSettings, GeoFix, Inertial, PlaceFix, PoseFilter, PositionFix, TangentPlane,
-};
+pub use fuse::{FixUse, FusePose, FusionSettings, GeoFix, Inertial, PlaceFix, PoseFilter, PositionFix, TangentPlane};
 pub use motion::MotionNoise;
 pub use node::{LocalizerError, VectorMapLocalizer};
 pub use search::SearchSettings;

@@ -1,10 +1,10 @@
 use super::{
-    BeamModel, Filter, MotionNoise, PoseEstimate, SearchSettings, Settings, TableError, TableSettings, VisibilityTable,
+    BeamModel, Filter, MotionNoise, PoseFit, SearchSettings, Settings, TableError, TableSettings, VisibilityTable,
     filter::Change,
 };
 use crate::{
     io::{PlanOptions, ReadError, read_plan},
-    scan::{Pose2, Scan},
+    scan::{Pose2, Scan, UncertainPose},
 };
 use apex_rt::{Event, Out, node};
 use core::{f32::consts::PI, fmt};
@@ -38,6 +38,7 @@ impl core::error::Error for LocalizerError {}
 ///
 /// `odometry` is the pose of the robot at the time of the scan, in any frame without jumps. `pose` is the pose on the
 /// plan; it is ⊥ while the robot does not know it. `estimate` is the best guess, also then, with its covariance.
+/// `fit` says how well particles and scan agree with it.
 /// Without an `initial` pose the robot begins anywhere in the building, and has to drive some metres. With one that
 /// scans confirm the pose is known after some scans, before the robot moves. `localized` comes
 /// with the pose as soon as it is known; `lost` if scans no longer agree with the plan, for example because the robot
@@ -126,7 +127,8 @@ impl VectorMapLocalizer {
         odometry: &Pose2,
         scan: &Scan,
         pose: &mut Out<Pose2>,
-        estimate: &mut Out<PoseEstimate>,
+        estimate: &mut Out<UncertainPose>,
+        fit: &mut Out<PoseFit>,
         localized: Event<Pose2>,
         lost: Event<()>,
     ) -> Result<(), LocalizerError> {
@@ -150,7 +152,8 @@ impl VectorMapLocalizer {
         if filter.is_localized() {
             pose.set(here);
         }
-        estimate.set(PoseEstimate { pose: here, ..*filter.estimate() });
+        estimate.set(UncertainPose { pose: here, ..*filter.estimate() });
+        fit.set(*filter.fit());
         self.filter = Some(filter);
         Ok(())
     }
@@ -241,15 +244,16 @@ mod tests {
 
     struct Sent {
         pose: Option<Pose2>,
-        estimate: Option<PoseEstimate>,
+        estimate: Option<UncertainPose>,
         localized: bool,
         lost: bool,
     }
 
     fn fire(node: &mut VectorMapLocalizer, odometry: &Pose2, scan: &Scan) -> Result<Sent, LocalizerError> {
-        let (mut pose, mut estimate, mut localized, mut lost) = (Out::new(), Out::new(), None, None);
+        let (mut pose, mut estimate, mut fit) = (Out::new(), Out::new(), Out::new());
+        let (mut localized, mut lost) = (None, None);
         let events = (apex_rt::event(&mut localized), apex_rt::event(&mut lost));
-        node.process(odometry, scan, &mut pose, &mut estimate, events.0, events.1)?;
+        node.process(odometry, scan, &mut pose, &mut estimate, &mut fit, events.0, events.1)?;
         let (pose, estimate) = (pose.get().copied(), estimate.get().copied());
         Ok(Sent { pose, estimate, localized: localized.is_some(), lost: lost.is_some() })
     }

@@ -1,11 +1,12 @@
 //! ROS 2 messages of scans, poses and points, which Foxglove and Python can show.
 
 pub(crate) use super::foreign::{FromPose, poses};
-use super::{Point2, Pose2, Ranges, Scan};
+use super::{Point2, Pose2, Ranges, Scan, UncertainPose};
 use apex_messages::{
     Foreign, Reason, converted,
     geometry_msgs::{
-        Point, PointStamped, Pose, PoseStamped, PoseWithCovariance, Quaternion, Transform, TwistWithCovariance, Vector3,
+        Point, PointStamped, Pose, PoseStamped, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion, Transform,
+        TwistWithCovariance, Vector3,
     },
     nav_msgs::Odometry,
     sensor_msgs::LaserScan,
@@ -79,6 +80,54 @@ impl TryFrom<PoseStamped> for Pose2 {
 }
 
 converted!(Pose2 as PoseStamped, outside = |pose| PoseStamped { pose: seen(pose), ..pose.into() }, others = poses());
+
+/// Places of x, y and heading among the six of a covariance in a message.
+const PLACES: [usize; 3] = [0, 1, 5];
+
+impl UncertainPose {
+    /// The message with this orientation.
+    fn message(&self, pose: Pose) -> PoseWithCovarianceStamped {
+        let mut covariance = [0.0; 36];
+        for (row, i) in self.covariance.iter().zip(PLACES) {
+            row.iter().zip(PLACES).for_each(|(value, j)| covariance[6 * i + j] = f64::from(*value));
+        }
+        let pose = PoseWithCovariance { pose, covariance };
+        PoseWithCovarianceStamped { header: Header::new(Time::ZERO, FRAME), pose }
+    }
+}
+
+impl From<&UncertainPose> for PoseWithCovarianceStamped {
+    fn from(estimate: &UncertainPose) -> Self {
+        estimate.message((&estimate.pose).into())
+    }
+}
+
+/// Pose as seen from above. Height and tilt are left out, and so are their variances.
+impl TryFrom<PoseWithCovariance> for UncertainPose {
+    type Error = Reason;
+
+    fn try_from(PoseWithCovariance { pose, covariance }: PoseWithCovariance) -> Result<Self, Reason> {
+        let covariance = PLACES.map(|i| PLACES.map(|j| covariance[6 * i + j] as f32));
+        Ok(Self { pose: PoseStamped { pose, ..PoseStamped::default() }.try_into()?, covariance })
+    }
+}
+
+impl TryFrom<PoseWithCovarianceStamped> for UncertainPose {
+    type Error = Reason;
+
+    fn try_from(message: PoseWithCovarianceStamped) -> Result<Self, Reason> {
+        message.pose.try_into()
+    }
+}
+
+converted!(
+    UncertainPose as PoseWithCovarianceStamped,
+    outside = |estimate| estimate.message(seen(&estimate.pose)),
+    others = vec![
+        Foreign::of::<PoseWithCovariance>(|message, _| Self::try_from(PoseWithCovariance::read(message)?).map(Some)),
+        Foreign::of::<Odometry>(|message, _| Self::try_from(Odometry::read(message)?.pose).map(Some)),
+    ]
+);
 
 /// Pose with the orientation as a rotation, which is the same for a heading of a turn more.
 pub(crate) fn seen(pose: &Pose2) -> Pose {
@@ -250,6 +299,28 @@ pub(crate) mod tests {
             }
             assert_eq!(header, Header::new(Time::from_nanos(1), "map"));
         }
+    }
+
+    #[test]
+    fn estimates_come_back_with_their_covariances_also_from_odometry() {
+        let covariance = [[0.1, 0.01, -0.02], [0.01, 0.2, 0.03], [-0.02, 0.03, 0.3]];
+        for theta in [0.4, 40.0] {
+            let estimate = UncertainPose { pose: Pose2::new(1.0, 2.0, theta), covariance };
+            assert_eq!(reason(&bytes(&estimate)), Ok(estimate));
+        }
+        let estimate = UncertainPose { pose: Pose2::new(1.0, 2.0, 0.5), covariance };
+        let PoseWithCovarianceStamped { pose, .. } = (&estimate).into();
+        let odometry = Odometry { pose, ..Odometry::default() };
+        let others = UncertainPose::others();
+        let of_odometry = others.iter().find(|known| known.name == Odometry::NAME).expect("known");
+        let read = Reader::new(&odometry.to_bytes()).and_then(|mut message| (of_odometry.read)(&mut message, ""));
+        assert_eq!(read, Ok(Some(estimate)));
+        // For others, the orientation is always a rotation.
+        let (turned, mut bytes) = (UncertainPose { pose: Pose2::new(1.0, 2.0, 40.0), covariance }, vec![]);
+        turned.write(&mut Writer::new(&mut bytes).for_others(Outside { zero: 0, now: 1, frame: Some("map") }));
+        let read: UncertainPose = reason(&bytes).expect("a pose");
+        assert!((libm::sinf(0.5 * (read.pose.theta - 40.0))).abs() < 1e-5, "{read:?}");
+        assert_eq!(read.covariance, covariance);
     }
 
     #[test]

@@ -19,6 +19,7 @@ mod mount;
 mod ranges;
 mod remember;
 mod segment;
+mod uncertain;
 mod wheel;
 
 pub use carried::HideCarried;
@@ -33,3 +34,4 @@ pub use mount::{MergeScans, MountScan, OtherBeams};
 pub use ranges::{MAX_BEAMS, Ranges, TooManyBeams};
 pub use remember::{Containers, RememberContainers};
 pub use segment::{JumpDistance, MAX_SEGMENTS, Segment, SegmentFilter, Segments, TooManySegments};
+pub use uncertain::{UncertainPose, position_deviation};

@@ -28,7 +28,7 @@ pub use kernel::RobustKernel;
 pub use lost::Change;
 pub use mapper::Mapper;
 pub use matcher::Window;
-pub use node::{GraphSlam, MappedPose, SlamError};
+pub use node::{GraphSlam, SlamError};
 pub use posed::{PosedScans, selected_scans};
 pub use settings::Settings;
 

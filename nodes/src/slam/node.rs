@@ -1,32 +1,11 @@
 use super::{Change, Mapper, Pose, PosedScans, Settings, Window, heading, pose, selected_scans};
 use crate::{
     io::ReadError,
-    scan::{BeamDirections, Pose2, Scan},
+    scan::{BeamDirections, Pose2, Scan, UncertainPose},
 };
 use apex_rt::{Event, Out, node};
 use core::{f32::consts::PI, fmt};
 use std::path::Path;
-
-/// Pose on the map of a [`GraphSlam`], and how sure it is.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct MappedPose {
-    /// Corrected pose in the frame of the map.
-    pub pose: Pose2,
-    /// Covariance of x, y and heading along the axes of the map, in m², m rad and rad²: the drift since the first scan,
-    /// by the path of measurements that says most.
-    pub covariance: [[f32; 3]; 3],
-    /// Agreement of the last kept scan with the scans before: 1 if all its points are where they have points, 0 if it
-    /// has none within reach.
-    pub response: f32,
-}
-
-impl MappedPose {
-    /// Standard deviation of the position: the root of the sum of both variances, in m.
-    pub fn deviation(&self) -> f32 {
-        (self.covariance[0][0] + self.covariance[1][1]).sqrt()
-    }
-}
 
 /// Error of the map of a [`GraphSlam`].
 #[derive(Debug)]
@@ -57,7 +36,9 @@ impl core::error::Error for SlamError {}
 /// for every `map_every`-th one, otherwise ⊥. With `whole` they are all of them, not a bounded number. If odometry is
 /// not a number or more than 100 km away, all outputs are ⊥ and the scan is not used.
 ///
-/// `estimate` says how sure the pose is. `lost` comes after three scans in a row that agree neither with those before
+/// `estimate` says how sure the pose is: its covariance is the drift since the first scan, by the path of measurements
+/// that says most. `response` is the agreement of the last kept scan with the scans before: 1 if all its points are
+/// where they have points, 0 if it has none within reach. `lost` comes after three scans in a row that agree neither with those before
 /// nor with odometry, each `travel` or `turn` after the other: the robot was carried away, or its wheels slipped by
 /// metres. Then all outputs are ⊥, and the node compares what it sees with the whole map. `localized` comes with the
 /// pose as soon as one place alone fits; this takes a firing for two metres of the path of the map, and the robot may
@@ -135,7 +116,8 @@ impl GraphSlam {
         scan: &Scan,
         pose: &mut Out<Pose2>,
         scans: &mut Out<PosedScans>,
-        estimate: &mut Out<MappedPose>,
+        estimate: &mut Out<UncertainPose>,
+        response: &mut Out<f32>,
         localized: Event<Pose2>,
         lost: Event<()>,
     ) -> Result<(), SlamError> {
@@ -162,7 +144,8 @@ impl GraphSlam {
         if let Some(covariance) = mapper.covariance(&odometry) {
             pose.set(at);
             let covariance = core::array::from_fn(|i| core::array::from_fn(|j| covariance[(i, j)] as f32));
-            estimate.set(MappedPose { pose: at, covariance, response: mapper.response() as f32 });
+            estimate.set(UncertainPose { pose: at, covariance });
+            response.set(mapper.response() as f32);
         }
         let count = mapper.mapped();
         if count != before && (change.is_some() || (count - 1).is_multiple_of(self.map_every.max(1) as usize)) {
@@ -253,16 +236,16 @@ mod tests {
     struct Sent {
         pose: Option<Pose2>,
         scans: Option<PosedScans>,
-        estimate: Option<MappedPose>,
+        estimate: Option<UncertainPose>,
         localized: Option<Pose2>,
         lost: bool,
     }
 
     fn fire(node: &mut GraphSlam, odometry: &Pose2, scan: &Scan) -> Result<Sent, SlamError> {
-        let (mut pose, mut scans, mut estimate) = (Out::new(), Out::new(), Out::new());
+        let (mut pose, mut scans, mut estimate, mut response) = (Out::new(), Out::new(), Out::new(), Out::new());
         let (mut localized, mut lost) = (None, None);
         let events = (event(&mut localized), event(&mut lost));
-        node.process(odometry, scan, &mut pose, &mut scans, &mut estimate, events.0, events.1)?;
+        node.process(odometry, scan, &mut pose, &mut scans, &mut estimate, &mut response, events.0, events.1)?;
         let (scans, lost) = (scans.get().cloned(), lost.is_some());
         Ok(Sent { pose: pose.get().copied(), scans, estimate: estimate.get().copied(), localized, lost })
     }

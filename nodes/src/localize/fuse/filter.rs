@@ -6,10 +6,10 @@ use super::{
 };
 use crate::{
     localize::{Change, MotionNoise},
-    scan::{Point2, Pose2, wrap_angle},
+    scan::{Point2, Pose2, UncertainPose},
 };
 use apex_rt::Time;
-use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 /// Number of states: x, y, heading, bias of the gyroscope, length of a metre of the wheels, slow error of the fixes.
 pub(super) const STATES: usize = 7;
@@ -82,41 +82,6 @@ impl Default for FusionSettings {
             patience: 15.0,
             align: 10.0,
         }
-    }
-}
-
-/// Pose in the frame of the fixes, and what else is estimated.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct FusedPose {
-    /// Pose. That of odometry while no other one is known.
-    pub pose: Pose2,
-    /// Covariance of x, y and heading, in m², m rad and rad².
-    pub covariance: [[f32; 3]; 3],
-    /// Bias of the gyroscope, in rad/s.
-    pub bias: f32,
-    /// Length of a metre by wheels, in m.
-    pub scale: f32,
-}
-
-impl FusedPose {
-    /// Standard deviation of the position: the root of the sum of both variances, in m.
-    pub fn deviation(&self) -> f32 {
-        (self.covariance[0][0] + self.covariance[1][1]).sqrt()
-    }
-
-    /// Standard deviation of the heading, in rad.
-    pub fn heading_deviation(&self) -> f32 {
-        self.covariance[THETA][THETA].sqrt()
-    }
-
-    /// Squared error of x, y and heading, normalised by the covariance (NEES): 3 in the mean, if that is right. `None`
-    /// if the covariance has no inverse.
-    pub fn normalized_error(&self, truth: &Pose2) -> Option<f64> {
-        let (offset, turn) = (self.pose.position() - truth.position(), wrap_angle(self.pose.theta - truth.theta));
-        let error = Vector3::new(offset.x, offset.y, turn).map(f64::from);
-        let covariance = Matrix3::from_fn(|i, j| f64::from(self.covariance[i][j]));
-        covariance.try_inverse().map(|inverse| error.dot(&(inverse * error)))
     }
 }
 
@@ -211,14 +176,20 @@ impl PoseFilter {
         self.odometry.into()
     }
 
-    /// Pose in the frame of the fixes, and its certainty.
-    pub fn estimate(&self) -> FusedPose {
-        FusedPose {
-            pose: self.place().into(),
-            covariance: core::array::from_fn(|i| core::array::from_fn(|j| self.covariance[(i, j)] as f32)),
-            bias: self.state[BIAS] as f32,
-            scale: self.state[SCALE] as f32,
-        }
+    /// Pose in the frame of the fixes, that of odometry while no other one is known.
+    pub fn estimate(&self) -> UncertainPose {
+        let covariance = core::array::from_fn(|i| core::array::from_fn(|j| self.covariance[(i, j)] as f32));
+        UncertainPose { pose: self.place().into(), covariance }
+    }
+
+    /// Bias of the gyroscope, in rad/s.
+    pub fn bias(&self) -> f32 {
+        self.state[BIAS] as f32
+    }
+
+    /// Length of a metre by wheels, in m.
+    pub fn scale(&self) -> f32 {
+        self.state[SCALE] as f32
     }
 
     fn place(&self) -> Place {

@@ -12,7 +12,7 @@ mod past;
 #[cfg(test)]
 mod tests;
 
-pub use filter::{FixUse, FusedPose, FusionSettings, PoseFilter};
+pub use filter::{FixUse, FusionSettings, PoseFilter};
 pub use fix::{GeoFix, PlaceFix, PositionFix, TangentPlane};
 pub use inertial::Inertial;
 pub use node::FusePose;

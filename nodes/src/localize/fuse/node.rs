@@ -1,7 +1,7 @@
-use super::{FusedPose, FusionSettings, Inertial, PoseFilter, PositionFix};
+use super::{FusionSettings, Inertial, PoseFilter, PositionFix};
 use crate::{
     localize::{Change, MotionNoise},
-    scan::{Point2, Pose2},
+    scan::{Point2, Pose2, UncertainPose},
 };
 use apex_rt::{Ctx, Event, Out, node};
 
@@ -17,7 +17,7 @@ const TURNED: f32 = 0.2;
 /// `pose` is the pose in the frame of the fixes, x to the east, which jumps with each of them. It is ⊥ until it is
 /// known: satellites tell no heading, which follows from eleven fixes on a way of `align` that agree with odometry,
 /// or from an `initial` pose. `estimate` has its covariance, which grows without fixes. Before the pose is known, it
-/// is that of `odometry`.
+/// is that of `odometry`. `bias` is that of the gyroscope, and `scale` the length of a metre by wheels.
 ///
 /// `localized` comes with the pose as soon as it is known. A fix beyond the gate is not used; if none was used for
 /// `patience`, while others came, `lost` comes, and the pose is found again as at the beginning. Without a gyroscope
@@ -91,7 +91,9 @@ impl FusePose {
         wheels: &Pose2,
         odometry: &mut Out<Pose2>,
         pose: &mut Out<Pose2>,
-        estimate: &mut Out<FusedPose>,
+        estimate: &mut Out<UncertainPose>,
+        #[unit("rad/s")] bias: &mut Out<f32>,
+        #[unit("m")] scale: &mut Out<f32>,
         localized: Event<Pose2>,
         lost: Event<()>,
     ) {
@@ -110,6 +112,8 @@ impl FusePose {
         }
         odometry.set(filter.odometry());
         estimate.set(known);
+        bias.set(filter.bias());
+        scale.set(filter.scale());
         if filter.is_localized() {
             pose.set(known.pose);
         }

@@ -125,19 +125,6 @@ impl World {
     }
 }
 
-#[test]
-fn errors_are_normalized_by_their_covariance() {
-    let error = |[x, y, theta]: [f32; 3], covariance| {
-        FusedPose { pose: Pose2::new(x, y, theta), covariance, ..FusedPose::default() }
-            .normalized_error(&Pose2::default())
-    };
-    let covariance = [[4.0, 1.0, 0.0], [1.0, 9.0, 0.5], [0.0, 0.5, 1.0]];
-    assert!((error([1.0, 2.0, 3.0], covariance).expect("an inverse") - 9.257352941).abs() < 1e-6);
-    let level = [[4.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    assert!((error([2.0, 0.0, 0.0], level).expect("an inverse") - 1.0).abs() < 1e-9);
-    assert_eq!(error([2.0, 0.0, 0.0], [[0.0; 3]; 3]), None);
-}
-
 fn move_by(pose: &mut [f64; 3], [x, y]: [f64; 2], turn: f64) {
     let (sin, cos) = (pose[2] + 0.5 * turn).sin_cos();
     *pose = [pose[0] + x * cos - y * sin, pose[1] + x * sin + y * cos, wrapped(pose[2] + turn)];
