@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     math::Random,
-    scan::{BeamDirections, Pose2, Scan, UncertainPose},
+    scan::{BeamDirections, Pose2, PoseChange, Scan, UncertainPose},
 };
 
 /// Minimum number of measured beams of a scan that is used.
@@ -88,15 +88,6 @@ impl Default for Settings {
             seed: 1,
         }
     }
-}
-
-/// Change of what is known about the pose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Change {
-    /// The pose is known from now on.
-    Localized,
-    /// The pose is no longer known.
-    Lost,
 }
 
 /// Adaptive Monte Carlo localization on a map of line segments (thesis 6.9): a particle filter with a beam model, a
@@ -233,7 +224,7 @@ impl Filter {
 
     /// Takes the odometry and a scan. The scan is used if it [is due](Self::is_due). Returns a change
     /// of what is known about the pose.
-    pub fn update(&mut self, odometry: &Pose2, scan: &Scan) -> Option<Change> {
+    pub fn update(&mut self, odometry: &Pose2, scan: &Scan) -> Option<PoseChange> {
         let step = odometry.relative_to(&self.odometry);
         let is_first = self.particles.is_empty();
         if !self.is_due(odometry) {
@@ -296,7 +287,7 @@ impl Filter {
     }
 
     /// Estimates the pose, decides if it is known, and draws the next generation.
-    fn judge(&mut self, predicted: &Pose2) -> Option<Change> {
+    fn judge(&mut self, predicted: &Pose2) -> Option<PoseChange> {
         self.gather();
         let agreement = self.exact.agreement(&self.table, &self.estimate.pose);
         (self.fit.hits, self.fit.beyond) = (agreement.hits, agreement.beyond);
@@ -314,8 +305,8 @@ impl Filter {
         }
         self.resample();
         match (was, self.is_localized) {
-            (false, true) => Some(Change::Localized),
-            (true, false) => Some(Change::Lost),
+            (false, true) => Some(PoseChange::Localized),
+            (true, false) => Some(PoseChange::Lost),
             _ => None,
         }
     }
@@ -472,14 +463,14 @@ mod tests {
         let mut known = |given: &Pose2| {
             filter.begin(given, &at, (0.2, 0.2));
             let mut random = Random::new(3);
-            let changes: Vec<Option<Change>> = (0..30)
+            let changes: Vec<Option<PoseChange>> = (0..30)
                 .map(|_| {
                     let scan = scan(&filter, &truth, &mut random);
                     filter.update(&at, &scan)
                 })
                 .collect();
             let error = (filter.pose_at(&at).position() - truth.position()).norm();
-            (changes.iter().position(|change| *change == Some(Change::Localized)), error)
+            (changes.iter().position(|change| *change == Some(PoseChange::Localized)), error)
         };
         let (after, error) = known(&truth.compose(&Pose2::new(0.15, -0.1, 0.05)));
         assert!(after.is_some_and(|scans| scans < 10) && error < 0.1, "{after:?}, {error} m");

@@ -19,7 +19,7 @@ mod table;
 pub use beam::BeamModel;
 pub use cache::Cached;
 pub use estimate::PoseFit;
-pub use filter::{Change, Filter, Settings};
+pub use filter::{Filter, Settings};
 #[cfg(feature = "fuse")]
 pub use fuse::{FixUse, FusePose, FusionSettings, GeoFix, Inertial, PlaceFix, PoseFilter, PositionFix, TangentPlane};
 pub use motion::MotionNoise;

@@ -1,10 +1,9 @@
 use super::{
     BeamModel, Filter, MotionNoise, PoseFit, SearchSettings, Settings, TableError, TableSettings, VisibilityTable,
-    filter::Change,
 };
 use crate::{
     io::{PlanOptions, ReadError, read_plan},
-    scan::{Pose2, Scan, UncertainPose},
+    scan::{Pose2, PoseChange, Scan, UncertainPose},
 };
 use apex_rt::{Event, Out, node};
 use core::{f32::consts::PI, fmt};
@@ -144,8 +143,8 @@ impl VectorMapLocalizer {
             filter.begin(&initial, odometry, (self.initial_spread, TURNED));
         }
         match filter.update(odometry, scan) {
-            Some(Change::Localized) => localized.emit(filter.pose_at(odometry)),
-            Some(Change::Lost) => lost.emit(()),
+            Some(PoseChange::Localized) => localized.emit(filter.pose_at(odometry)),
+            Some(PoseChange::Lost) => lost.emit(()),
             None => {}
         }
         let here = filter.pose_at(odometry);

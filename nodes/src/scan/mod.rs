@@ -34,4 +34,4 @@ pub use mount::{MergeScans, MountScan, OtherBeams};
 pub use ranges::{MAX_BEAMS, Ranges, TooManyBeams};
 pub use remember::{Containers, RememberContainers};
 pub use segment::{JumpDistance, MAX_SEGMENTS, Segment, SegmentFilter, Segments, TooManySegments};
-pub use uncertain::{UncertainPose, position_deviation};
+pub use uncertain::{PoseChange, UncertainPose, position_deviation};

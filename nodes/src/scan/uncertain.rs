@@ -36,6 +36,15 @@ impl UncertainPose {
     }
 }
 
+/// Change of what is known about the pose of a robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PoseChange {
+    /// It is known from now on.
+    Localized,
+    /// It is no longer known: measurements contradict it.
+    Lost,
+}
+
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -29,15 +29,6 @@ const RIVAL: f64 = 0.85;
 /// Maximum distance and difference of the headings of two poses at the same place, in m and rad.
 const SAME: (f64, f64) = (0.5, 0.3);
 
-/// Change of what a [`Mapper`] knows about the robot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Change {
-    /// The place of the robot on the map is known.
-    Localized,
-    /// Scans agree neither with those before nor with odometry.
-    Lost,
-}
-
 /// Place at which the robot may be.
 #[derive(Debug, Clone, Copy)]
 struct Place {

@@ -1,10 +1,10 @@
 use super::{
-    Change, Pose, PoseGraph, Settings, Window, heading,
+    Pose, PoseGraph, Settings, Window, heading,
     lost::{ENOUGH, Lost},
     scan_graph::ScanGraph,
     spread::odometry_information,
 };
-use crate::scan::Point2;
+use crate::scan::{Point2, PoseChange};
 use nalgebra::Matrix3;
 
 /// Number of due scans in a row that agree with none before, after which the robot is lost: a single one is wrong where
@@ -117,7 +117,7 @@ impl Mapper {
 
     /// Keeps a scan, given by its points in the frame of the robot, and corrects the poses. A scan that agrees with no
     /// other is not kept.
-    pub fn add(&mut self, odometry: &Pose, mut points: Vec<Point2>) -> Option<Change> {
+    pub fn add(&mut self, odometry: &Pose, mut points: Vec<Point2>) -> Option<PoseChange> {
         points.retain(|p| f64::from(p.norm()) <= self.map.settings.reach);
         self.looked = *odometry;
         let first = self.lost.as_ref().map_or(0, |lost| lost.first);
@@ -145,7 +145,7 @@ impl Mapper {
     }
 
     /// Passes over a scan that agrees with none before. After some of them the robot is lost.
-    fn doubt(&mut self, odometry: &Pose, points: Vec<Point2>) -> Option<Change> {
+    fn doubt(&mut self, odometry: &Pose, points: Vec<Point2>) -> Option<PoseChange> {
         self.doubts += 1;
         if self.doubts < DOUBTS {
             return None;
@@ -153,7 +153,7 @@ impl Mapper {
         let (pose, mapped) = (self.locate(odometry), self.mapped());
         // What a lost robot has seen before it is lost again belongs to no place.
         self.map.truncate(mapped);
-        let change = (!self.is_lost()).then_some(Change::Lost);
+        let change = (!self.is_lost()).then_some(PoseChange::Lost);
         self.lost = Some(Lost::new(mapped));
         self.keep(odometry, pose, points);
         change
@@ -178,11 +178,11 @@ impl Mapper {
     /// heading, which takes some milliseconds. Does nothing while the robot is not lost.
     ///
     /// If the scan fits one place alone, all that was seen since the robot was lost gets to its place on the map.
-    pub fn search(&mut self) -> Option<Change> {
+    pub fn search(&mut self) -> Option<PoseChange> {
         let is_found = self.lost.as_mut()?.search(&mut self.map);
         is_found.then(|| {
             self.lost = None;
-            Change::Localized
+            PoseChange::Localized
         })
     }
 }

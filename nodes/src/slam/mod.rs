@@ -25,7 +25,6 @@ pub use drawer::{DrawScans, ScanDrawer};
 pub use edge::Edge;
 pub use graph::{NoSuchPose, Optimized, PoseGraph};
 pub use kernel::RobustKernel;
-pub use lost::Change;
 pub use mapper::Mapper;
 pub use matcher::Window;
 pub use node::{GraphSlam, SlamError};

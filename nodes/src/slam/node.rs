@@ -1,7 +1,7 @@
-use super::{Change, Mapper, Pose, PosedScans, Settings, Window, heading, pose, selected_scans};
+use super::{Mapper, Pose, PosedScans, Settings, Window, heading, pose, selected_scans};
 use crate::{
     io::ReadError,
-    scan::{BeamDirections, Pose2, Scan, UncertainPose},
+    scan::{BeamDirections, Pose2, PoseChange, Scan, UncertainPose},
 };
 use apex_rt::{Event, Out, node};
 use core::{f32::consts::PI, fmt};
@@ -137,8 +137,8 @@ impl GraphSlam {
         };
         let at = shown(&mapper.locate(&odometry));
         match change {
-            Some(Change::Localized) => localized.emit(at),
-            Some(Change::Lost) => lost.emit(()),
+            Some(PoseChange::Localized) => localized.emit(at),
+            Some(PoseChange::Lost) => lost.emit(()),
             None => {}
         }
         if let Some(covariance) = mapper.covariance(&odometry) {

@@ -5,8 +5,8 @@ use crate::{
     recordings::{Recording, fr079, intel, play},
 };
 use apex_nodes::{
-    scan::{Point2, Pose2, Scan},
-    slam::{Change, Mapper, Pose, Settings, heading, pose},
+    scan::{Point2, Pose2, PoseChange, Scan},
+    slam::{Mapper, Pose, Settings, heading, pose},
 };
 use apex_sim::{Laser, Odometry, OdometryNoise, Random, World};
 use nalgebra::Vector3;
@@ -42,7 +42,7 @@ struct Robot {
     odometry: Pose2,
     random: Random,
     /// Changes of the mapper, and the distance of the estimated from the true pose then, in m.
-    changes: Vec<(Change, f32)>,
+    changes: Vec<(PoseChange, f32)>,
 }
 
 impl Robot {
@@ -113,13 +113,13 @@ fn a_robot_that_is_carried_away_is_lost_and_found() {
         robot.drive(robot.at.x - 0.2, robot.at.y);
         assert!(robot.at.x > 8.0, "the robot does not notice it");
     }
-    assert_eq!(robot.changes[0].0, Change::Lost);
+    assert_eq!(robot.changes[0].0, PoseChange::Lost);
     let odometry = double(&robot.odometry);
     assert!(robot.mapper.is_lost() && robot.mapper.covariance(&odometry).is_none());
     assert_eq!(robot.mapper.mapped(), mapped, "what it sees is not in the map");
     robot.drive(4.0, 2.0);
     robot.wait();
-    assert!(matches!(robot.changes[1..], [(Change::Localized, error)] if error < 0.15), "{:?}", robot.changes);
+    assert!(matches!(robot.changes[1..], [(PoseChange::Localized, error)] if error < 0.15), "{:?}", robot.changes);
     assert!(robot.mapper.mapped() > mapped && robot.mapper.covariance(&odometry).is_some());
     robot.drive(2.0, 9.0);
     assert!(robot.changes.len() == 2 && robot.error() < 0.15, "{:?}, {} m", robot.changes, robot.error());
@@ -165,7 +165,7 @@ fn a_robot_finds_itself_again_on_a_saved_map() {
         robot.origin = Pose2::new(-50.0, 20.0, 1.0);
         robot.odometry = robot.origin;
         robot.wait();
-        assert!(matches!(robot.changes[..], [(Change::Localized, error)] if error < 0.2), "{:?}", robot.changes);
+        assert!(matches!(robot.changes[..], [(PoseChange::Localized, error)] if error < 0.2), "{:?}", robot.changes);
         robot.drive(3.0, 3.0);
         assert!(robot.mapper.mapped() > mapped && robot.error() < 0.2, "{} m", robot.error());
     }
@@ -216,8 +216,8 @@ fn carry(mapper: &mut Mapper, last: &Pose, scans: &[(Pose, Vec<Point2>)], truth:
         for _ in 0..10 {
             let due = mapper.is_due(&odometry);
             match if due { mapper.add(&odometry, points.clone()) } else { mapper.search() } {
-                Some(Change::Lost) => is_lost = true,
-                Some(Change::Localized) => return (is_lost, Some(truth[i].inv_mul(&mapper.locate(&odometry)))),
+                Some(PoseChange::Lost) => is_lost = true,
+                Some(PoseChange::Localized) => return (is_lost, Some(truth[i].inv_mul(&mapper.locate(&odometry)))),
                 None => {}
             }
         }

@@ -5,8 +5,8 @@ use super::{
     past::{Past, Place, seconds, vector, wrapped},
 };
 use crate::{
-    localize::{Change, MotionNoise},
-    scan::{Point2, Pose2, UncertainPose},
+    localize::MotionNoise,
+    scan::{Point2, Pose2, PoseChange, UncertainPose},
 };
 use apex_rt::Time;
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
@@ -307,7 +307,7 @@ impl PoseFilter {
 
     /// Corrects the pose by a fix, which may have been measured some time ago: it then tells where the antenna was
     /// before the steps since. While no pose is known, the first fix and one that is far enough from it give it.
-    pub fn fix(&mut self, fix: &PositionFix) -> (FixUse, Option<Change>) {
+    pub fn fix(&mut self, fix: &PositionFix) -> (FixUse, Option<PoseChange>) {
         let is_usable = fix.position.x.abs() <= 1e5 && fix.position.y.abs() <= 1e5;
         let Some(past) = self.past.at(fix.stamp).filter(|_| is_usable) else { return (FixUse::Unusable, None) };
         let antenna = past.to_outer(vector(self.settings.antenna));
@@ -371,13 +371,13 @@ impl PoseFilter {
     }
 
     /// Notes a refused fix. After too long a time of them the pose is lost.
-    fn refuse(&mut self, stamp: Time) -> Option<Change> {
+    fn refuse(&mut self, stamp: Time) -> Option<PoseChange> {
         let since = *self.refused.get_or_insert(stamp);
         if seconds(since, stamp) < f64::from(self.settings.patience) {
             return None;
         }
         self.forget();
-        Some(Change::Lost)
+        Some(PoseChange::Lost)
     }
 
     /// Forgets the pose, but not the errors of the sensors.
@@ -402,7 +402,7 @@ impl PoseFilter {
 
     /// Begins at a pose in the frame of the fixes, with standard deviations of its position in m and of its heading in
     /// rad. One that is not a number is ignored.
-    pub fn begin(&mut self, pose: &Pose2, (position, heading): (f32, f32)) -> Option<Change> {
+    pub fn begin(&mut self, pose: &Pose2, (position, heading): (f32, f32)) -> Option<PoseChange> {
         if !pose.is_usable() {
             return None;
         }
@@ -411,11 +411,11 @@ impl PoseFilter {
             self.covariance[(i, i)] = square(spread);
         }
         (self.is_localized, self.refused) = (true, None);
-        Some(Change::Localized)
+        Some(PoseChange::Localized)
     }
 
     /// Finds the pose from several fixes, if they agree with odometry.
-    fn align(&mut self, fix: [f64; 2], antenna: [f64; 2], variance: f64) -> Option<Change> {
+    fn align(&mut self, fix: [f64; 2], antenna: [f64; 2], variance: f64) -> Option<PoseChange> {
         let FusionSettings { align, gate, motion, .. } = self.settings;
         let align = f64::from(align).max(0.1);
         if !self.alignment.put(fix, antenna, align) {
@@ -442,7 +442,7 @@ impl PoseFilter {
         }
         (self.is_localized, self.refused) = (true, None);
         self.alignment = Alignment::default();
-        Some(Change::Localized)
+        Some(PoseChange::Localized)
     }
 }
 

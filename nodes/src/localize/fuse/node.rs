@@ -1,7 +1,7 @@
 use super::{FusionSettings, Inertial, PoseFilter, PositionFix};
 use crate::{
-    localize::{Change, MotionNoise},
-    scan::{Point2, Pose2, UncertainPose},
+    localize::MotionNoise,
+    scan::{Point2, Pose2, PoseChange, UncertainPose},
 };
 use apex_rt::{Ctx, Event, Out, node};
 
@@ -79,7 +79,7 @@ pub struct FusePose {
     initial_spread: f32,
     filter: Option<PoseFilter>,
     /// Change that has not been sent.
-    change: Option<Change>,
+    change: Option<PoseChange>,
 }
 
 #[node]
@@ -103,8 +103,8 @@ impl FusePose {
         let is_used = filter.drive(now, wheels);
         let known = filter.estimate();
         match change {
-            Some(Change::Localized) => localized.emit(known.pose),
-            Some(Change::Lost) => lost.emit(()),
+            Some(PoseChange::Localized) => localized.emit(known.pose),
+            Some(PoseChange::Lost) => lost.emit(()),
             None => {}
         }
         if !is_used || !known.pose.is_usable() {

@@ -7,9 +7,8 @@ use super::{
     *,
 };
 use crate::{
-    localize::Change,
     math::Random,
-    scan::{Point2, Pose2},
+    scan::{Point2, Pose2, PoseChange},
 };
 use apex_rt::Time;
 use core::f32::consts::{FRAC_PI_2, PI};
@@ -66,7 +65,7 @@ impl World {
     }
 
     /// Drives for a period of the wheels, and measures. Returns what the filter made of a fix.
-    fn step(&mut self, filter: &mut PoseFilter, speed: f64, rate: f64) -> Option<(FixUse, Option<Change>)> {
+    fn step(&mut self, filter: &mut PoseFilter, speed: f64, rate: f64) -> Option<(FixUse, Option<PoseChange>)> {
         let settings = self.settings;
         for _ in 0..RATES {
             let dt = PERIOD / RATES as f64;
@@ -107,7 +106,7 @@ impl World {
     }
 
     /// Drives along curves to both sides for so many seconds.
-    fn drive(&mut self, filter: &mut PoseFilter, seconds: f64) -> Vec<(FixUse, Option<Change>)> {
+    fn drive(&mut self, filter: &mut PoseFilter, seconds: f64) -> Vec<(FixUse, Option<PoseChange>)> {
         let steps = (seconds / PERIOD) as usize;
         let rate = |i: usize| 0.4 * (0.01 * i as f64).sin();
         (0..steps).filter_map(|i| self.step(filter, 1.5, rate(i))).collect()
@@ -226,8 +225,9 @@ fn a_jump_of_fixes_is_refused_and_a_lasting_one_is_believed() {
     assert!(world.drive(&mut filter, 1.0).iter().any(|(fix, _)| matches!(fix, FixUse::Used(_))));
     // Someone has carried it away.
     (world.pose[0], world.pose[1], world.pose[2]) = (200.0, 300.0, -1.0);
-    let changes: Vec<Change> = world.drive(&mut filter, 40.0).into_iter().filter_map(|(_, change)| change).collect();
-    assert_eq!(changes, [Change::Lost, Change::Localized]);
+    let changes: Vec<PoseChange> =
+        world.drive(&mut filter, 40.0).into_iter().filter_map(|(_, change)| change).collect();
+    assert_eq!(changes, [PoseChange::Lost, PoseChange::Localized]);
     assert!(world.error(&filter) < 5.0, "{}", world.error(&filter));
 }
 
@@ -239,8 +239,8 @@ fn the_heading_follows_from_the_motion() {
         let mut world = World::new(settings, 70 + seed, [100.0, 50.0, 0.1 * seed as f64 - 2.5]);
         let mut filter = PoseFilter::new(settings);
         let fixes = world.drive(&mut filter, 60.0);
-        let changes: Vec<Change> = fixes.into_iter().filter_map(|(_, change)| change).collect();
-        assert_eq!(changes, [Change::Localized], "seed {seed}");
+        let changes: Vec<PoseChange> = fixes.into_iter().filter_map(|(_, change)| change).collect();
+        assert_eq!(changes, [PoseChange::Localized], "seed {seed}");
         let turn = wrapped(filter.state[THETA] - world.pose[2]);
         assert!(turn.abs() < 0.3 && world.error(&filter) < 6.0, "seed {seed}: {turn} {}", world.error(&filter));
         nees += world.nees(&filter) / 50.0;

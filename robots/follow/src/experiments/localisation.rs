@@ -1,8 +1,8 @@
 use crate::world::{Options, State};
 use apex_nodes::{
-    localize::{Change, FixUse, FusionSettings, PoseFilter, PositionFix},
+    localize::{FixUse, FusionSettings, PoseFilter, PositionFix},
     nav::Twist,
-    scan::{Pose2, wrap_angle},
+    scan::{Pose2, PoseChange, wrap_angle},
 };
 use apex_rt::Time;
 use apex_sim::{
@@ -184,7 +184,7 @@ impl Errors {
         let (used, change) = filter.fix(fix);
         self.fixes[0] += u64::from(matches!(used, FixUse::Used(_)));
         self.fixes[1] += u64::from(matches!(used, FixUse::Used(_) | FixUse::Refused(_)));
-        self.losses += u64::from(change == Some(Change::Lost));
+        self.losses += u64::from(change == Some(PoseChange::Lost));
     }
 
     /// Adds the error at a time, while the pose is known.

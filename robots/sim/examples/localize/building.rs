@@ -2,8 +2,8 @@
 
 use crate::{draw::Picture, for_each_seed, options::Options, table};
 use apex_nodes::{
-    localize::{Change, Filter, Settings, VisibilityTable},
-    scan::Scan,
+    localize::{Filter, Settings, VisibilityTable},
+    scan::{PoseChange, Scan},
 };
 use apex_sim::{Building, Laser, Random, Tour};
 use std::{fs, path::Path, time::Instant};
@@ -95,7 +95,7 @@ fn drive(tour: &mut Tour, filter: &mut Filter, scan: &mut Scan, score: &mut Scor
         if trace && (change.is_some() || i % 10 == 0) {
             println!("{:5.1} s {error:7.2} m {change:?} {:?}", i as f32 * PERIOD, filter.estimate());
         }
-        score.lost += usize::from(change == Some(Change::Lost));
+        score.lost += usize::from(change == Some(PoseChange::Lost));
         if filter.is_localized() {
             if error <= WRONG {
                 score.time = score.time.or(Some(i as f32 * PERIOD));
@@ -161,11 +161,11 @@ pub fn draw(options: &Options, plan: &Path, file: &Path) -> Result<(), String> {
         let odometry = tour.drive(PERIOD);
         tour.scan(&mut scan);
         let change = filter.update(&odometry, &scan);
-        if i == 0 || i == 15 || change == Some(Change::Localized) {
+        if i == 0 || i == 15 || change == Some(PoseChange::Localized) {
             let caption = format!("After {:.1} s", i as f32 * PERIOD);
             picture.add(&caption, &plan, &tour.building().world, &filter, tour.pose());
         }
-        if change == Some(Change::Localized) {
+        if change == Some(PoseChange::Localized) {
             break;
         }
     }

@@ -3,9 +3,9 @@
 use crate::{for_each_seed, log, options::Options, table};
 use apex_nodes::{
     io::{self, PlanOptions, read_plan},
-    localize::{Change, Filter, Settings, VisibilityTable},
+    localize::{Filter, Settings, VisibilityTable},
     map::VectorMap,
-    scan::Point2,
+    scan::{Point2, PoseChange},
 };
 use std::path::{Path, PathBuf};
 
@@ -83,8 +83,8 @@ fn play(recording: &log::Recording, table: &VisibilityTable, settings: Settings,
         let error = offset.norm();
         score.scored += 1;
         match change {
-            Some(Change::Localized) => score.way = score.way.or(Some(way)),
-            Some(Change::Lost) => score.lost += 1,
+            Some(PoseChange::Localized) => score.way = score.way.or(Some(way)),
+            Some(PoseChange::Lost) => score.lost += 1,
             None => {}
         }
         if filter.is_localized() {
