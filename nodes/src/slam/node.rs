@@ -38,11 +38,11 @@ impl core::error::Error for SlamError {}
 ///
 /// `estimate` says how sure the pose is: its covariance is the drift since the first scan, by the path of measurements
 /// that says most. `response` is the agreement of the last kept scan with the scans before: 1 if all its points are
-/// where they have points, 0 if it has none within reach. `lost` comes after three scans in a row that agree neither with those before
-/// nor with odometry, each `travel` or `turn` after the other: the robot was carried away, or its wheels slipped by
-/// metres. Then all outputs are ⊥, and the node compares what it sees with the whole map. `localized` comes with the
-/// pose as soon as one place alone fits; this takes a firing for two metres of the path of the map, and the robot may
-/// have to move if places look alike. What was seen in the meantime gets into the map.
+/// where they have points, 0 if it has none within reach. `lost` comes after three scans in a row that agree neither
+/// with those before nor with odometry, each `travel` or `turn` after the other: the robot was carried away, or its
+/// wheels slipped by metres. Then all outputs are ⊥, and the node compares what it sees with the whole map. `localized`
+/// comes with the pose as soon as one place alone fits; this takes a firing for two metres of the path of the map, and
+/// the robot may have to move if places look alike. What was seen in the meantime gets into the map.
 ///
 /// With a `file` the node begins lost on the map that the slot `save` wrote there, if there is one; `pose` is then in
 /// the frame of that map, which grows.

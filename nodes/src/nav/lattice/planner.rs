@@ -149,7 +149,8 @@ impl CurvePlanner {
         self.next = Limit::BeginsBack;
     }
 
-    /// Plans ways to this goal with a straight line at their ends, for example because the trailer was bent after a curve.
+    /// Plans ways to this goal with a straight line at their ends, for example because the trailer was bent after a
+    /// curve.
     #[slot]
     fn come_straight(&mut self) {
         self.comes_straight = true;
