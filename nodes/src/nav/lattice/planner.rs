@@ -80,6 +80,19 @@ enum Limit {
     BeginsBack,
 }
 
+impl Limit {
+    /// What is planned with as long as there is such a way: within the limit, and only then without it, but straight at
+    /// the end if the vehicle comes so.
+    fn preferred(self, vehicle: CurveDrive, start: Start) -> impl Iterator<Item = (CurveDrive, Start)> {
+        let limited = match self {
+            Self::None => None,
+            Self::StaysForward => Some((CurveDrive { backing_gain: 0.0, ..vehicle }, start)),
+            Self::BeginsBack => Some((vehicle, Start { is_back: true, ..start })),
+        };
+        limited.into_iter().chain(vehicle.comes_straight.then_some((vehicle, start)))
+    }
+}
+
 #[node]
 impl CurvePlanner {
     #[allow(clippy::too_many_arguments, reason = "they are the ports")]
@@ -102,7 +115,6 @@ impl CurvePlanner {
         let clearance = self.clearance;
         let floor = floor.zip(odometry).map(|(map, odometry)| Floor { map, start: [*start, *odometry], clearance });
         let Self { radius, vehicle: shape, margin, straight, short, .. } = *self;
-        let limit = core::mem::take(&mut self.next);
         self.comes_straight &= self.goal == *goal;
         self.goal = *goal;
         let load = [self.load_length, self.load_width];
@@ -113,17 +125,11 @@ impl CurvePlanner {
         let other_goal = Goal { pose: *other.unwrap_or(goal), cost: self.other_cost };
         let both = [Goal { pose: *goal, cost: 0.0 }, other_goal];
         let goals = &both[..1 + usize::from(other.is_some())];
-        let (ground, search) = (Ground { terrain, floor }, &mut self.search);
-        let limited = match limit {
-            Limit::None => None,
-            Limit::StaysForward => Some((CurveDrive { backing_gain: 0.0, ..vehicle }, start)),
-            Limit::BeginsBack => Some((vehicle, Start { is_back: true, ..start })),
-        };
-        let straight = comes_straight.then_some((vehicle, start));
-        let mut preferred = limited.into_iter().chain(straight);
-        let way = preferred.find_map(|(vehicle, start)| search.plan(&ground, &vehicle, &start, goals).ok());
-        let vehicle = CurveDrive { comes_straight: false, ..vehicle };
-        match way.map_or_else(|| search.plan(&ground, &vehicle, &start, goals), Ok) {
+        let ground = Ground { terrain, floor };
+        let mut plan = |(vehicle, start)| self.search.plan(&ground, &vehicle, &start, goals);
+        let mut preferred = core::mem::take(&mut self.next).preferred(vehicle, start);
+        let way = preferred.find_map(|preferred| plan(preferred).ok());
+        match way.map_or_else(|| plan((CurveDrive { comes_straight: false, ..vehicle }, start)), Ok) {
             Ok(way) => match way.first_section(path.get_mut(), back.get_mut()) {
                 Section::ToGoal => back.clear(),
                 Section::ToTurn => {
@@ -194,10 +200,23 @@ mod tests {
         (path.get().is_some_and(|path| path.points.len() > 9), is_back, none.is_some())
     }
 
+    fn planner() -> CurvePlanner {
+        CurvePlanner::construct((0.7, Articulated::PATSY, 0.0, 0.0, 0.1, Clearance::PATSY, 2.5, 0.0, 2.4, 0.0))
+    }
+
+    #[test]
+    fn ways_are_straight_at_the_end_until_the_goal_is_another_one() {
+        let mut node = planner();
+        node.come_straight();
+        assert_eq!((plan(&mut node, Occupancy::Free), node.comes_straight), ((true, false, false), false));
+        node.come_straight();
+        let again = [plan(&mut node, Occupancy::Free), plan(&mut node, Occupancy::Free)];
+        assert_eq!((again, node.comes_straight), ([(true, false, false); 2], true));
+    }
+
     #[test]
     fn a_limit_that_leaves_no_way_is_dropped() {
-        let mut node =
-            CurvePlanner::construct((0.7, Articulated::PATSY, 0.0, 0.0, 0.1, Clearance::PATSY, 2.5, 0.0, 0.0, 0.0));
+        let mut node = planner();
         assert_eq!(plan(&mut node, Occupancy::Free), (true, false, false));
         node.begin_back();
         assert_eq!(plan(&mut node, Occupancy::Free), (false, true, false));
