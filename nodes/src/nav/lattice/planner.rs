@@ -81,8 +81,8 @@ enum Limit {
 }
 
 impl Limit {
-    /// What is planned with as long as there is such a way: within the limit, and only then without it, but straight at
-    /// the end if the vehicle comes so.
+    /// Vehicles and starts with which ways are preferred, in sequence: within the limit, then without it, but straight
+    /// at the end if the vehicle comes so.
     fn preferred(self, vehicle: CurveDrive, start: Start) -> impl Iterator<Item = (CurveDrive, Start)> {
         let limited = match self {
             Self::None => None,
