@@ -1,9 +1,6 @@
 //! The crates that are scanned, and the place from which a graph refers to them.
 
-use super::{
-    cfg::Conditions,
-    items::{Item, read as read_items},
-};
+use super::{cfg::Conditions, items::Item, read::read as read_items};
 use crate::source::World;
 use std::{
     collections::{BTreeMap, BTreeSet},
