@@ -3,7 +3,7 @@
 mod common;
 
 use apex_messages::{
-    geometry_msgs::{TransformStamped, TwistStamped},
+    geometry_msgs::{PoseWithCovarianceStamped, TransformStamped, TwistStamped},
     nav_msgs::{OccupancyGrid, Odometry},
     sensor_msgs::LaserScan,
     std_msgs::{Float64, Header},
@@ -11,7 +11,7 @@ use apex_messages::{
 };
 use apex_nodes::{
     nav::Twist,
-    scan::{Pose2, Scan},
+    scan::{Pose2, Scan, UncertainPose},
 };
 use apex_ros::{Distribution, Kind};
 use apex_rt::{Clock as _, Time};
@@ -83,6 +83,30 @@ fn tokens_are_read_from_and_written_as_other_messages() {
     assert_eq!((poses.all()[0], twists.all()[0], parts.all()[0]), (pose, twist, pose));
     let error = receiver.subscribe("odom").of::<Float64>().each::<Pose2>(|_| {}).map(drop).expect_err("no pose");
     assert!(error.to_string().contains("is not read from `std_msgs/msg/Float64`, but from"), "{error}");
+}
+
+#[test]
+fn how_sure_a_pose_is_goes_along() {
+    let router = Router::start();
+    let (sender, receiver) = (router.node("localizer").open().expect("a"), router.node("planner").open().expect("b"));
+    let (estimates, messages, poses) = (Collected::new(), Collected::new(), Collected::new());
+    receiver.subscribe("amcl_pose").each::<UncertainPose>(estimates.collector()).expect("a topic");
+    receiver.subscribe("amcl_pose").each::<PoseWithCovarianceStamped>(messages.collector()).expect("a topic");
+    // As RViz sends it to a robot whose place it knows.
+    let initial = receiver.subscribe("amcl_pose").of::<PoseWithCovarianceStamped>();
+    initial.each::<Pose2>(poses.collector()).expect("a topic");
+    let publisher = sender.publish("amcl_pose").frame("map").open::<UncertainPose>().expect("a topic");
+    let covariance = [[0.25, 0.1, 0.0], [0.1, 0.5, 0.0], [0.0, 0.0, 0.0625]];
+    let estimate = UncertainPose { pose: Pose2::new(1.0, -2.0, 0.5), covariance };
+    within(15.0, "all three", || {
+        publisher.send(&estimate).expect("it is there");
+        thread::sleep(Duration::from_millis(20));
+        !estimates.all().is_empty() && !messages.all().is_empty() && !poses.all().is_empty()
+    });
+    assert_eq!((estimates.all()[0], poses.all()[0]), (estimate, estimate.pose));
+    let message = messages.all().remove(0);
+    let [x, y, turn] = [0, 7, 35].map(|at| message.pose.covariance[at]);
+    assert_eq!((message.header.frame_id.as_str(), [x, y, turn]), ("map", [0.25, 0.5, 0.0625]));
 }
 
 #[test]
