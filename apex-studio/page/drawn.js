@@ -118,7 +118,7 @@ export const hasPlace = (schema) => schema in DRAWN;
 export const isMeasured = (schema) => ["sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"].includes(schema);
 
 /** `true` if tokens of a type can give others their place. @param {string} schema */
-export const isPose = (schema) => schema.startsWith("geometry_msgs/msg/Pose") || schema === "nav_msgs/msg/Odometry";
+export const isPose = (schema) => /^geometry_msgs\/msg\/Pose(WithCovariance)?(Stamped)?$/.test(schema) || schema === "nav_msgs/msg/Odometry";
 
 /** The pose in a message for which that is true. @param {any} message @returns {any} */
 const poseIn = (message) => message.pose?.pose ?? message.pose ?? message;

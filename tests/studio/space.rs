@@ -137,7 +137,7 @@ fn a_viewer_that_reads_slowly_gets_the_newest_tokens() {
 fn an_uncertain_pose_has_an_ellipse() {
     let Some((mut page, _robot)) = seen("space-ellipse", &[]) else { return };
     // Of all points of the ellipse, the Mahalanobis distance from the pose is 2.
-    let distances = "import('./drawn.js').then(({ drawAll, hasPlace }) => {
+    let distances = "import('./drawn.js').then(({ drawAll, hasPlace, isPose }) => {
         const drawn = [];
         const pen = { arrow: () => {}, line: (all) => drawn.push(...all) };
         const orientation = { x: 0, y: 0, z: 0, w: 1 };
@@ -153,7 +153,8 @@ fn an_uncertain_pose_has_an_ellipse() {
             const [dx, dy, determinant] = [x - 3, y + 1, 0.5 * 0.3 - 0.2 * 0.2];
             return Math.sqrt((0.3 * dx * dx - 2 * 0.2 * dx * dy + 0.5 * dy * dy) / determinant);
         };
-        return [schemas.every(hasPlace), drawn.length, Math.min(...drawn.map(distance)), Math.max(...drawn.map(distance)), seen];
+        const isRight = schemas.every(hasPlace) && schemas.every(isPose) && !isPose('geometry_msgs/msg/PoseArray');
+        return [isRight, drawn.length, Math.min(...drawn.map(distance)), Math.max(...drawn.map(distance)), seen];
     })";
     let found = page.value(distances);
     assert_eq!((&found[0], &found[1], &found[4]), (&true.into(), &98.into(), &serde_json::json!([3])));
