@@ -89,8 +89,8 @@ fn unbound(generics: &Generics) -> Generics {
 /// Expands a struct. It gets a constructor from its parameters, in which all other fields have their defaults.
 fn structure(mut item: ItemStruct) -> syn::Result<TokenStream> {
     let declared = signature::params(&item)?;
-    let fields: Vec<Ident> = declared.iter().filter_map(|(field, _)| field.ident.clone()).collect();
-    let decls: Vec<&ParamDecl> = declared.iter().map(|(_, decl)| decl).collect();
+    let fields: Vec<Ident> = declared.iter().map(|(name, ..)| (*name).clone()).collect();
+    let decls: Vec<&ParamDecl> = declared.iter().map(|(.., decl)| decl).collect();
     let types: Vec<&Type> = decls.iter().map(|d| &d.ty).collect();
     let name = &item.ident;
     let (impl_generics, type_args, bounds) = item.generics.split_for_impl();

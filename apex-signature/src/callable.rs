@@ -8,7 +8,7 @@ use crate::{
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{
-    Attribute, Expr, ExprLit, Field, FnArg, GenericParam, Generics, ItemFn, ItemStruct, Lit, Pat, ReturnType,
+    Attribute, Expr, ExprLit, Field, FnArg, GenericParam, Generics, Ident, ItemFn, ItemStruct, Lit, Pat, ReturnType,
     Signature, Type, spanned::Spanned,
 };
 
@@ -90,21 +90,21 @@ pub fn function(item: &ItemFn) -> syn::Result<Callable> {
     }
 }
 
-/// The parameters of a struct node, by field.
-pub fn params(item: &ItemStruct) -> syn::Result<Vec<(&Field, ParamDecl)>> {
-    let mut params: Vec<(&Field, ParamDecl)> = Vec::new();
+/// The parameters of a struct node, with their names and fields.
+pub fn params(item: &ItemStruct) -> syn::Result<Vec<(&Ident, &Field, ParamDecl)>> {
+    let mut params: Vec<(&Ident, &Field, ParamDecl)> = Vec::new();
     for field in &item.fields {
         if let Some(decl) = param(&field.attrs, &field.ty)? {
-            if field.ident.is_none() {
+            let Some(name) = &field.ident else {
                 return Err(syn::Error::new(field.span(), "a parameter needs a name: use a struct with named fields"));
-            }
-            if decl.is_silence && params.iter().any(|(_, other)| other.is_silence) {
+            };
+            if decl.is_silence && params.iter().any(|(.., other)| other.is_silence) {
                 return Err(syn::Error::new(
                     field.span(),
                     "a node has one `silence`: that of another parameter is enough",
                 ));
             }
-            params.push((field, decl));
+            params.push((name, field, decl));
         }
     }
     Ok(params)

@@ -199,7 +199,10 @@ fn imports(tree: &UseTree, prefix: &mut Vec<String>, found: &mut impl FnMut(Stri
             prefix.pop();
         }
         UseTree::Name(name) if name.ident == "self" => {
-            found(prefix.last().cloned().unwrap_or_default(), ItemKind::Import(prefix.clone()));
+            // Without a path before it, rustc reports it.
+            if let Some(name) = prefix.last() {
+                found(name.clone(), ItemKind::Import(prefix.clone()));
+            }
         }
         UseTree::Name(name) => {
             let name = plain(&name.ident);
@@ -219,7 +222,8 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
     let name = item.ident.to_string();
     let span = item.ident.span();
     let traits = derived(&item.attrs);
-    let outputs = traits.iter().any(|of| of.name == "Outputs").then(|| item.fields.iter().map(output_field).collect());
+    let outputs =
+        traits.iter().any(|of| of.name == "Outputs").then(|| item.fields.iter().filter_map(output_field).collect());
     let values = if matches!(item.fields, syn::Fields::Unit) { vec![String::new()] } else { vec![] };
     let (arguments, numbers) = (arguments_of(&item.generics), numbers_of(&item.generics));
     let (generics_of, fields) = (generics(&item.generics), fields(item));
@@ -234,13 +238,8 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
             return list.push(entry(name, &item.vis, &item.attrs, span, ItemKind::Refused(error.to_string())));
         }
     };
-    let params = declared
-        .iter()
-        .map(|(field, decl)| {
-            let name = field.ident.as_ref().map(plain).unwrap_or_default();
-            param(name, signature::docs(&field.attrs), decl)
-        })
-        .collect();
+    let params =
+        declared.iter().map(|(name, field, decl)| param(plain(name), signature::docs(&field.attrs), decl)).collect();
     let node = NodeItem {
         docs: signature::docs(&item.attrs),
         generics: generics(&item.generics),
@@ -249,7 +248,7 @@ fn structure(item: &syn::ItemStruct, list: &mut Vec<Item>) {
         state: item
             .fields
             .iter()
-            .filter(|field| !declared.iter().any(|(param, _)| param.ident == field.ident))
+            .filter(|field| !declared.iter().any(|(name, ..)| Some(*name) == field.ident.as_ref()))
             .map(|field| Ty::from_syn(&field.ty))
             .collect(),
         deactivates: signature::marked(&item.attrs, signature::DEACTIVATES),
@@ -268,24 +267,24 @@ fn fields(item: &syn::ItemStruct) -> Option<Vec<FieldItem>> {
     if has(&item.attrs, "non_exhaustive") || named.named.iter().any(|field| has(&field.attrs, "cfg")) {
         return None;
     }
-    let field = |field: &syn::Field| FieldItem {
-        name: field.ident.as_ref().map(plain).unwrap_or_default(),
-        seen: seen(&field.vis),
-        // The attribute macros report a wrong unit.
-        ty: Ty::from_syn(&field.ty).measured(signature::unit(&field.attrs).unwrap_or_default()),
+    let field = |field: &syn::Field| {
+        let name = plain(field.ident.as_ref()?);
+        Some(FieldItem { name, seen: seen(&field.vis), ty: measured(&field.ty, field) })
     };
-    Some(named.named.iter().map(field).collect())
+    named.named.iter().map(field).collect()
 }
 
-fn output_field(field: &syn::Field) -> OutputField {
+/// A port of a struct with `derive(Outputs)`, which reports a field without a name.
+fn output_field(field: &syn::Field) -> Option<OutputField> {
+    let name = plain(field.ident.as_ref()?);
     let inner = signature::option_of(&field.ty);
-    OutputField {
-        name: field.ident.as_ref().map(plain).unwrap_or_default(),
-        // `derive(Outputs)` reports a wrong attribute.
-        ty: Ty::from_syn(inner.unwrap_or(&field.ty)).measured(signature::unit(&field.attrs).unwrap_or_default()),
-        maybe: inner.is_some(),
-        docs: signature::docs(&field.attrs),
-    }
+    let ty = measured(inner.unwrap_or(&field.ty), field);
+    Some(OutputField { name, ty, maybe: inner.is_some(), docs: signature::docs(&field.attrs) })
+}
+
+/// A type with the unit of a field. The attribute macros report a wrong one, which is none here.
+fn measured(ty: &syn::Type, field: &syn::Field) -> Ty {
+    Ty::from_syn(ty).measured(signature::unit(&field.attrs).ok().flatten())
 }
 
 fn param(name: String, docs: String, decl: &signature::ParamDecl) -> ParamItem {

@@ -3,7 +3,7 @@ use super::{
 };
 use crate::{
     io::{PlanOptions, ReadError, read_plan},
-    scan::{Pose2, PoseChange, Scan, UncertainPose},
+    scan::{Pose2, Scan, UncertainPose},
 };
 use apex_rt::{Event, Out, node};
 use core::{f32::consts::PI, fmt};
@@ -142,12 +142,11 @@ impl VectorMapLocalizer {
         if let Some(initial) = self.initial.take() {
             filter.begin(&initial, odometry, (self.initial_spread, TURNED));
         }
-        match filter.update(odometry, scan) {
-            Some(PoseChange::Localized) => localized.emit(filter.pose_at(odometry)),
-            Some(PoseChange::Lost) => lost.emit(()),
-            None => {}
-        }
+        let change = filter.update(odometry, scan);
         let here = filter.pose_at(odometry);
+        if let Some(change) = change {
+            change.emit(here, localized, lost);
+        }
         if filter.is_localized() {
             pose.set(here);
         }

@@ -1,5 +1,5 @@
 use super::{Pose2, wrap_angle};
-use apex_rt::node;
+use apex_rt::{Event, node};
 
 /// Pose, and how sure it is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -39,10 +39,20 @@ impl UncertainPose {
 /// Change of what is known about the pose of a robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PoseChange {
-    /// It is known from now on.
+    /// The pose is known from now on.
     Localized,
-    /// It is no longer known: measurements contradict it.
+    /// The pose is no longer known: measurements contradict it.
     Lost,
+}
+
+impl PoseChange {
+    /// Triggers the event of a node that tells of this change; `localized` with the present pose.
+    pub fn emit(self, pose: Pose2, localized: Event<'_, Pose2>, lost: Event<'_, ()>) {
+        match self {
+            Self::Localized => localized.emit(pose),
+            Self::Lost => lost.emit(()),
+        }
+    }
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -4,7 +4,7 @@ use super::{
     scan_graph::ScanGraph,
     spread::odometry_information,
 };
-use crate::scan::{Point2, PoseChange};
+use crate::scan::{Point2, Pose2, PoseChange, UncertainPose};
 use nalgebra::Matrix3;
 
 /// Number of due scans in a row that agree with none before, after which the robot is lost: a single one is wrong where
@@ -98,12 +98,14 @@ impl Mapper {
         self.graph().poses().last().map_or(*odometry, |last| last * self.odometry.inv_mul(odometry))
     }
 
-    /// Covariance of x, y (in m) and heading (in rad) of the pose at this odometry, along the axes of the map; `None`
-    /// while the robot is lost. The first pose is known exactly.
-    pub fn covariance(&self, odometry: &Pose) -> Option<Matrix3<f64>> {
+    /// Pose of the robot at this odometry with its covariance, in the frame of the map; `None` while the robot is lost.
+    /// The first pose is known exactly.
+    pub fn estimate(&self, odometry: &Pose) -> Option<UncertainPose> {
         let last = self.map.last().filter(|_| !self.is_lost())?;
         let since = self.odometry.inv_mul(odometry);
-        self.map.spread.ahead(last, &self.graph().poses()[last], &since, &odometry_information(&since))
+        let spread = self.map.spread.ahead(last, &self.graph().poses()[last], &since, &odometry_information(&since))?;
+        let covariance = core::array::from_fn(|i| core::array::from_fn(|j| spread[(i, j)] as f32));
+        Some(UncertainPose { pose: shown(&self.locate(odometry)), covariance })
     }
 
     /// Returns `true` if a scan at this odometry is due.
@@ -185,4 +187,9 @@ impl Mapper {
             PoseChange::Localized
         })
     }
+}
+
+/// Pose in single precision, as nodes send it.
+pub(super) fn shown(pose: &Pose) -> Pose2 {
+    Pose2::new(pose.translation.x as f32, pose.translation.y as f32, heading(pose) as f32)
 }

@@ -1,7 +1,7 @@
-use super::{Mapper, Pose, PosedScans, Settings, Window, heading, pose, selected_scans};
+use super::{Mapper, Pose, PosedScans, Settings, Window, mapper::shown, pose, selected_scans};
 use crate::{
     io::ReadError,
-    scan::{BeamDirections, Pose2, PoseChange, Scan, UncertainPose},
+    scan::{BeamDirections, Pose2, Scan, UncertainPose},
 };
 use apex_rt::{Event, Out, node};
 use core::{f32::consts::PI, fmt};
@@ -135,16 +135,12 @@ impl GraphSlam {
         } else {
             mapper.search()
         };
-        let at = shown(&mapper.locate(&odometry));
-        match change {
-            Some(PoseChange::Localized) => localized.emit(at),
-            Some(PoseChange::Lost) => lost.emit(()),
-            None => {}
+        if let Some(change) = change {
+            change.emit(shown(&mapper.locate(&odometry)), localized, lost);
         }
-        if let Some(covariance) = mapper.covariance(&odometry) {
-            pose.set(at);
-            let covariance = core::array::from_fn(|i| core::array::from_fn(|j| covariance[(i, j)] as f32));
-            estimate.set(UncertainPose { pose: at, covariance });
+        if let Some(known) = mapper.estimate(&odometry) {
+            pose.set(known.pose);
+            estimate.set(known);
             response.set(mapper.response() as f32);
         }
         let count = mapper.mapped();
@@ -201,10 +197,6 @@ impl GraphSlam {
             ..Settings::default()
         }
     }
-}
-
-fn shown(pose: &Pose) -> Pose2 {
-    Pose2::new(pose.translation.x as f32, pose.translation.y as f32, heading(pose) as f32)
 }
 
 /// Odometry in double precision, or `None` if it is NaN or out of range.

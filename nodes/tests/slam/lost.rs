@@ -9,7 +9,6 @@ use apex_nodes::{
     slam::{Mapper, Pose, Settings, heading, pose},
 };
 use apex_sim::{Laser, Odometry, OdometryNoise, Random, World};
-use nalgebra::Vector3;
 use std::{f32::consts::PI, path::PathBuf};
 
 /// Two rooms in the shape of an L, with two pillars.
@@ -115,12 +114,12 @@ fn a_robot_that_is_carried_away_is_lost_and_found() {
     }
     assert_eq!(robot.changes[0].0, PoseChange::Lost);
     let odometry = double(&robot.odometry);
-    assert!(robot.mapper.is_lost() && robot.mapper.covariance(&odometry).is_none());
+    assert!(robot.mapper.is_lost() && robot.mapper.estimate(&odometry).is_none());
     assert_eq!(robot.mapper.mapped(), mapped, "what it sees is not in the map");
     robot.drive(4.0, 2.0);
     robot.wait();
     assert!(matches!(robot.changes[1..], [(PoseChange::Localized, error)] if error < 0.15), "{:?}", robot.changes);
-    assert!(robot.mapper.mapped() > mapped && robot.mapper.covariance(&odometry).is_some());
+    assert!(robot.mapper.mapped() > mapped && robot.mapper.estimate(&odometry).is_some());
     robot.drive(2.0, 9.0);
     assert!(robot.changes.len() == 2 && robot.error() < 0.15, "{:?}, {} m", robot.changes, robot.error());
 }
@@ -279,12 +278,10 @@ fn normalized_error(recording: &Recording) -> f64 {
         if mapper.is_due(odometry) {
             mapper.add(odometry, points.clone());
         }
-        let at = mapper.locate(odometry);
         let Some(truth) = recording.reference.get(&i).map(|truth| start * truth) else { continue };
-        let offset = at.translation.vector - truth.translation.vector;
-        let error = Vector3::new(offset.x, offset.y, heading(&truth.inv_mul(&at)));
-        let covariance = mapper.covariance(odometry).expect("it is not lost");
-        errors.extend(covariance.try_inverse().map(|inverse| error.dot(&(inverse * error))));
+        let [x, y, theta] = [truth.translation.x, truth.translation.y, heading(&truth)].map(|part| part as f32);
+        let estimate = mapper.estimate(odometry).expect("it is not lost");
+        errors.extend(estimate.normalized_error(&Pose2::new(x, y, theta)));
     }
     errors.iter().sum::<f64>() / errors.len() as f64
 }

@@ -102,10 +102,8 @@ impl FusePose {
         let filter = self.filter();
         let is_used = filter.drive(now, wheels);
         let known = filter.estimate();
-        match change {
-            Some(PoseChange::Localized) => localized.emit(known.pose),
-            Some(PoseChange::Lost) => lost.emit(()),
-            None => {}
+        if let Some(change) = change {
+            change.emit(known.pose, localized, lost);
         }
         if !is_used || !known.pose.is_usable() {
             return;
