@@ -11,6 +11,7 @@ pub mod action_msgs {
         pub stamp: super::builtin_interfaces::Time,
     }
     impl Default for GoalInfo {
+        #[inline]
         fn default() -> Self {
             Self {
                 goal_id: Default::default(),
@@ -22,10 +23,12 @@ pub mod action_msgs {
         const NAME: &'static str = "action_msgs/msg/GoalInfo";
         const DEFINITION: &'static str = "unique_identifier_msgs/UUID goal_id\nbuiltin_interfaces/Time stamp\n================================================================================\nMSG: unique_identifier_msgs/UUID\nuint8[16] uuid\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_6398fe763154554353930716b225947f93b672f0fb2e49fdd01bb7a7e37933e9";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.goal_id, to);
             Message::write(&self.stamp, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 goal_id: Message::read(from)?,
@@ -49,6 +52,7 @@ pub mod action_msgs {
         pub const STATUS_ABORTED: i8 = 6;
     }
     impl Default for GoalStatus {
+        #[inline]
         fn default() -> Self {
             Self {
                 goal_info: Default::default(),
@@ -60,10 +64,12 @@ pub mod action_msgs {
         const NAME: &'static str = "action_msgs/msg/GoalStatus";
         const DEFINITION: &'static str = "int8 STATUS_UNKNOWN=0\nint8 STATUS_ACCEPTED=1\nint8 STATUS_EXECUTING=2\nint8 STATUS_CANCELING=3\nint8 STATUS_SUCCEEDED=4\nint8 STATUS_CANCELED=5\nint8 STATUS_ABORTED=6\naction_msgs/GoalInfo goal_info\nint8 status\n================================================================================\nMSG: action_msgs/GoalInfo\nunique_identifier_msgs/UUID goal_id\nbuiltin_interfaces/Time stamp\n================================================================================\nMSG: unique_identifier_msgs/UUID\nuint8[16] uuid\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_32f4cfd717735d17657e1178f24431c1ce996c878c515230f6c5b3476819dbb9";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.goal_info, to);
             to.number(self.status);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 goal_info: Message::read(from)?,
@@ -77,6 +83,7 @@ pub mod action_msgs {
         pub status_list: alloc::vec::Vec<super::action_msgs::GoalStatus>,
     }
     impl Default for GoalStatusArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 status_list: Default::default(),
@@ -87,12 +94,14 @@ pub mod action_msgs {
         const NAME: &'static str = "action_msgs/msg/GoalStatusArray";
         const DEFINITION: &'static str = "action_msgs/GoalStatus[] status_list\n================================================================================\nMSG: action_msgs/GoalStatus\nint8 STATUS_UNKNOWN=0\nint8 STATUS_ACCEPTED=1\nint8 STATUS_EXECUTING=2\nint8 STATUS_CANCELING=3\nint8 STATUS_SUCCEEDED=4\nint8 STATUS_CANCELED=5\nint8 STATUS_ABORTED=6\naction_msgs/GoalInfo goal_info\nint8 status\n================================================================================\nMSG: action_msgs/GoalInfo\nunique_identifier_msgs/UUID goal_id\nbuiltin_interfaces/Time stamp\n================================================================================\nMSG: unique_identifier_msgs/UUID\nuint8[16] uuid\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_6c1684b00f177d37438febe6e709fc4e2b0d4248dca4854946f9ed8b30cda83e";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.status_list.len());
             for element in &self.status_list {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 status_list: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -114,6 +123,7 @@ pub mod action_msgs {
         pub goal_info: super::action_msgs::GoalInfo,
     }
     impl Default for CancelGoalRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 goal_info: Default::default(),
@@ -124,9 +134,11 @@ pub mod action_msgs {
         const NAME: &'static str = "action_msgs/srv/CancelGoal_Request";
         const DEFINITION: &'static str = "action_msgs/GoalInfo goal_info\n================================================================================\nMSG: action_msgs/GoalInfo\nunique_identifier_msgs/UUID goal_id\nbuiltin_interfaces/Time stamp\n================================================================================\nMSG: unique_identifier_msgs/UUID\nuint8[16] uuid\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_3d3c84653c1f96918086887e1dcb236faec88b81a5b14fd4cf4840065bcdf8af";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.goal_info, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 goal_info: Message::read(from)?,
@@ -146,6 +158,7 @@ pub mod action_msgs {
         pub const ERROR_GOAL_TERMINATED: i8 = 3;
     }
     impl Default for CancelGoalResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 return_code: Default::default(),
@@ -157,6 +170,7 @@ pub mod action_msgs {
         const NAME: &'static str = "action_msgs/srv/CancelGoal_Response";
         const DEFINITION: &'static str = "int8 ERROR_NONE=0\nint8 ERROR_REJECTED=1\nint8 ERROR_UNKNOWN_GOAL_ID=2\nint8 ERROR_GOAL_TERMINATED=3\nint8 return_code\naction_msgs/GoalInfo[] goals_canceling\n================================================================================\nMSG: action_msgs/GoalInfo\nunique_identifier_msgs/UUID goal_id\nbuiltin_interfaces/Time stamp\n================================================================================\nMSG: unique_identifier_msgs/UUID\nuint8[16] uuid\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_35e682cf3f510e83c70a82a4aac888496dedee56773bf9d8e5e0aa81f9e1c960";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.return_code);
             to.length(self.goals_canceling.len());
@@ -164,6 +178,7 @@ pub mod action_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 return_code: from.number()?,
@@ -182,6 +197,7 @@ pub mod builtin_interfaces {
         pub nanosec: u32,
     }
     impl Default for Duration {
+        #[inline]
         fn default() -> Self {
             Self {
                 sec: Default::default(),
@@ -193,10 +209,12 @@ pub mod builtin_interfaces {
         const NAME: &'static str = "builtin_interfaces/msg/Duration";
         const DEFINITION: &'static str = "int32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_e8d009f659816f758b75334ee1a9ca5b5c0b859843261f14c7f937349599d93b";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.sec);
             to.number(self.nanosec);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 sec: from.number()?,
@@ -211,6 +229,7 @@ pub mod builtin_interfaces {
         pub nanosec: u32,
     }
     impl Default for Time {
+        #[inline]
         fn default() -> Self {
             Self {
                 sec: Default::default(),
@@ -222,10 +241,12 @@ pub mod builtin_interfaces {
         const NAME: &'static str = "builtin_interfaces/msg/Time";
         const DEFINITION: &'static str = "int32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_b106235e25a4c5ed35098aa0a61a3ee9c9b18d197f398b0e4206cea9acf9c197";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.sec);
             to.number(self.nanosec);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 sec: from.number()?,
@@ -244,6 +265,7 @@ pub mod diagnostic_msgs {
         pub status: alloc::vec::Vec<super::diagnostic_msgs::DiagnosticStatus>,
     }
     impl Default for DiagnosticArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -255,6 +277,7 @@ pub mod diagnostic_msgs {
         const NAME: &'static str = "diagnostic_msgs/msg/DiagnosticArray";
         const DEFINITION: &'static str = "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: diagnostic_msgs/DiagnosticStatus\nbyte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\nbyte level\nstring name\nstring message\nstring hardware_id\ndiagnostic_msgs/KeyValue[] values\n================================================================================\nMSG: diagnostic_msgs/KeyValue\nstring key\nstring value";
         const HASH: &'static str = "RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.status.len());
@@ -262,6 +285,7 @@ pub mod diagnostic_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -285,6 +309,7 @@ pub mod diagnostic_msgs {
         pub const STALE: u8 = 3;
     }
     impl Default for DiagnosticStatus {
+        #[inline]
         fn default() -> Self {
             Self {
                 level: Default::default(),
@@ -299,6 +324,7 @@ pub mod diagnostic_msgs {
         const NAME: &'static str = "diagnostic_msgs/msg/DiagnosticStatus";
         const DEFINITION: &'static str = "byte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\nbyte level\nstring name\nstring message\nstring hardware_id\ndiagnostic_msgs/KeyValue[] values\n================================================================================\nMSG: diagnostic_msgs/KeyValue\nstring key\nstring value";
         const HASH: &'static str = "RIHS01_b0e3e692ea2d54a8af2f4ef1930e81556a2db55216b771f8a7d2724ed47bf0e4";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.level);
             to.text(&self.name);
@@ -309,6 +335,7 @@ pub mod diagnostic_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 level: from.number()?,
@@ -326,6 +353,7 @@ pub mod diagnostic_msgs {
         pub value: alloc::string::String,
     }
     impl Default for KeyValue {
+        #[inline]
         fn default() -> Self {
             Self {
                 key: Default::default(),
@@ -337,10 +365,12 @@ pub mod diagnostic_msgs {
         const NAME: &'static str = "diagnostic_msgs/msg/KeyValue";
         const DEFINITION: &'static str = "string key\nstring value";
         const HASH: &'static str = "RIHS01_d68081eaa540288c5440753baecef0c4e16e81a5f78ad68902ded5100413bb42";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.key);
             to.text(&self.value);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 key: from.text_of(usize::MAX)?,
@@ -371,6 +401,7 @@ pub mod example_interfaces {
         pub sequence: alloc::vec::Vec<i32>,
     }
     impl Default for FibonacciFeedback {
+        #[inline]
         fn default() -> Self {
             Self {
                 sequence: Default::default(),
@@ -381,10 +412,12 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/action/Fibonacci_Feedback";
         const DEFINITION: &'static str = "int32[] sequence";
         const HASH: &'static str = "RIHS01_2b12e37361da6f408d4c85bc24a18de64333f29082f2ca34b5ee33dc4c8b42a9";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.sequence.len());
             to.numbers(&self.sequence);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 sequence: from.list(usize::MAX)?,
@@ -398,6 +431,7 @@ pub mod example_interfaces {
         pub feedback: super::example_interfaces::FibonacciFeedback,
     }
     impl Default for FibonacciFeedbackMessage {
+        #[inline]
         fn default() -> Self {
             Self {
                 goal_id: Default::default(),
@@ -409,10 +443,12 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/action/Fibonacci_FeedbackMessage";
         const DEFINITION: &'static str = "unique_identifier_msgs/UUID goal_id\nexample_interfaces/action/Fibonacci_Feedback feedback\n================================================================================\nMSG: unique_identifier_msgs/UUID\nuint8[16] uuid\n================================================================================\nMSG: example_interfaces/action/Fibonacci_Feedback\nint32[] sequence";
         const HASH: &'static str = "RIHS01_c1de71afd52e49a89c53d8262366884185bc0a02f78ce051c4e46b0a7fe59bb2";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.goal_id, to);
             Message::write(&self.feedback, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 goal_id: Message::read(from)?,
@@ -435,6 +471,7 @@ pub mod example_interfaces {
         pub goal_id: super::unique_identifier_msgs::UUID,
     }
     impl Default for FibonacciGetResultRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 goal_id: Default::default(),
@@ -445,9 +482,11 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/action/Fibonacci_GetResult_Request";
         const DEFINITION: &'static str = "unique_identifier_msgs/UUID goal_id\n================================================================================\nMSG: unique_identifier_msgs/UUID\nuint8[16] uuid";
         const HASH: &'static str = "RIHS01_c8a4f5e7d13b81286ee1043e2ecd084281cecf1ff06aaa799464f5f15479f003";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.goal_id, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 goal_id: Message::read(from)?,
@@ -461,6 +500,7 @@ pub mod example_interfaces {
         pub result: super::example_interfaces::FibonacciResult,
     }
     impl Default for FibonacciGetResultResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 status: Default::default(),
@@ -472,10 +512,12 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/action/Fibonacci_GetResult_Response";
         const DEFINITION: &'static str = "int8 status\nexample_interfaces/action/Fibonacci_Result result\n================================================================================\nMSG: example_interfaces/action/Fibonacci_Result\nint32[] sequence";
         const HASH: &'static str = "RIHS01_6021dc98ab9b4bbe395e48aa4de81ee5f68eb570f88358affcc648146668b24f";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.status);
             Message::write(&self.result, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 status: from.number()?,
@@ -489,6 +531,7 @@ pub mod example_interfaces {
         pub order: i32,
     }
     impl Default for FibonacciGoal {
+        #[inline]
         fn default() -> Self {
             Self { order: Default::default() }
         }
@@ -497,9 +540,11 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/action/Fibonacci_Goal";
         const DEFINITION: &'static str = "int32 order";
         const HASH: &'static str = "RIHS01_226cb437e4355dcd3e914f930382a3b0cc1da81545bd319ed554e95a03255f51";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.order);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { order: from.number()? })
         }
@@ -510,6 +555,7 @@ pub mod example_interfaces {
         pub sequence: alloc::vec::Vec<i32>,
     }
     impl Default for FibonacciResult {
+        #[inline]
         fn default() -> Self {
             Self {
                 sequence: Default::default(),
@@ -520,10 +566,12 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/action/Fibonacci_Result";
         const DEFINITION: &'static str = "int32[] sequence";
         const HASH: &'static str = "RIHS01_fea81394f25aa4502217953f1a021fb750e79c10bbd43f13dd94632da6569649";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.sequence.len());
             to.numbers(&self.sequence);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 sequence: from.list(usize::MAX)?,
@@ -546,6 +594,7 @@ pub mod example_interfaces {
         pub goal: super::example_interfaces::FibonacciGoal,
     }
     impl Default for FibonacciSendGoalRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 goal_id: Default::default(),
@@ -557,10 +606,12 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/action/Fibonacci_SendGoal_Request";
         const DEFINITION: &'static str = "unique_identifier_msgs/UUID goal_id\nexample_interfaces/action/Fibonacci_Goal goal\n================================================================================\nMSG: unique_identifier_msgs/UUID\nuint8[16] uuid\n================================================================================\nMSG: example_interfaces/action/Fibonacci_Goal\nint32 order";
         const HASH: &'static str = "RIHS01_3d088942b413247db536576f0286768c6be8fcd5d0c9a5d544f359fba090a238";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.goal_id, to);
             Message::write(&self.goal, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 goal_id: Message::read(from)?,
@@ -575,6 +626,7 @@ pub mod example_interfaces {
         pub stamp: super::builtin_interfaces::Time,
     }
     impl Default for FibonacciSendGoalResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 accepted: Default::default(),
@@ -586,10 +638,12 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/action/Fibonacci_SendGoal_Response";
         const DEFINITION: &'static str = "bool accepted\nbuiltin_interfaces/Time stamp\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_d8c07bb3d5b766fe4b43159c9a5222af5214e2fcc29229b991d826166c512be1";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.accepted);
             Message::write(&self.stamp, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 accepted: from.number()?,
@@ -613,6 +667,7 @@ pub mod example_interfaces {
         pub b: i64,
     }
     impl Default for AddTwoIntsRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 a: Default::default(),
@@ -624,10 +679,12 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/srv/AddTwoInts_Request";
         const DEFINITION: &'static str = "int64 a\nint64 b";
         const HASH: &'static str = "RIHS01_000c5fd92d6b2e1a05949348f584d6d652adea1e92d691792011ac2273508302";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.a);
             to.number(self.b);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 a: from.number()?,
@@ -641,6 +698,7 @@ pub mod example_interfaces {
         pub sum: i64,
     }
     impl Default for AddTwoIntsResponse {
+        #[inline]
         fn default() -> Self {
             Self { sum: Default::default() }
         }
@@ -649,9 +707,11 @@ pub mod example_interfaces {
         const NAME: &'static str = "example_interfaces/srv/AddTwoInts_Response";
         const DEFINITION: &'static str = "int64 sum";
         const HASH: &'static str = "RIHS01_de5c030d4af33cba2749310b249737b631594703f9300495f48bffb2b44dcc2f";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.sum);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { sum: from.number()? })
         }
@@ -674,6 +734,7 @@ pub mod foxglove_msgs {
         pub data: alloc::vec::Vec<u8>,
     }
     impl Default for Grid {
+        #[inline]
         fn default() -> Self {
             Self {
                 timestamp: Default::default(),
@@ -692,6 +753,7 @@ pub mod foxglove_msgs {
         const NAME: &'static str = "foxglove_msgs/msg/Grid";
         const DEFINITION: &'static str = "builtin_interfaces/Time timestamp\nstring frame_id\ngeometry_msgs/Pose pose\nuint32 column_count\nfoxglove_msgs/Vector2 cell_size\nuint32 row_stride\nuint32 cell_stride\nfoxglove_msgs/PackedElementField[] fields\nuint8[] data\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: foxglove_msgs/Vector2\nfloat64 x\nfloat64 y\n================================================================================\nMSG: foxglove_msgs/PackedElementField\nuint8 UNKNOWN=0\nuint8 UINT8=1\nuint8 INT8=2\nuint8 UINT16=3\nuint8 INT16=4\nuint8 UINT32=5\nuint8 INT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 type";
         const HASH: &'static str = "RIHS01_b0c6070e6d466742a149b77eda9ef066c31128f29858419125455d0943b0f867";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.timestamp, to);
             to.text(&self.frame_id);
@@ -707,6 +769,7 @@ pub mod foxglove_msgs {
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 timestamp: Message::read(from)?,
@@ -740,6 +803,7 @@ pub mod foxglove_msgs {
         pub const FLOAT64: u8 = 8;
     }
     impl Default for PackedElementField {
+        #[inline]
         fn default() -> Self {
             Self {
                 name: Default::default(),
@@ -752,11 +816,13 @@ pub mod foxglove_msgs {
         const NAME: &'static str = "foxglove_msgs/msg/PackedElementField";
         const DEFINITION: &'static str = "uint8 UNKNOWN=0\nuint8 UINT8=1\nuint8 INT8=2\nuint8 UINT16=3\nuint8 INT16=4\nuint8 UINT32=5\nuint8 INT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 type";
         const HASH: &'static str = "RIHS01_465d110563897e22946a468848a8c48e55eaa77fa207c4eec9c025a6609610b0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.name);
             to.number(self.offset);
             to.number(self.r#type);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 name: from.text_of(usize::MAX)?,
@@ -772,6 +838,7 @@ pub mod foxglove_msgs {
         pub y: f64,
     }
     impl Default for Vector2 {
+        #[inline]
         fn default() -> Self {
             Self {
                 x: Default::default(),
@@ -783,10 +850,12 @@ pub mod foxglove_msgs {
         const NAME: &'static str = "foxglove_msgs/msg/Vector2";
         const DEFINITION: &'static str = "float64 x\nfloat64 y";
         const HASH: &'static str = "RIHS01_79e1a1b0db092d52b0de4251d5aa394a99d7bf4bcb479e70331eb1ba0b07796b";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.x);
             to.number(self.y);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 x: from.number()?,
@@ -805,6 +874,7 @@ pub mod geometry_msgs {
         pub angular: super::geometry_msgs::Vector3,
     }
     impl Default for Accel {
+        #[inline]
         fn default() -> Self {
             Self {
                 linear: Default::default(),
@@ -816,10 +886,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Accel";
         const DEFINITION: &'static str = "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_dc448243ded9b1fcbcca24aba0c22f013dae06c354ba2d849571c0a2a3f57ca0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.linear, to);
             Message::write(&self.angular, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 linear: Message::read(from)?,
@@ -834,6 +906,7 @@ pub mod geometry_msgs {
         pub accel: super::geometry_msgs::Accel,
     }
     impl Default for AccelStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -845,10 +918,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/AccelStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Accel accel\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Accel\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_ef1df9eabae0a708cc049a061ebcddc4e2a5f745730100ba680e086a9698b165";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.accel, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -863,6 +938,7 @@ pub mod geometry_msgs {
         pub covariance: [f64; 36],
     }
     impl Default for AccelWithCovariance {
+        #[inline]
         fn default() -> Self {
             Self {
                 accel: Default::default(),
@@ -874,10 +950,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/AccelWithCovariance";
         const DEFINITION: &'static str = "geometry_msgs/Accel accel\nfloat64[36] covariance\n================================================================================\nMSG: geometry_msgs/Accel\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_230d51bd53bc36f260574e73b42941cefe44684753480b6fc330c032c5db5997";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.accel, to);
             to.numbers(&self.covariance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 accel: Message::read(from)?,
@@ -892,6 +970,7 @@ pub mod geometry_msgs {
         pub accel: super::geometry_msgs::AccelWithCovariance,
     }
     impl Default for AccelWithCovarianceStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -903,10 +982,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/AccelWithCovarianceStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/AccelWithCovariance accel\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/AccelWithCovariance\ngeometry_msgs/Accel accel\nfloat64[36] covariance\n================================================================================\nMSG: geometry_msgs/Accel\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_61c9ad8928e71dd95ce791b2f02809ee2a0bbcc42cd0e4047fd00a822a08e444";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.accel, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -927,6 +1008,7 @@ pub mod geometry_msgs {
         pub izz: f64,
     }
     impl Default for Inertia {
+        #[inline]
         fn default() -> Self {
             Self {
                 m: Default::default(),
@@ -944,6 +1026,7 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Inertia";
         const DEFINITION: &'static str = "float64 m\ngeometry_msgs/Vector3 com\nfloat64 ixx\nfloat64 ixy\nfloat64 ixz\nfloat64 iyy\nfloat64 iyz\nfloat64 izz\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_2ddd5dab5c347825ba2e56c895ddccfd0b8efe53ae931bf67f905529930b4bd7";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.m);
             Message::write(&self.com, to);
@@ -954,6 +1037,7 @@ pub mod geometry_msgs {
             to.number(self.iyz);
             to.number(self.izz);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 m: from.number()?,
@@ -974,6 +1058,7 @@ pub mod geometry_msgs {
         pub inertia: super::geometry_msgs::Inertia,
     }
     impl Default for InertiaStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -985,10 +1070,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/InertiaStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Inertia inertia\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Inertia\nfloat64 m\ngeometry_msgs/Vector3 com\nfloat64 ixx\nfloat64 ixy\nfloat64 ixz\nfloat64 iyy\nfloat64 iyz\nfloat64 izz\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_766be45976252babf7f9d8ac4ae7c912a7ceccf71035622529f27518b695aa09";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.inertia, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1004,6 +1091,7 @@ pub mod geometry_msgs {
         pub z: f64,
     }
     impl Default for Point {
+        #[inline]
         fn default() -> Self {
             Self {
                 x: Default::default(),
@@ -1016,11 +1104,13 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Point";
         const DEFINITION: &'static str = "float64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_6963084842a9b04494d6b2941d11444708d892da2f4b09843b9c43f42a7f6881";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.x);
             to.number(self.y);
             to.number(self.z);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 x: from.number()?,
@@ -1037,6 +1127,7 @@ pub mod geometry_msgs {
         pub z: f32,
     }
     impl Default for Point32 {
+        #[inline]
         fn default() -> Self {
             Self {
                 x: Default::default(),
@@ -1049,11 +1140,13 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Point32";
         const DEFINITION: &'static str = "float32 x\nfloat32 y\nfloat32 z";
         const HASH: &'static str = "RIHS01_2fc4db7cae16a4582c79a56b66173a8d48d52c7dc520ddc55a0d4bcf2a4bfdbc";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.x);
             to.number(self.y);
             to.number(self.z);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 x: from.number()?,
@@ -1069,6 +1162,7 @@ pub mod geometry_msgs {
         pub point: super::geometry_msgs::Point,
     }
     impl Default for PointStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1080,10 +1174,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/PointStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Point point\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_4c0296af86e01e562e9e0405d138a01537247580076c58ea38d7923ac1045897";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.point, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1097,6 +1193,7 @@ pub mod geometry_msgs {
         pub points: alloc::vec::Vec<super::geometry_msgs::Point32>,
     }
     impl Default for Polygon {
+        #[inline]
         fn default() -> Self {
             Self { points: Default::default() }
         }
@@ -1105,12 +1202,14 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Polygon";
         const DEFINITION: &'static str = "geometry_msgs/Point32[] points\n================================================================================\nMSG: geometry_msgs/Point32\nfloat32 x\nfloat32 y\nfloat32 z";
         const HASH: &'static str = "RIHS01_3782f9f0bf044964d692d6c017d705e37611afb1f0bf6a9dee248a7dda0f784a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.points.len());
             for element in &self.points {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 points: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -1124,6 +1223,7 @@ pub mod geometry_msgs {
         pub id: i64,
     }
     impl Default for PolygonInstance {
+        #[inline]
         fn default() -> Self {
             Self {
                 polygon: Default::default(),
@@ -1135,10 +1235,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/PolygonInstance";
         const DEFINITION: &'static str = "geometry_msgs/Polygon polygon\nint64 id\n================================================================================\nMSG: geometry_msgs/Polygon\ngeometry_msgs/Point32[] points\n================================================================================\nMSG: geometry_msgs/Point32\nfloat32 x\nfloat32 y\nfloat32 z";
         const HASH: &'static str = "RIHS01_fa1cb3dc774329865258afef74f65b0553d487510c6d0f93ba38cc32d62ac0e5";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.polygon, to);
             to.number(self.id);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 polygon: Message::read(from)?,
@@ -1153,6 +1255,7 @@ pub mod geometry_msgs {
         pub polygon: super::geometry_msgs::PolygonInstance,
     }
     impl Default for PolygonInstanceStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1164,10 +1267,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/PolygonInstanceStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/PolygonInstance polygon\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/PolygonInstance\ngeometry_msgs/Polygon polygon\nint64 id\n================================================================================\nMSG: geometry_msgs/Polygon\ngeometry_msgs/Point32[] points\n================================================================================\nMSG: geometry_msgs/Point32\nfloat32 x\nfloat32 y\nfloat32 z";
         const HASH: &'static str = "RIHS01_802f37ea4398d7ce547936aab1fd278923716a13c63373887cd896957434ce2f";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.polygon, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1182,6 +1287,7 @@ pub mod geometry_msgs {
         pub polygon: super::geometry_msgs::Polygon,
     }
     impl Default for PolygonStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1193,10 +1299,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/PolygonStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Polygon polygon\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Polygon\ngeometry_msgs/Point32[] points\n================================================================================\nMSG: geometry_msgs/Point32\nfloat32 x\nfloat32 y\nfloat32 z";
         const HASH: &'static str = "RIHS01_b7cf07932f1523d4b4088075945c1a0141f7cd21da87cc940fc61652e9138b46";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.polygon, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1211,6 +1319,7 @@ pub mod geometry_msgs {
         pub orientation: super::geometry_msgs::Quaternion,
     }
     impl Default for Pose {
+        #[inline]
         fn default() -> Self {
             Self {
                 position: Default::default(),
@@ -1222,10 +1331,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Pose";
         const DEFINITION: &'static str = "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_d501954e9476cea2996984e812054b68026ae0bfae789d9a10b23daf35cc90fa";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.position, to);
             Message::write(&self.orientation, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 position: Message::read(from)?,
@@ -1241,6 +1352,7 @@ pub mod geometry_msgs {
         pub theta: f64,
     }
     impl Default for Pose2D {
+        #[inline]
         fn default() -> Self {
             Self {
                 x: Default::default(),
@@ -1253,11 +1365,13 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Pose2D";
         const DEFINITION: &'static str = "float64 x\nfloat64 y\nfloat64 theta";
         const HASH: &'static str = "RIHS01_d68efa5b46e70f7b16ca23085474fdac5a44b638783ec42f661da64da4724ccc";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.x);
             to.number(self.y);
             to.number(self.theta);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 x: from.number()?,
@@ -1273,6 +1387,7 @@ pub mod geometry_msgs {
         pub poses: alloc::vec::Vec<super::geometry_msgs::Pose>,
     }
     impl Default for PoseArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1284,6 +1399,7 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/PoseArray";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Pose[] poses\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_af0cc36d190e104d546d168d6b39df04fa4b4ccecf59cb4c9ed328d3d5004aa0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.poses.len());
@@ -1291,6 +1407,7 @@ pub mod geometry_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1305,6 +1422,7 @@ pub mod geometry_msgs {
         pub pose: super::geometry_msgs::Pose,
     }
     impl Default for PoseStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1316,10 +1434,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/PoseStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Pose pose\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_10f3786d7d40fd2b54367835614bff85d4ad3b5dab62bf8bca0cc232d73b4cd8";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.pose, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1334,6 +1454,7 @@ pub mod geometry_msgs {
         pub covariance: [f64; 36],
     }
     impl Default for PoseWithCovariance {
+        #[inline]
         fn default() -> Self {
             Self {
                 pose: Default::default(),
@@ -1345,10 +1466,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/PoseWithCovariance";
         const DEFINITION: &'static str = "geometry_msgs/Pose pose\nfloat64[36] covariance\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_9a7c0fd234b7f45c6098745ecccd773ca1085670e64107135397aee31c02e1bb";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.pose, to);
             to.numbers(&self.covariance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 pose: Message::read(from)?,
@@ -1363,6 +1486,7 @@ pub mod geometry_msgs {
         pub pose: super::geometry_msgs::PoseWithCovariance,
     }
     impl Default for PoseWithCovarianceStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1374,10 +1498,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/PoseWithCovarianceStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/PoseWithCovariance\ngeometry_msgs/Pose pose\nfloat64[36] covariance\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_26432f9803e43727d3c8f668d1fdb3c630f548af631e2f4e31382371bfea3b6e";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.pose, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1394,6 +1520,7 @@ pub mod geometry_msgs {
         pub w: f64,
     }
     impl Default for Quaternion {
+        #[inline]
         fn default() -> Self {
             Self {
                 x: 0.0,
@@ -1407,12 +1534,14 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Quaternion";
         const DEFINITION: &'static str = "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_8a765f66778c8ff7c8ab94afcc590a2ed5325a1d9a076ffff38fbce36f458684";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.x);
             to.number(self.y);
             to.number(self.z);
             to.number(self.w);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 x: from.number()?,
@@ -1429,6 +1558,7 @@ pub mod geometry_msgs {
         pub quaternion: super::geometry_msgs::Quaternion,
     }
     impl Default for QuaternionStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1440,10 +1570,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/QuaternionStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Quaternion quaternion\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_381add86c6c3160644d228ca342182c7fd6c7fab11c7a85ad817a9cc22dbac6e";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.quaternion, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1458,6 +1590,7 @@ pub mod geometry_msgs {
         pub rotation: super::geometry_msgs::Quaternion,
     }
     impl Default for Transform {
+        #[inline]
         fn default() -> Self {
             Self {
                 translation: Default::default(),
@@ -1469,10 +1602,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Transform";
         const DEFINITION: &'static str = "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_beb83fbe698636351461f6f35d1abb20010c43d55374d81bd041f1ba2581fddc";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.translation, to);
             Message::write(&self.rotation, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 translation: Message::read(from)?,
@@ -1488,6 +1623,7 @@ pub mod geometry_msgs {
         pub transform: super::geometry_msgs::Transform,
     }
     impl Default for TransformStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1500,11 +1636,13 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/TransformStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_0a241f87d04668d94099cbb5ba11691d5ad32c2f29682e4eb5653424bd275206";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.text(&self.child_frame_id);
             Message::write(&self.transform, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1520,6 +1658,7 @@ pub mod geometry_msgs {
         pub angular: super::geometry_msgs::Vector3,
     }
     impl Default for Twist {
+        #[inline]
         fn default() -> Self {
             Self {
                 linear: Default::default(),
@@ -1531,10 +1670,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Twist";
         const DEFINITION: &'static str = "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.linear, to);
             Message::write(&self.angular, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 linear: Message::read(from)?,
@@ -1549,6 +1690,7 @@ pub mod geometry_msgs {
         pub twist: super::geometry_msgs::Twist,
     }
     impl Default for TwistStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1560,10 +1702,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/TwistStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Twist twist\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.twist, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1578,6 +1722,7 @@ pub mod geometry_msgs {
         pub covariance: [f64; 36],
     }
     impl Default for TwistWithCovariance {
+        #[inline]
         fn default() -> Self {
             Self {
                 twist: Default::default(),
@@ -1589,10 +1734,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/TwistWithCovariance";
         const DEFINITION: &'static str = "geometry_msgs/Twist twist\nfloat64[36] covariance\n================================================================================\nMSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_49f574f033f095d8b6cd1beaca5ca7925e296e84af1716d16c89d38b059c8c18";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.twist, to);
             to.numbers(&self.covariance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 twist: Message::read(from)?,
@@ -1607,6 +1754,7 @@ pub mod geometry_msgs {
         pub twist: super::geometry_msgs::TwistWithCovariance,
     }
     impl Default for TwistWithCovarianceStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1618,10 +1766,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/TwistWithCovarianceStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/TwistWithCovariance twist\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/TwistWithCovariance\ngeometry_msgs/Twist twist\nfloat64[36] covariance\n================================================================================\nMSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_77b67434531e6529b7a0091357b186b6ebdb17fd9ffd3e0c7ce9d3fb11a44563";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.twist, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1637,6 +1787,7 @@ pub mod geometry_msgs {
         pub z: f64,
     }
     impl Default for Vector3 {
+        #[inline]
         fn default() -> Self {
             Self {
                 x: Default::default(),
@@ -1649,11 +1800,13 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Vector3";
         const DEFINITION: &'static str = "float64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_cc12fe83e4c02719f1ce8070bfd14aecd40f75a96696a67a2a1f37f7dbb0765d";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.x);
             to.number(self.y);
             to.number(self.z);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 x: from.number()?,
@@ -1669,6 +1822,7 @@ pub mod geometry_msgs {
         pub vector: super::geometry_msgs::Vector3,
     }
     impl Default for Vector3Stamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1680,10 +1834,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Vector3Stamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Vector3 vector\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_d4829622288cbb443886e7ea94ea5671a3b1be6bab4ad04224432a65f7d7887a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.vector, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1700,6 +1856,7 @@ pub mod geometry_msgs {
         pub velocity: super::geometry_msgs::Twist,
     }
     impl Default for VelocityStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1713,12 +1870,14 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/VelocityStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\nstring body_frame_id\nstring reference_frame_id\ngeometry_msgs/Twist velocity\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_55e7196186c8dbe4375278d7f1ac050dd8c9bacade1cf3eef8460fa667bd2457";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.text(&self.body_frame_id);
             to.text(&self.reference_frame_id);
             Message::write(&self.velocity, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1735,6 +1894,7 @@ pub mod geometry_msgs {
         pub torque: super::geometry_msgs::Vector3,
     }
     impl Default for Wrench {
+        #[inline]
         fn default() -> Self {
             Self {
                 force: Default::default(),
@@ -1746,10 +1906,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/Wrench";
         const DEFINITION: &'static str = "geometry_msgs/Vector3 force\ngeometry_msgs/Vector3 torque\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_018e8519d57c16adbe97c9fe1460ef21fec7e31bc541de3d653a35895677ce52";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.force, to);
             Message::write(&self.torque, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 force: Message::read(from)?,
@@ -1764,6 +1926,7 @@ pub mod geometry_msgs {
         pub wrench: super::geometry_msgs::Wrench,
     }
     impl Default for WrenchStamped {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -1775,10 +1938,12 @@ pub mod geometry_msgs {
         const NAME: &'static str = "geometry_msgs/msg/WrenchStamped";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Wrench wrench\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Wrench\ngeometry_msgs/Vector3 force\ngeometry_msgs/Vector3 torque\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_8dc3deaf06b2ab281f9f9a742a8961c328ca7cec16e3fd6586d3a5c83fa78f77";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.wrench, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -1810,6 +1975,7 @@ pub mod lifecycle_msgs {
         pub const TRANSITION_STATE_ERRORPROCESSING: u8 = 15;
     }
     impl Default for State {
+        #[inline]
         fn default() -> Self {
             Self {
                 id: Default::default(),
@@ -1821,10 +1987,12 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/msg/State";
         const DEFINITION: &'static str = "uint8 PRIMARY_STATE_UNKNOWN=0\nuint8 PRIMARY_STATE_UNCONFIGURED=1\nuint8 PRIMARY_STATE_INACTIVE=2\nuint8 PRIMARY_STATE_ACTIVE=3\nuint8 PRIMARY_STATE_FINALIZED=4\nuint8 TRANSITION_STATE_CONFIGURING=10\nuint8 TRANSITION_STATE_CLEANINGUP=11\nuint8 TRANSITION_STATE_SHUTTINGDOWN=12\nuint8 TRANSITION_STATE_ACTIVATING=13\nuint8 TRANSITION_STATE_DEACTIVATING=14\nuint8 TRANSITION_STATE_ERRORPROCESSING=15\nuint8 id\nstring label";
         const HASH: &'static str = "RIHS01_dd2d02b82f3ebc858e53c431b1e6e91f3ffc71436fc81d0715214ac6ee2107a0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.id);
             to.text(&self.label);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 id: from.number()?,
@@ -1871,6 +2039,7 @@ pub mod lifecycle_msgs {
         pub const TRANSITION_CALLBACK_ERROR: u8 = 99;
     }
     impl Default for Transition {
+        #[inline]
         fn default() -> Self {
             Self {
                 id: Default::default(),
@@ -1882,10 +2051,12 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/msg/Transition";
         const DEFINITION: &'static str = "uint8 TRANSITION_CREATE=0\nuint8 TRANSITION_CONFIGURE=1\nuint8 TRANSITION_CLEANUP=2\nuint8 TRANSITION_ACTIVATE=3\nuint8 TRANSITION_DEACTIVATE=4\nuint8 TRANSITION_UNCONFIGURED_SHUTDOWN=5\nuint8 TRANSITION_INACTIVE_SHUTDOWN=6\nuint8 TRANSITION_ACTIVE_SHUTDOWN=7\nuint8 TRANSITION_DESTROY=8\nuint8 TRANSITION_ON_CONFIGURE_SUCCESS=10\nuint8 TRANSITION_ON_CONFIGURE_FAILURE=11\nuint8 TRANSITION_ON_CONFIGURE_ERROR=12\nuint8 TRANSITION_ON_CLEANUP_SUCCESS=20\nuint8 TRANSITION_ON_CLEANUP_FAILURE=21\nuint8 TRANSITION_ON_CLEANUP_ERROR=22\nuint8 TRANSITION_ON_ACTIVATE_SUCCESS=30\nuint8 TRANSITION_ON_ACTIVATE_FAILURE=31\nuint8 TRANSITION_ON_ACTIVATE_ERROR=32\nuint8 TRANSITION_ON_DEACTIVATE_SUCCESS=40\nuint8 TRANSITION_ON_DEACTIVATE_FAILURE=41\nuint8 TRANSITION_ON_DEACTIVATE_ERROR=42\nuint8 TRANSITION_ON_SHUTDOWN_SUCCESS=50\nuint8 TRANSITION_ON_SHUTDOWN_FAILURE=51\nuint8 TRANSITION_ON_SHUTDOWN_ERROR=52\nuint8 TRANSITION_ON_ERROR_SUCCESS=60\nuint8 TRANSITION_ON_ERROR_FAILURE=61\nuint8 TRANSITION_ON_ERROR_ERROR=62\nuint8 TRANSITION_CALLBACK_SUCCESS=97\nuint8 TRANSITION_CALLBACK_FAILURE=98\nuint8 TRANSITION_CALLBACK_ERROR=99\nuint8 id\nstring label";
         const HASH: &'static str = "RIHS01_c65d7b31ea134cba4f54fc867b817979be799f7452035cd35fac9b7421fb3424";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.id);
             to.text(&self.label);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 id: from.number()?,
@@ -1901,6 +2072,7 @@ pub mod lifecycle_msgs {
         pub goal_state: super::lifecycle_msgs::State,
     }
     impl Default for TransitionDescription {
+        #[inline]
         fn default() -> Self {
             Self {
                 transition: Default::default(),
@@ -1913,11 +2085,13 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/msg/TransitionDescription";
         const DEFINITION: &'static str = "lifecycle_msgs/Transition transition\nlifecycle_msgs/State start_state\nlifecycle_msgs/State goal_state\n================================================================================\nMSG: lifecycle_msgs/Transition\nuint8 TRANSITION_CREATE=0\nuint8 TRANSITION_CONFIGURE=1\nuint8 TRANSITION_CLEANUP=2\nuint8 TRANSITION_ACTIVATE=3\nuint8 TRANSITION_DEACTIVATE=4\nuint8 TRANSITION_UNCONFIGURED_SHUTDOWN=5\nuint8 TRANSITION_INACTIVE_SHUTDOWN=6\nuint8 TRANSITION_ACTIVE_SHUTDOWN=7\nuint8 TRANSITION_DESTROY=8\nuint8 TRANSITION_ON_CONFIGURE_SUCCESS=10\nuint8 TRANSITION_ON_CONFIGURE_FAILURE=11\nuint8 TRANSITION_ON_CONFIGURE_ERROR=12\nuint8 TRANSITION_ON_CLEANUP_SUCCESS=20\nuint8 TRANSITION_ON_CLEANUP_FAILURE=21\nuint8 TRANSITION_ON_CLEANUP_ERROR=22\nuint8 TRANSITION_ON_ACTIVATE_SUCCESS=30\nuint8 TRANSITION_ON_ACTIVATE_FAILURE=31\nuint8 TRANSITION_ON_ACTIVATE_ERROR=32\nuint8 TRANSITION_ON_DEACTIVATE_SUCCESS=40\nuint8 TRANSITION_ON_DEACTIVATE_FAILURE=41\nuint8 TRANSITION_ON_DEACTIVATE_ERROR=42\nuint8 TRANSITION_ON_SHUTDOWN_SUCCESS=50\nuint8 TRANSITION_ON_SHUTDOWN_FAILURE=51\nuint8 TRANSITION_ON_SHUTDOWN_ERROR=52\nuint8 TRANSITION_ON_ERROR_SUCCESS=60\nuint8 TRANSITION_ON_ERROR_FAILURE=61\nuint8 TRANSITION_ON_ERROR_ERROR=62\nuint8 TRANSITION_CALLBACK_SUCCESS=97\nuint8 TRANSITION_CALLBACK_FAILURE=98\nuint8 TRANSITION_CALLBACK_ERROR=99\nuint8 id\nstring label\n================================================================================\nMSG: lifecycle_msgs/State\nuint8 PRIMARY_STATE_UNKNOWN=0\nuint8 PRIMARY_STATE_UNCONFIGURED=1\nuint8 PRIMARY_STATE_INACTIVE=2\nuint8 PRIMARY_STATE_ACTIVE=3\nuint8 PRIMARY_STATE_FINALIZED=4\nuint8 TRANSITION_STATE_CONFIGURING=10\nuint8 TRANSITION_STATE_CLEANINGUP=11\nuint8 TRANSITION_STATE_SHUTTINGDOWN=12\nuint8 TRANSITION_STATE_ACTIVATING=13\nuint8 TRANSITION_STATE_DEACTIVATING=14\nuint8 TRANSITION_STATE_ERRORPROCESSING=15\nuint8 id\nstring label";
         const HASH: &'static str = "RIHS01_c5f1cd4bb1ad2ba0e3329d4ac7015c52a674a72c1faf7974c37a33f4f6048b28";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.transition, to);
             Message::write(&self.start_state, to);
             Message::write(&self.goal_state, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 transition: Message::read(from)?,
@@ -1935,6 +2109,7 @@ pub mod lifecycle_msgs {
         pub goal_state: super::lifecycle_msgs::State,
     }
     impl Default for TransitionEvent {
+        #[inline]
         fn default() -> Self {
             Self {
                 timestamp: Default::default(),
@@ -1948,12 +2123,14 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/msg/TransitionEvent";
         const DEFINITION: &'static str = "uint64 timestamp\nlifecycle_msgs/Transition transition\nlifecycle_msgs/State start_state\nlifecycle_msgs/State goal_state\n================================================================================\nMSG: lifecycle_msgs/Transition\nuint8 TRANSITION_CREATE=0\nuint8 TRANSITION_CONFIGURE=1\nuint8 TRANSITION_CLEANUP=2\nuint8 TRANSITION_ACTIVATE=3\nuint8 TRANSITION_DEACTIVATE=4\nuint8 TRANSITION_UNCONFIGURED_SHUTDOWN=5\nuint8 TRANSITION_INACTIVE_SHUTDOWN=6\nuint8 TRANSITION_ACTIVE_SHUTDOWN=7\nuint8 TRANSITION_DESTROY=8\nuint8 TRANSITION_ON_CONFIGURE_SUCCESS=10\nuint8 TRANSITION_ON_CONFIGURE_FAILURE=11\nuint8 TRANSITION_ON_CONFIGURE_ERROR=12\nuint8 TRANSITION_ON_CLEANUP_SUCCESS=20\nuint8 TRANSITION_ON_CLEANUP_FAILURE=21\nuint8 TRANSITION_ON_CLEANUP_ERROR=22\nuint8 TRANSITION_ON_ACTIVATE_SUCCESS=30\nuint8 TRANSITION_ON_ACTIVATE_FAILURE=31\nuint8 TRANSITION_ON_ACTIVATE_ERROR=32\nuint8 TRANSITION_ON_DEACTIVATE_SUCCESS=40\nuint8 TRANSITION_ON_DEACTIVATE_FAILURE=41\nuint8 TRANSITION_ON_DEACTIVATE_ERROR=42\nuint8 TRANSITION_ON_SHUTDOWN_SUCCESS=50\nuint8 TRANSITION_ON_SHUTDOWN_FAILURE=51\nuint8 TRANSITION_ON_SHUTDOWN_ERROR=52\nuint8 TRANSITION_ON_ERROR_SUCCESS=60\nuint8 TRANSITION_ON_ERROR_FAILURE=61\nuint8 TRANSITION_ON_ERROR_ERROR=62\nuint8 TRANSITION_CALLBACK_SUCCESS=97\nuint8 TRANSITION_CALLBACK_FAILURE=98\nuint8 TRANSITION_CALLBACK_ERROR=99\nuint8 id\nstring label\n================================================================================\nMSG: lifecycle_msgs/State\nuint8 PRIMARY_STATE_UNKNOWN=0\nuint8 PRIMARY_STATE_UNCONFIGURED=1\nuint8 PRIMARY_STATE_INACTIVE=2\nuint8 PRIMARY_STATE_ACTIVE=3\nuint8 PRIMARY_STATE_FINALIZED=4\nuint8 TRANSITION_STATE_CONFIGURING=10\nuint8 TRANSITION_STATE_CLEANINGUP=11\nuint8 TRANSITION_STATE_SHUTTINGDOWN=12\nuint8 TRANSITION_STATE_ACTIVATING=13\nuint8 TRANSITION_STATE_DEACTIVATING=14\nuint8 TRANSITION_STATE_ERRORPROCESSING=15\nuint8 id\nstring label";
         const HASH: &'static str = "RIHS01_d5f8873a2f0146498f812d7885c7327ce27e463d36811d8792f35ee38c0d6c38";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.timestamp);
             Message::write(&self.transition, to);
             Message::write(&self.start_state, to);
             Message::write(&self.goal_state, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 timestamp: from.number()?,
@@ -1978,6 +2155,7 @@ pub mod lifecycle_msgs {
         pub transition: super::lifecycle_msgs::Transition,
     }
     impl Default for ChangeStateRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 transition: Default::default(),
@@ -1988,9 +2166,11 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/srv/ChangeState_Request";
         const DEFINITION: &'static str = "lifecycle_msgs/Transition transition\n================================================================================\nMSG: lifecycle_msgs/Transition\nuint8 TRANSITION_CREATE=0\nuint8 TRANSITION_CONFIGURE=1\nuint8 TRANSITION_CLEANUP=2\nuint8 TRANSITION_ACTIVATE=3\nuint8 TRANSITION_DEACTIVATE=4\nuint8 TRANSITION_UNCONFIGURED_SHUTDOWN=5\nuint8 TRANSITION_INACTIVE_SHUTDOWN=6\nuint8 TRANSITION_ACTIVE_SHUTDOWN=7\nuint8 TRANSITION_DESTROY=8\nuint8 TRANSITION_ON_CONFIGURE_SUCCESS=10\nuint8 TRANSITION_ON_CONFIGURE_FAILURE=11\nuint8 TRANSITION_ON_CONFIGURE_ERROR=12\nuint8 TRANSITION_ON_CLEANUP_SUCCESS=20\nuint8 TRANSITION_ON_CLEANUP_FAILURE=21\nuint8 TRANSITION_ON_CLEANUP_ERROR=22\nuint8 TRANSITION_ON_ACTIVATE_SUCCESS=30\nuint8 TRANSITION_ON_ACTIVATE_FAILURE=31\nuint8 TRANSITION_ON_ACTIVATE_ERROR=32\nuint8 TRANSITION_ON_DEACTIVATE_SUCCESS=40\nuint8 TRANSITION_ON_DEACTIVATE_FAILURE=41\nuint8 TRANSITION_ON_DEACTIVATE_ERROR=42\nuint8 TRANSITION_ON_SHUTDOWN_SUCCESS=50\nuint8 TRANSITION_ON_SHUTDOWN_FAILURE=51\nuint8 TRANSITION_ON_SHUTDOWN_ERROR=52\nuint8 TRANSITION_ON_ERROR_SUCCESS=60\nuint8 TRANSITION_ON_ERROR_FAILURE=61\nuint8 TRANSITION_ON_ERROR_ERROR=62\nuint8 TRANSITION_CALLBACK_SUCCESS=97\nuint8 TRANSITION_CALLBACK_FAILURE=98\nuint8 TRANSITION_CALLBACK_ERROR=99\nuint8 id\nstring label";
         const HASH: &'static str = "RIHS01_d74c6f524e14cade7b67e7297190360ed749264af300524fc1456f27cc2a553a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.transition, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 transition: Message::read(from)?,
@@ -2003,6 +2183,7 @@ pub mod lifecycle_msgs {
         pub success: bool,
     }
     impl Default for ChangeStateResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 success: Default::default(),
@@ -2013,9 +2194,11 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/srv/ChangeState_Response";
         const DEFINITION: &'static str = "bool success";
         const HASH: &'static str = "RIHS01_e1ddfed0271fefe63767aa71561926e4d9eac0f1ddf9e71a8873eb46b36deac2";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.success);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { success: from.number()? })
         }
@@ -2033,6 +2216,7 @@ pub mod lifecycle_msgs {
     #[derive(Debug, Clone, PartialEq)]
     pub struct GetAvailableStatesRequest {}
     impl Default for GetAvailableStatesRequest {
+        #[inline]
         fn default() -> Self {
             Self {}
         }
@@ -2041,9 +2225,11 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/srv/GetAvailableStates_Request";
         const DEFINITION: &'static str = "";
         const HASH: &'static str = "RIHS01_c2c0c12de6023822f284929577d4ca2862e0501150010966e8a90b632e4424de";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(0_u8);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.empty()?;
             Ok(Self {})
@@ -2055,6 +2241,7 @@ pub mod lifecycle_msgs {
         pub available_states: alloc::vec::Vec<super::lifecycle_msgs::State>,
     }
     impl Default for GetAvailableStatesResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 available_states: Default::default(),
@@ -2065,12 +2252,14 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/srv/GetAvailableStates_Response";
         const DEFINITION: &'static str = "lifecycle_msgs/State[] available_states\n================================================================================\nMSG: lifecycle_msgs/State\nuint8 PRIMARY_STATE_UNKNOWN=0\nuint8 PRIMARY_STATE_UNCONFIGURED=1\nuint8 PRIMARY_STATE_INACTIVE=2\nuint8 PRIMARY_STATE_ACTIVE=3\nuint8 PRIMARY_STATE_FINALIZED=4\nuint8 TRANSITION_STATE_CONFIGURING=10\nuint8 TRANSITION_STATE_CLEANINGUP=11\nuint8 TRANSITION_STATE_SHUTTINGDOWN=12\nuint8 TRANSITION_STATE_ACTIVATING=13\nuint8 TRANSITION_STATE_DEACTIVATING=14\nuint8 TRANSITION_STATE_ERRORPROCESSING=15\nuint8 id\nstring label";
         const HASH: &'static str = "RIHS01_223e0dd5bb8a847ebb9532adaf8b5e2a97e6e68e79faeaabd81a45fb32925bd1";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.available_states.len());
             for element in &self.available_states {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 available_states: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -2090,6 +2279,7 @@ pub mod lifecycle_msgs {
     #[derive(Debug, Clone, PartialEq)]
     pub struct GetAvailableTransitionsRequest {}
     impl Default for GetAvailableTransitionsRequest {
+        #[inline]
         fn default() -> Self {
             Self {}
         }
@@ -2098,9 +2288,11 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/srv/GetAvailableTransitions_Request";
         const DEFINITION: &'static str = "";
         const HASH: &'static str = "RIHS01_52a73c0b5d7489bee0df6ddb0aec45c41289d223ff225b58fe11d859ac8109a6";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(0_u8);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.empty()?;
             Ok(Self {})
@@ -2114,6 +2306,7 @@ pub mod lifecycle_msgs {
         >,
     }
     impl Default for GetAvailableTransitionsResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 available_transitions: Default::default(),
@@ -2124,12 +2317,14 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/srv/GetAvailableTransitions_Response";
         const DEFINITION: &'static str = "lifecycle_msgs/TransitionDescription[] available_transitions\n================================================================================\nMSG: lifecycle_msgs/TransitionDescription\nlifecycle_msgs/Transition transition\nlifecycle_msgs/State start_state\nlifecycle_msgs/State goal_state\n================================================================================\nMSG: lifecycle_msgs/Transition\nuint8 TRANSITION_CREATE=0\nuint8 TRANSITION_CONFIGURE=1\nuint8 TRANSITION_CLEANUP=2\nuint8 TRANSITION_ACTIVATE=3\nuint8 TRANSITION_DEACTIVATE=4\nuint8 TRANSITION_UNCONFIGURED_SHUTDOWN=5\nuint8 TRANSITION_INACTIVE_SHUTDOWN=6\nuint8 TRANSITION_ACTIVE_SHUTDOWN=7\nuint8 TRANSITION_DESTROY=8\nuint8 TRANSITION_ON_CONFIGURE_SUCCESS=10\nuint8 TRANSITION_ON_CONFIGURE_FAILURE=11\nuint8 TRANSITION_ON_CONFIGURE_ERROR=12\nuint8 TRANSITION_ON_CLEANUP_SUCCESS=20\nuint8 TRANSITION_ON_CLEANUP_FAILURE=21\nuint8 TRANSITION_ON_CLEANUP_ERROR=22\nuint8 TRANSITION_ON_ACTIVATE_SUCCESS=30\nuint8 TRANSITION_ON_ACTIVATE_FAILURE=31\nuint8 TRANSITION_ON_ACTIVATE_ERROR=32\nuint8 TRANSITION_ON_DEACTIVATE_SUCCESS=40\nuint8 TRANSITION_ON_DEACTIVATE_FAILURE=41\nuint8 TRANSITION_ON_DEACTIVATE_ERROR=42\nuint8 TRANSITION_ON_SHUTDOWN_SUCCESS=50\nuint8 TRANSITION_ON_SHUTDOWN_FAILURE=51\nuint8 TRANSITION_ON_SHUTDOWN_ERROR=52\nuint8 TRANSITION_ON_ERROR_SUCCESS=60\nuint8 TRANSITION_ON_ERROR_FAILURE=61\nuint8 TRANSITION_ON_ERROR_ERROR=62\nuint8 TRANSITION_CALLBACK_SUCCESS=97\nuint8 TRANSITION_CALLBACK_FAILURE=98\nuint8 TRANSITION_CALLBACK_ERROR=99\nuint8 id\nstring label\n================================================================================\nMSG: lifecycle_msgs/State\nuint8 PRIMARY_STATE_UNKNOWN=0\nuint8 PRIMARY_STATE_UNCONFIGURED=1\nuint8 PRIMARY_STATE_INACTIVE=2\nuint8 PRIMARY_STATE_ACTIVE=3\nuint8 PRIMARY_STATE_FINALIZED=4\nuint8 TRANSITION_STATE_CONFIGURING=10\nuint8 TRANSITION_STATE_CLEANINGUP=11\nuint8 TRANSITION_STATE_SHUTTINGDOWN=12\nuint8 TRANSITION_STATE_ACTIVATING=13\nuint8 TRANSITION_STATE_DEACTIVATING=14\nuint8 TRANSITION_STATE_ERRORPROCESSING=15\nuint8 id\nstring label";
         const HASH: &'static str = "RIHS01_4711339461aadf02bcfff797a198de911f885074bd3f2fe9f7b677ef87f0741c";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.available_transitions.len());
             for element in &self.available_transitions {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 available_transitions: from
@@ -2150,6 +2345,7 @@ pub mod lifecycle_msgs {
     #[derive(Debug, Clone, PartialEq)]
     pub struct GetStateRequest {}
     impl Default for GetStateRequest {
+        #[inline]
         fn default() -> Self {
             Self {}
         }
@@ -2158,9 +2354,11 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/srv/GetState_Request";
         const DEFINITION: &'static str = "";
         const HASH: &'static str = "RIHS01_77a9c844e7975f15bc2221e8bbebafc4d118afb78c7f7071eef91f83f940f2f6";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(0_u8);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.empty()?;
             Ok(Self {})
@@ -2172,6 +2370,7 @@ pub mod lifecycle_msgs {
         pub current_state: super::lifecycle_msgs::State,
     }
     impl Default for GetStateResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 current_state: Default::default(),
@@ -2182,9 +2381,11 @@ pub mod lifecycle_msgs {
         const NAME: &'static str = "lifecycle_msgs/srv/GetState_Response";
         const DEFINITION: &'static str = "lifecycle_msgs/State current_state\n================================================================================\nMSG: lifecycle_msgs/State\nuint8 PRIMARY_STATE_UNKNOWN=0\nuint8 PRIMARY_STATE_UNCONFIGURED=1\nuint8 PRIMARY_STATE_INACTIVE=2\nuint8 PRIMARY_STATE_ACTIVE=3\nuint8 PRIMARY_STATE_FINALIZED=4\nuint8 TRANSITION_STATE_CONFIGURING=10\nuint8 TRANSITION_STATE_CLEANINGUP=11\nuint8 TRANSITION_STATE_SHUTTINGDOWN=12\nuint8 TRANSITION_STATE_ACTIVATING=13\nuint8 TRANSITION_STATE_DEACTIVATING=14\nuint8 TRANSITION_STATE_ERRORPROCESSING=15\nuint8 id\nstring label";
         const HASH: &'static str = "RIHS01_fe249babab472e42cb5653b5d6a6b0c42a003b0fdfb84851aea3fde08760b4f5";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.current_state, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 current_state: Message::read(from)?,
@@ -2202,6 +2403,7 @@ pub mod nav_msgs {
         pub goals: alloc::vec::Vec<super::geometry_msgs::PoseStamped>,
     }
     impl Default for Goals {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -2213,6 +2415,7 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/msg/Goals";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/PoseStamped[] goals\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/PoseStamped\nstd_msgs/Header header\ngeometry_msgs/Pose pose\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_02305a51633b5c04d8979b878a7577cafd422f8a07465c878b17a920af3759e9";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.goals.len());
@@ -2220,6 +2423,7 @@ pub mod nav_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -2236,6 +2440,7 @@ pub mod nav_msgs {
         pub cells: alloc::vec::Vec<super::geometry_msgs::Point>,
     }
     impl Default for GridCells {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -2249,6 +2454,7 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/msg/GridCells";
         const DEFINITION: &'static str = "std_msgs/Header header\nfloat32 cell_width\nfloat32 cell_height\ngeometry_msgs/Point[] cells\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_bb99c2f5d0a04750745a81ec6a8147aa373cce5bd17c8cd6507f2413354a6933";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.cell_width);
@@ -2258,6 +2464,7 @@ pub mod nav_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -2277,6 +2484,7 @@ pub mod nav_msgs {
         pub origin: super::geometry_msgs::Pose,
     }
     impl Default for MapMetaData {
+        #[inline]
         fn default() -> Self {
             Self {
                 map_load_time: Default::default(),
@@ -2291,6 +2499,7 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/msg/MapMetaData";
         const DEFINITION: &'static str = "builtin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\ngeometry_msgs/Pose origin\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_2772d4b2000ef2b35dbaeb80fd3946c1369f817fb4f75677d916d27c17d763c8";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.map_load_time, to);
             to.number(self.resolution);
@@ -2298,6 +2507,7 @@ pub mod nav_msgs {
             to.number(self.height);
             Message::write(&self.origin, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 map_load_time: Message::read(from)?,
@@ -2316,6 +2526,7 @@ pub mod nav_msgs {
         pub data: alloc::vec::Vec<i8>,
     }
     impl Default for OccupancyGrid {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -2328,12 +2539,14 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/msg/OccupancyGrid";
         const DEFINITION: &'static str = "std_msgs/Header header\nnav_msgs/MapMetaData info\nint8[] data\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: nav_msgs/MapMetaData\nbuiltin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\ngeometry_msgs/Pose origin\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_8d348150c12913a31ee0ec170fbf25089e4745d17035792a1ba94d6f0bc0cfc7";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.info, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -2351,6 +2564,7 @@ pub mod nav_msgs {
         pub twist: super::geometry_msgs::TwistWithCovariance,
     }
     impl Default for Odometry {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -2364,12 +2578,14 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/msg/Odometry";
         const DEFINITION: &'static str = "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\ngeometry_msgs/TwistWithCovariance twist\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/PoseWithCovariance\ngeometry_msgs/Pose pose\nfloat64[36] covariance\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: geometry_msgs/TwistWithCovariance\ngeometry_msgs/Twist twist\nfloat64[36] covariance\n================================================================================\nMSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.text(&self.child_frame_id);
             Message::write(&self.pose, to);
             Message::write(&self.twist, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -2386,6 +2602,7 @@ pub mod nav_msgs {
         pub poses: alloc::vec::Vec<super::geometry_msgs::PoseStamped>,
     }
     impl Default for Path {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -2397,6 +2614,7 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/msg/Path";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/PoseStamped[] poses\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/PoseStamped\nstd_msgs/Header header\ngeometry_msgs/Pose pose\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_1957a5bb3cee5da65c4e52e52b65a93df227efce4c20f8458b36e73066ca334b";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.poses.len());
@@ -2404,6 +2622,7 @@ pub mod nav_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -2424,6 +2643,7 @@ pub mod nav_msgs {
     #[derive(Debug, Clone, PartialEq)]
     pub struct GetMapRequest {}
     impl Default for GetMapRequest {
+        #[inline]
         fn default() -> Self {
             Self {}
         }
@@ -2432,9 +2652,11 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/srv/GetMap_Request";
         const DEFINITION: &'static str = "";
         const HASH: &'static str = "RIHS01_b531e302f1bd6a81f8a5e03453266c378b1f711b4296000c1c0f53a40e00a7c4";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(0_u8);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.empty()?;
             Ok(Self {})
@@ -2446,6 +2668,7 @@ pub mod nav_msgs {
         pub map: super::nav_msgs::OccupancyGrid,
     }
     impl Default for GetMapResponse {
+        #[inline]
         fn default() -> Self {
             Self { map: Default::default() }
         }
@@ -2454,9 +2677,11 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/srv/GetMap_Response";
         const DEFINITION: &'static str = "nav_msgs/OccupancyGrid map\n================================================================================\nMSG: nav_msgs/OccupancyGrid\nstd_msgs/Header header\nnav_msgs/MapMetaData info\nint8[] data\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: nav_msgs/MapMetaData\nbuiltin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\ngeometry_msgs/Pose origin\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_45246f7a2ff0cbfa46e13865d4b95929ebb6d2846d1b85a20ad51030f4690dc2";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.map, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { map: Message::read(from)? })
         }
@@ -2478,6 +2703,7 @@ pub mod nav_msgs {
         pub tolerance: f32,
     }
     impl Default for GetPlanRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 start: Default::default(),
@@ -2490,11 +2716,13 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/srv/GetPlan_Request";
         const DEFINITION: &'static str = "geometry_msgs/PoseStamped start\ngeometry_msgs/PoseStamped goal\nfloat32 tolerance\n================================================================================\nMSG: geometry_msgs/PoseStamped\nstd_msgs/Header header\ngeometry_msgs/Pose pose\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_f1bb9fab287948b4432a4a7e4f529e7ea6269cd06269ee8fcb911fdb4acd23c3";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.start, to);
             Message::write(&self.goal, to);
             to.number(self.tolerance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 start: Message::read(from)?,
@@ -2509,6 +2737,7 @@ pub mod nav_msgs {
         pub plan: super::nav_msgs::Path,
     }
     impl Default for GetPlanResponse {
+        #[inline]
         fn default() -> Self {
             Self { plan: Default::default() }
         }
@@ -2517,9 +2746,11 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/srv/GetPlan_Response";
         const DEFINITION: &'static str = "nav_msgs/Path plan\n================================================================================\nMSG: nav_msgs/Path\nstd_msgs/Header header\ngeometry_msgs/PoseStamped[] poses\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/PoseStamped\nstd_msgs/Header header\ngeometry_msgs/Pose pose\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_30a947cd360777929073296c368c591dc2117a89c15b7a975a6faa0a901836fd";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.plan, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { plan: Message::read(from)? })
         }
@@ -2539,6 +2770,7 @@ pub mod nav_msgs {
         pub map_url: alloc::string::String,
     }
     impl Default for LoadMapRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 map_url: Default::default(),
@@ -2549,9 +2781,11 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/srv/LoadMap_Request";
         const DEFINITION: &'static str = "string map_url";
         const HASH: &'static str = "RIHS01_0f8fe3aac433c977d7c2f8b57ab1c3a17677e24880d76919b69e4208e99f5132";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.map_url);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 map_url: from.text_of(usize::MAX)?,
@@ -2572,6 +2806,7 @@ pub mod nav_msgs {
         pub const RESULT_UNDEFINED_FAILURE: u8 = 255;
     }
     impl Default for LoadMapResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 map: Default::default(),
@@ -2583,10 +2818,12 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/srv/LoadMap_Response";
         const DEFINITION: &'static str = "uint8 RESULT_SUCCESS=0\nuint8 RESULT_MAP_DOES_NOT_EXIST=1\nuint8 RESULT_INVALID_MAP_DATA=2\nuint8 RESULT_INVALID_MAP_METADATA=3\nuint8 RESULT_UNDEFINED_FAILURE=255\nnav_msgs/OccupancyGrid map\nuint8 result\n================================================================================\nMSG: nav_msgs/OccupancyGrid\nstd_msgs/Header header\nnav_msgs/MapMetaData info\nint8[] data\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: nav_msgs/MapMetaData\nbuiltin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\ngeometry_msgs/Pose origin\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_e7970ddf9f58e10d34b5eae6d2baca31b2b3e2f2fe6d082b3aae2a5f92777b2a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.map, to);
             to.number(self.result);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 map: Message::read(from)?,
@@ -2610,6 +2847,7 @@ pub mod nav_msgs {
         pub initial_pose: super::geometry_msgs::PoseWithCovarianceStamped,
     }
     impl Default for SetMapRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 map: Default::default(),
@@ -2621,10 +2859,12 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/srv/SetMap_Request";
         const DEFINITION: &'static str = "nav_msgs/OccupancyGrid map\ngeometry_msgs/PoseWithCovarianceStamped initial_pose\n================================================================================\nMSG: nav_msgs/OccupancyGrid\nstd_msgs/Header header\nnav_msgs/MapMetaData info\nint8[] data\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: nav_msgs/MapMetaData\nbuiltin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\ngeometry_msgs/Pose origin\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: geometry_msgs/PoseWithCovarianceStamped\nstd_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n================================================================================\nMSG: geometry_msgs/PoseWithCovariance\ngeometry_msgs/Pose pose\nfloat64[36] covariance";
         const HASH: &'static str = "RIHS01_5a83a0c20af4d79248fc3287524bf358b603fb5a05818b5ec85b50fa6e5d0266";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.map, to);
             Message::write(&self.initial_pose, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 map: Message::read(from)?,
@@ -2638,6 +2878,7 @@ pub mod nav_msgs {
         pub success: bool,
     }
     impl Default for SetMapResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 success: Default::default(),
@@ -2648,9 +2889,11 @@ pub mod nav_msgs {
         const NAME: &'static str = "nav_msgs/srv/SetMap_Response";
         const DEFINITION: &'static str = "bool success";
         const HASH: &'static str = "RIHS01_e7251879322c7b12285b9c191d68d27495b6dede051f3cd79b0bf334147b7375";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.success);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { success: from.number()? })
         }
@@ -2667,6 +2910,7 @@ pub mod rcl_interfaces {
         pub step: f64,
     }
     impl Default for FloatingPointRange {
+        #[inline]
         fn default() -> Self {
             Self {
                 from_value: Default::default(),
@@ -2679,11 +2923,13 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/FloatingPointRange";
         const DEFINITION: &'static str = "float64 from_value\nfloat64 to_value\nfloat64 step";
         const HASH: &'static str = "RIHS01_e6af23a23c177fee5f3075c8b1e435162a9b63c863d78c06017460b49684262d";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.from_value);
             to.number(self.to_value);
             to.number(self.step);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 from_value: from.number()?,
@@ -2700,6 +2946,7 @@ pub mod rcl_interfaces {
         pub step: u64,
     }
     impl Default for IntegerRange {
+        #[inline]
         fn default() -> Self {
             Self {
                 from_value: Default::default(),
@@ -2712,11 +2959,13 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/IntegerRange";
         const DEFINITION: &'static str = "int64 from_value\nint64 to_value\nuint64 step";
         const HASH: &'static str = "RIHS01_f7b7fdc0f65f07702e099218e13288c3963bcb9345bde78b560e6cd19800fc5a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.from_value);
             to.number(self.to_value);
             to.number(self.step);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 from_value: from.number()?,
@@ -2732,6 +2981,7 @@ pub mod rcl_interfaces {
         pub prefixes: alloc::vec::Vec<alloc::string::String>,
     }
     impl Default for ListParametersResult {
+        #[inline]
         fn default() -> Self {
             Self {
                 names: Default::default(),
@@ -2743,6 +2993,7 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/ListParametersResult";
         const DEFINITION: &'static str = "string[] names\nstring[] prefixes";
         const HASH: &'static str = "RIHS01_237ae3428413dcbcfb452b510c42355f3a2b021dc091afa3e18526d57022f1cd";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.names.len());
             for element in &self.names {
@@ -2753,6 +3004,7 @@ pub mod rcl_interfaces {
                 to.text(element);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 names: from.list_of(usize::MAX, |from| from.text_of(usize::MAX))?,
@@ -2779,6 +3031,7 @@ pub mod rcl_interfaces {
         pub const FATAL: u8 = 50;
     }
     impl Default for Log {
+        #[inline]
         fn default() -> Self {
             Self {
                 stamp: Default::default(),
@@ -2795,6 +3048,7 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/Log";
         const DEFINITION: &'static str = "uint8 DEBUG=10\nuint8 INFO=20\nuint8 WARN=30\nuint8 ERROR=40\nuint8 FATAL=50\nbuiltin_interfaces/Time stamp\nuint8 level\nstring name\nstring msg\nstring file\nstring function\nuint32 line\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.stamp, to);
             to.number(self.level);
@@ -2804,6 +3058,7 @@ pub mod rcl_interfaces {
             to.text(&self.function);
             to.number(self.line);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 stamp: Message::read(from)?,
@@ -2831,6 +3086,7 @@ pub mod rcl_interfaces {
         pub const LOG_LEVEL_FATAL: u8 = 50;
     }
     impl Default for LoggerLevel {
+        #[inline]
         fn default() -> Self {
             Self {
                 name: Default::default(),
@@ -2842,10 +3098,12 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/LoggerLevel";
         const DEFINITION: &'static str = "uint8 LOG_LEVEL_UNKNOWN=0\nuint8 LOG_LEVEL_DEBUG=10\nuint8 LOG_LEVEL_INFO=20\nuint8 LOG_LEVEL_WARN=30\nuint8 LOG_LEVEL_ERROR=40\nuint8 LOG_LEVEL_FATAL=50\nstring name\nuint32 level";
         const HASH: &'static str = "RIHS01_95785cc42f048ab4f395af65035aeaf2181d8e1c7a44edb8ad4558445fdb43c0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.name);
             to.number(self.level);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 name: from.text_of(usize::MAX)?,
@@ -2860,6 +3118,7 @@ pub mod rcl_interfaces {
         pub value: super::rcl_interfaces::ParameterValue,
     }
     impl Default for Parameter {
+        #[inline]
         fn default() -> Self {
             Self {
                 name: Default::default(),
@@ -2871,10 +3130,12 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/Parameter";
         const DEFINITION: &'static str = "string name\nrcl_interfaces/ParameterValue value\n================================================================================\nMSG: rcl_interfaces/ParameterValue\nuint8 type\nbool bool_value\nint64 integer_value\nfloat64 double_value\nstring string_value\nbyte[] byte_array_value\nbool[] bool_array_value\nint64[] integer_array_value\nfloat64[] double_array_value\nstring[] string_array_value";
         const HASH: &'static str = "RIHS01_ddfe6442cffc462317adb5c92536a7b6dd55858c5c3e1e328165a6b73c2831af";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.name);
             Message::write(&self.value, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 name: from.text_of(usize::MAX)?,
@@ -2897,6 +3158,7 @@ pub mod rcl_interfaces {
         pub integer_range: alloc::vec::Vec<super::rcl_interfaces::IntegerRange>,
     }
     impl Default for ParameterDescriptor {
+        #[inline]
         fn default() -> Self {
             Self {
                 name: Default::default(),
@@ -2914,6 +3176,7 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/ParameterDescriptor";
         const DEFINITION: &'static str = "string name\nuint8 type\nstring description\nstring additional_constraints\nbool read_only\nbool dynamic_typing\nrcl_interfaces/FloatingPointRange[<=1] floating_point_range\nrcl_interfaces/IntegerRange[<=1] integer_range\n================================================================================\nMSG: rcl_interfaces/FloatingPointRange\nfloat64 from_value\nfloat64 to_value\nfloat64 step\n================================================================================\nMSG: rcl_interfaces/IntegerRange\nint64 from_value\nint64 to_value\nuint64 step";
         const HASH: &'static str = "RIHS01_52175dbfda6c51153101d33d2a9da05743f66f02d5ab2ca9ec4709b46b73d704";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.name);
             to.number(self.r#type);
@@ -2930,6 +3193,7 @@ pub mod rcl_interfaces {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 name: from.text_of(usize::MAX)?,
@@ -2953,6 +3217,7 @@ pub mod rcl_interfaces {
         pub deleted_parameters: alloc::vec::Vec<super::rcl_interfaces::Parameter>,
     }
     impl Default for ParameterEvent {
+        #[inline]
         fn default() -> Self {
             Self {
                 stamp: Default::default(),
@@ -2967,6 +3232,7 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/ParameterEvent";
         const DEFINITION: &'static str = "builtin_interfaces/Time stamp\nstring node\nrcl_interfaces/Parameter[] new_parameters\nrcl_interfaces/Parameter[] changed_parameters\nrcl_interfaces/Parameter[] deleted_parameters\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: rcl_interfaces/Parameter\nstring name\nrcl_interfaces/ParameterValue value\n================================================================================\nMSG: rcl_interfaces/ParameterValue\nuint8 type\nbool bool_value\nint64 integer_value\nfloat64 double_value\nstring string_value\nbyte[] byte_array_value\nbool[] bool_array_value\nint64[] integer_array_value\nfloat64[] double_array_value\nstring[] string_array_value";
         const HASH: &'static str = "RIHS01_043e627780fcad87a22d225bc2a037361dba713fca6a6b9f4b869a5aa0393204";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.stamp, to);
             to.text(&self.node);
@@ -2983,6 +3249,7 @@ pub mod rcl_interfaces {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 stamp: Message::read(from)?,
@@ -3006,6 +3273,7 @@ pub mod rcl_interfaces {
         >,
     }
     impl Default for ParameterEventDescriptors {
+        #[inline]
         fn default() -> Self {
             Self {
                 new_parameters: Default::default(),
@@ -3018,6 +3286,7 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/ParameterEventDescriptors";
         const DEFINITION: &'static str = "rcl_interfaces/ParameterDescriptor[] new_parameters\nrcl_interfaces/ParameterDescriptor[] changed_parameters\nrcl_interfaces/ParameterDescriptor[] deleted_parameters\n================================================================================\nMSG: rcl_interfaces/ParameterDescriptor\nstring name\nuint8 type\nstring description\nstring additional_constraints\nbool read_only\nbool dynamic_typing\nrcl_interfaces/FloatingPointRange[<=1] floating_point_range\nrcl_interfaces/IntegerRange[<=1] integer_range\n================================================================================\nMSG: rcl_interfaces/FloatingPointRange\nfloat64 from_value\nfloat64 to_value\nfloat64 step\n================================================================================\nMSG: rcl_interfaces/IntegerRange\nint64 from_value\nint64 to_value\nuint64 step";
         const HASH: &'static str = "RIHS01_456f90915d72ef69379e702ef3ba2a115098ff677eab9c0080fa11239c6b147e";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.new_parameters.len());
             for element in &self.new_parameters {
@@ -3032,6 +3301,7 @@ pub mod rcl_interfaces {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 new_parameters: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -3057,6 +3327,7 @@ pub mod rcl_interfaces {
         pub const PARAMETER_STRING_ARRAY: u8 = 9;
     }
     impl Default for ParameterType {
+        #[inline]
         fn default() -> Self {
             Self {}
         }
@@ -3065,9 +3336,11 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/ParameterType";
         const DEFINITION: &'static str = "uint8 PARAMETER_NOT_SET=0\nuint8 PARAMETER_BOOL=1\nuint8 PARAMETER_INTEGER=2\nuint8 PARAMETER_DOUBLE=3\nuint8 PARAMETER_STRING=4\nuint8 PARAMETER_BYTE_ARRAY=5\nuint8 PARAMETER_BOOL_ARRAY=6\nuint8 PARAMETER_INTEGER_ARRAY=7\nuint8 PARAMETER_DOUBLE_ARRAY=8\nuint8 PARAMETER_STRING_ARRAY=9";
         const HASH: &'static str = "RIHS01_df29ed057a834862187be24dd187d981790ff3ea6502f4cd27b432cbc42c6d46";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(0_u8);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.empty()?;
             Ok(Self {})
@@ -3088,6 +3361,7 @@ pub mod rcl_interfaces {
         pub string_array_value: alloc::vec::Vec<alloc::string::String>,
     }
     impl Default for ParameterValue {
+        #[inline]
         fn default() -> Self {
             Self {
                 r#type: Default::default(),
@@ -3107,6 +3381,7 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/ParameterValue";
         const DEFINITION: &'static str = "uint8 type\nbool bool_value\nint64 integer_value\nfloat64 double_value\nstring string_value\nbyte[] byte_array_value\nbool[] bool_array_value\nint64[] integer_array_value\nfloat64[] double_array_value\nstring[] string_array_value";
         const HASH: &'static str = "RIHS01_115fc089a387e23c7ecd3525c9189c379109119d6ab82e8dfbde0fdf6a7f9b68";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.r#type);
             to.number(self.bool_value);
@@ -3126,6 +3401,7 @@ pub mod rcl_interfaces {
                 to.text(element);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 r#type: from.number()?,
@@ -3149,6 +3425,7 @@ pub mod rcl_interfaces {
         pub reason: alloc::string::String,
     }
     impl Default for SetLoggerLevelsResult {
+        #[inline]
         fn default() -> Self {
             Self {
                 successful: Default::default(),
@@ -3160,10 +3437,12 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/SetLoggerLevelsResult";
         const DEFINITION: &'static str = "bool successful\nstring reason";
         const HASH: &'static str = "RIHS01_9316e5e679a5b72d2dd7fd80c539bae9e106fa0890a06dc5da3a8177a3ff6909";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.successful);
             to.text(&self.reason);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 successful: from.number()?,
@@ -3178,6 +3457,7 @@ pub mod rcl_interfaces {
         pub reason: alloc::string::String,
     }
     impl Default for SetParametersResult {
+        #[inline]
         fn default() -> Self {
             Self {
                 successful: Default::default(),
@@ -3189,10 +3469,12 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/msg/SetParametersResult";
         const DEFINITION: &'static str = "bool successful\nstring reason";
         const HASH: &'static str = "RIHS01_cfcc0fb0371ee5159b403960ef4300f8f9d2f1fd6117c8666b7f9654d528a9b1";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.successful);
             to.text(&self.reason);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 successful: from.number()?,
@@ -3215,6 +3497,7 @@ pub mod rcl_interfaces {
         pub names: alloc::vec::Vec<alloc::string::String>,
     }
     impl Default for DescribeParametersRequest {
+        #[inline]
         fn default() -> Self {
             Self { names: Default::default() }
         }
@@ -3223,12 +3506,14 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/DescribeParameters_Request";
         const DEFINITION: &'static str = "string[] names";
         const HASH: &'static str = "RIHS01_05dd1c2bc87dec2627105c8070d6f9725c781a4f2ab852975bf105462b82b644";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.names.len());
             for element in &self.names {
                 to.text(element);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 names: from.list_of(usize::MAX, |from| from.text_of(usize::MAX))?,
@@ -3241,6 +3526,7 @@ pub mod rcl_interfaces {
         pub descriptors: alloc::vec::Vec<super::rcl_interfaces::ParameterDescriptor>,
     }
     impl Default for DescribeParametersResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 descriptors: Default::default(),
@@ -3251,12 +3537,14 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/DescribeParameters_Response";
         const DEFINITION: &'static str = "rcl_interfaces/ParameterDescriptor[] descriptors\n================================================================================\nMSG: rcl_interfaces/ParameterDescriptor\nstring name\nuint8 type\nstring description\nstring additional_constraints\nbool read_only\nbool dynamic_typing\nrcl_interfaces/FloatingPointRange[<=1] floating_point_range\nrcl_interfaces/IntegerRange[<=1] integer_range\n================================================================================\nMSG: rcl_interfaces/FloatingPointRange\nfloat64 from_value\nfloat64 to_value\nfloat64 step\n================================================================================\nMSG: rcl_interfaces/IntegerRange\nint64 from_value\nint64 to_value\nuint64 step";
         const HASH: &'static str = "RIHS01_ad6747319613c6131589e062e095b469a46cc764f7d0f12a001a49e6cd893995";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.descriptors.len());
             for element in &self.descriptors {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 descriptors: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -3278,6 +3566,7 @@ pub mod rcl_interfaces {
         pub names: alloc::vec::Vec<alloc::string::String>,
     }
     impl Default for GetParameterTypesRequest {
+        #[inline]
         fn default() -> Self {
             Self { names: Default::default() }
         }
@@ -3286,12 +3575,14 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/GetParameterTypes_Request";
         const DEFINITION: &'static str = "string[] names";
         const HASH: &'static str = "RIHS01_87d7ec5ef545d4daa289d500025d31fb2437bc8b8365ca367161c4dac4be33fd";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.names.len());
             for element in &self.names {
                 to.text(element);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 names: from.list_of(usize::MAX, |from| from.text_of(usize::MAX))?,
@@ -3304,6 +3595,7 @@ pub mod rcl_interfaces {
         pub types: alloc::vec::Vec<u8>,
     }
     impl Default for GetParameterTypesResponse {
+        #[inline]
         fn default() -> Self {
             Self { types: Default::default() }
         }
@@ -3312,10 +3604,12 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/GetParameterTypes_Response";
         const DEFINITION: &'static str = "uint8[] types";
         const HASH: &'static str = "RIHS01_ac1335dce67c478e669434f6ac2fbff34fcd529580f272d3006785ba8b54e47f";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.types.len());
             to.numbers(&self.types);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 types: from.list(usize::MAX)?,
@@ -3337,6 +3631,7 @@ pub mod rcl_interfaces {
         pub names: alloc::vec::Vec<alloc::string::String>,
     }
     impl Default for GetParametersRequest {
+        #[inline]
         fn default() -> Self {
             Self { names: Default::default() }
         }
@@ -3345,12 +3640,14 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/GetParameters_Request";
         const DEFINITION: &'static str = "string[] names";
         const HASH: &'static str = "RIHS01_135a9e1c3d7cebef792f6687d7ddf99949b21a0bd9a320d863a9110a3f5cf4d6";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.names.len());
             for element in &self.names {
                 to.text(element);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 names: from.list_of(usize::MAX, |from| from.text_of(usize::MAX))?,
@@ -3363,6 +3660,7 @@ pub mod rcl_interfaces {
         pub values: alloc::vec::Vec<super::rcl_interfaces::ParameterValue>,
     }
     impl Default for GetParametersResponse {
+        #[inline]
         fn default() -> Self {
             Self { values: Default::default() }
         }
@@ -3371,12 +3669,14 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/GetParameters_Response";
         const DEFINITION: &'static str = "rcl_interfaces/ParameterValue[] values\n================================================================================\nMSG: rcl_interfaces/ParameterValue\nuint8 type\nbool bool_value\nint64 integer_value\nfloat64 double_value\nstring string_value\nbyte[] byte_array_value\nbool[] bool_array_value\nint64[] integer_array_value\nfloat64[] double_array_value\nstring[] string_array_value";
         const HASH: &'static str = "RIHS01_9fa773b46e39cc5d02db6224d8fd520bb9caeeffc2b27c96c1e59431baba9f2a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.values.len());
             for element in &self.values {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 values: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -3402,6 +3702,7 @@ pub mod rcl_interfaces {
         pub const DEPTH_RECURSIVE: u64 = 0;
     }
     impl Default for ListParametersRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 prefixes: Default::default(),
@@ -3413,6 +3714,7 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/ListParameters_Request";
         const DEFINITION: &'static str = "uint64 DEPTH_RECURSIVE=0\nstring[] prefixes\nuint64 depth";
         const HASH: &'static str = "RIHS01_a1b0b5d6b967a5b8ac5bc8563c3ea678f349e312a6a4967227c5a96bc5ce38df";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.prefixes.len());
             for element in &self.prefixes {
@@ -3420,6 +3722,7 @@ pub mod rcl_interfaces {
             }
             to.number(self.depth);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 prefixes: from.list_of(usize::MAX, |from| from.text_of(usize::MAX))?,
@@ -3433,6 +3736,7 @@ pub mod rcl_interfaces {
         pub result: super::rcl_interfaces::ListParametersResult,
     }
     impl Default for ListParametersResponse {
+        #[inline]
         fn default() -> Self {
             Self { result: Default::default() }
         }
@@ -3441,9 +3745,11 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/ListParameters_Response";
         const DEFINITION: &'static str = "rcl_interfaces/ListParametersResult result\n================================================================================\nMSG: rcl_interfaces/ListParametersResult\nstring[] names\nstring[] prefixes";
         const HASH: &'static str = "RIHS01_31b937b82de3612426be79f231e386259f97e8dc843e3f2845288b4bfa296bdd";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.result, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 result: Message::read(from)?,
@@ -3474,6 +3780,7 @@ pub mod rcl_interfaces {
         pub parameters: alloc::vec::Vec<super::rcl_interfaces::Parameter>,
     }
     impl Default for SetParametersAtomicallyRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 parameters: Default::default(),
@@ -3484,12 +3791,14 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/SetParametersAtomically_Request";
         const DEFINITION: &'static str = "rcl_interfaces/Parameter[] parameters\n================================================================================\nMSG: rcl_interfaces/Parameter\nstring name\nrcl_interfaces/ParameterValue value\n================================================================================\nMSG: rcl_interfaces/ParameterValue\nuint8 type\nbool bool_value\nint64 integer_value\nfloat64 double_value\nstring string_value\nbyte[] byte_array_value\nbool[] bool_array_value\nint64[] integer_array_value\nfloat64[] double_array_value\nstring[] string_array_value";
         const HASH: &'static str = "RIHS01_db0bd950ed5ed867a0e90b225e44dea382d762c0762ff3e0ee842190042a59e5";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.parameters.len());
             for element in &self.parameters {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 parameters: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -3502,6 +3811,7 @@ pub mod rcl_interfaces {
         pub result: super::rcl_interfaces::SetParametersResult,
     }
     impl Default for SetParametersAtomicallyResponse {
+        #[inline]
         fn default() -> Self {
             Self { result: Default::default() }
         }
@@ -3510,9 +3820,11 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/SetParametersAtomically_Response";
         const DEFINITION: &'static str = "rcl_interfaces/SetParametersResult result\n================================================================================\nMSG: rcl_interfaces/SetParametersResult\nbool successful\nstring reason";
         const HASH: &'static str = "RIHS01_31b1a38c5b0b9d893ee24da45f69638f4561c78461d82d52750f429b534502b8";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.result, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 result: Message::read(from)?,
@@ -3525,6 +3837,7 @@ pub mod rcl_interfaces {
         pub parameters: alloc::vec::Vec<super::rcl_interfaces::Parameter>,
     }
     impl Default for SetParametersRequest {
+        #[inline]
         fn default() -> Self {
             Self {
                 parameters: Default::default(),
@@ -3535,12 +3848,14 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/SetParameters_Request";
         const DEFINITION: &'static str = "rcl_interfaces/Parameter[] parameters\n================================================================================\nMSG: rcl_interfaces/Parameter\nstring name\nrcl_interfaces/ParameterValue value\n================================================================================\nMSG: rcl_interfaces/ParameterValue\nuint8 type\nbool bool_value\nint64 integer_value\nfloat64 double_value\nstring string_value\nbyte[] byte_array_value\nbool[] bool_array_value\nint64[] integer_array_value\nfloat64[] double_array_value\nstring[] string_array_value";
         const HASH: &'static str = "RIHS01_130d46386b7e84ea9ecf60608a4d83cbe5e5cb7c6cc5b712b7a4e3a6c254e932";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.parameters.len());
             for element in &self.parameters {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 parameters: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -3553,6 +3868,7 @@ pub mod rcl_interfaces {
         pub results: alloc::vec::Vec<super::rcl_interfaces::SetParametersResult>,
     }
     impl Default for SetParametersResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 results: Default::default(),
@@ -3563,12 +3879,14 @@ pub mod rcl_interfaces {
         const NAME: &'static str = "rcl_interfaces/srv/SetParameters_Response";
         const DEFINITION: &'static str = "rcl_interfaces/SetParametersResult[] results\n================================================================================\nMSG: rcl_interfaces/SetParametersResult\nbool successful\nstring reason";
         const HASH: &'static str = "RIHS01_7a0e8140a0b8d98308fa81a5403a766e610af29a239caf54b7553227906fc266";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.results.len());
             for element in &self.results {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 results: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -3585,6 +3903,7 @@ pub mod rosgraph_msgs {
         pub clock: super::builtin_interfaces::Time,
     }
     impl Default for Clock {
+        #[inline]
         fn default() -> Self {
             Self { clock: Default::default() }
         }
@@ -3593,9 +3912,11 @@ pub mod rosgraph_msgs {
         const NAME: &'static str = "rosgraph_msgs/msg/Clock";
         const DEFINITION: &'static str = "builtin_interfaces/Time clock\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.clock, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 clock: Message::read(from)?,
@@ -3652,6 +3973,7 @@ pub mod sensor_msgs {
         pub const POWER_SUPPLY_TECHNOLOGY_VRLA: u8 = 8;
     }
     impl Default for BatteryState {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -3677,6 +3999,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/BatteryState";
         const DEFINITION: &'static str = "uint8 POWER_SUPPLY_STATUS_UNKNOWN=0\nuint8 POWER_SUPPLY_STATUS_CHARGING=1\nuint8 POWER_SUPPLY_STATUS_DISCHARGING=2\nuint8 POWER_SUPPLY_STATUS_NOT_CHARGING=3\nuint8 POWER_SUPPLY_STATUS_FULL=4\nuint8 POWER_SUPPLY_HEALTH_UNKNOWN=0\nuint8 POWER_SUPPLY_HEALTH_GOOD=1\nuint8 POWER_SUPPLY_HEALTH_OVERHEAT=2\nuint8 POWER_SUPPLY_HEALTH_DEAD=3\nuint8 POWER_SUPPLY_HEALTH_OVERVOLTAGE=4\nuint8 POWER_SUPPLY_HEALTH_UNSPEC_FAILURE=5\nuint8 POWER_SUPPLY_HEALTH_COLD=6\nuint8 POWER_SUPPLY_HEALTH_WATCHDOG_TIMER_EXPIRE=7\nuint8 POWER_SUPPLY_HEALTH_SAFETY_TIMER_EXPIRE=8\nuint8 POWER_SUPPLY_TECHNOLOGY_UNKNOWN=0\nuint8 POWER_SUPPLY_TECHNOLOGY_NIMH=1\nuint8 POWER_SUPPLY_TECHNOLOGY_LION=2\nuint8 POWER_SUPPLY_TECHNOLOGY_LIPO=3\nuint8 POWER_SUPPLY_TECHNOLOGY_LIFE=4\nuint8 POWER_SUPPLY_TECHNOLOGY_NICD=5\nuint8 POWER_SUPPLY_TECHNOLOGY_LIMN=6\nuint8 POWER_SUPPLY_TECHNOLOGY_TERNARY=7\nuint8 POWER_SUPPLY_TECHNOLOGY_VRLA=8\nstd_msgs/Header header\nfloat32 voltage\nfloat32 temperature\nfloat32 current\nfloat32 charge\nfloat32 capacity\nfloat32 design_capacity\nfloat32 percentage\nuint8 power_supply_status\nuint8 power_supply_health\nuint8 power_supply_technology\nbool present\nfloat32[] cell_voltage\nfloat32[] cell_temperature\nstring location\nstring serial_number\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_4bee5dfce981c98faa6828b868307a0a73f992ed0789f374ee96c8f840e69741";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.voltage);
@@ -3697,6 +4020,7 @@ pub mod sensor_msgs {
             to.text(&self.location);
             to.text(&self.serial_number);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -3734,6 +4058,7 @@ pub mod sensor_msgs {
         pub roi: super::sensor_msgs::RegionOfInterest,
     }
     impl Default for CameraInfo {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -3754,6 +4079,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/CameraInfo";
         const DEFINITION: &'static str = "std_msgs/Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] d\nfloat64[9] k\nfloat64[9] r\nfloat64[12] p\nuint32 binning_x\nuint32 binning_y\nsensor_msgs/RegionOfInterest roi\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/RegionOfInterest\nuint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify";
         const HASH: &'static str = "RIHS01_b3dfd68ff46c9d56c80fd3bd4ed22c7a4ddce8c8348f2f59c299e73118e7e275";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.height);
@@ -3768,6 +4094,7 @@ pub mod sensor_msgs {
             to.number(self.binning_y);
             Message::write(&self.roi, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -3791,6 +4118,7 @@ pub mod sensor_msgs {
         pub values: alloc::vec::Vec<f32>,
     }
     impl Default for ChannelFloat32 {
+        #[inline]
         fn default() -> Self {
             Self {
                 name: Default::default(),
@@ -3802,11 +4130,13 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/ChannelFloat32";
         const DEFINITION: &'static str = "string name\nfloat32[] values";
         const HASH: &'static str = "RIHS01_92665437ddf39346f4ba39ee32e648390605b633cc077d40f4bd4d7b58af6cd4";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.name);
             to.length(self.values.len());
             to.numbers(&self.values);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 name: from.text_of(usize::MAX)?,
@@ -3822,6 +4152,7 @@ pub mod sensor_msgs {
         pub data: alloc::vec::Vec<u8>,
     }
     impl Default for CompressedImage {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -3834,12 +4165,14 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/CompressedImage";
         const DEFINITION: &'static str = "std_msgs/Header header\nstring format\nuint8[] data\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_15640771531571185e2efc8a100baf923961a4d15d5569652e6cb6691e8e371a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.text(&self.format);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -3856,6 +4189,7 @@ pub mod sensor_msgs {
         pub variance: f64,
     }
     impl Default for FluidPressure {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -3868,11 +4202,13 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/FluidPressure";
         const DEFINITION: &'static str = "std_msgs/Header header\nfloat64 fluid_pressure\nfloat64 variance\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_22dfb2b145a0bd5a31a1ac3882a1b32148b51d9b2f3bab250290d66f3595bc32";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.fluid_pressure);
             to.number(self.variance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -3889,6 +4225,7 @@ pub mod sensor_msgs {
         pub variance: f64,
     }
     impl Default for Illuminance {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -3901,11 +4238,13 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/Illuminance";
         const DEFINITION: &'static str = "std_msgs/Header header\nfloat64 illuminance\nfloat64 variance\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_b954b25f452fcf81a91c9c2a7e3b3fd85c4c873d452aecb3cfd8fd1da732a22d";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.illuminance);
             to.number(self.variance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -3926,6 +4265,7 @@ pub mod sensor_msgs {
         pub data: alloc::vec::Vec<u8>,
     }
     impl Default for Image {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -3942,6 +4282,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/Image";
         const DEFINITION: &'static str = "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\nuint8[] data\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_d31d41a9a4c4bc8eae9be757b0beed306564f7526c88ea6a4588fb9582527d47";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.height);
@@ -3952,6 +4293,7 @@ pub mod sensor_msgs {
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -3976,6 +4318,7 @@ pub mod sensor_msgs {
         pub linear_acceleration_covariance: [f64; 9],
     }
     impl Default for Imu {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -3992,6 +4335,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/Imu";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.orientation, to);
@@ -4001,6 +4345,7 @@ pub mod sensor_msgs {
             Message::write(&self.linear_acceleration, to);
             to.numbers(&self.linear_acceleration_covariance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4023,6 +4368,7 @@ pub mod sensor_msgs {
         pub effort: alloc::vec::Vec<f64>,
     }
     impl Default for JointState {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4037,6 +4383,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/JointState";
         const DEFINITION: &'static str = "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.name.len());
@@ -4050,6 +4397,7 @@ pub mod sensor_msgs {
             to.length(self.effort.len());
             to.numbers(&self.effort);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4068,6 +4416,7 @@ pub mod sensor_msgs {
         pub buttons: alloc::vec::Vec<i32>,
     }
     impl Default for Joy {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4080,6 +4429,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/Joy";
         const DEFINITION: &'static str = "std_msgs/Header header\nfloat32[] axes\nint32[] buttons\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_0d356c79cad3401e35ffeb75a96a96e08be3ef896b8b83841d73e890989372c5";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.axes.len());
@@ -4087,6 +4437,7 @@ pub mod sensor_msgs {
             to.length(self.buttons.len());
             to.numbers(&self.buttons);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4108,6 +4459,7 @@ pub mod sensor_msgs {
         pub const TYPE_BUZZER: u8 = 2;
     }
     impl Default for JoyFeedback {
+        #[inline]
         fn default() -> Self {
             Self {
                 r#type: Default::default(),
@@ -4120,11 +4472,13 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/JoyFeedback";
         const DEFINITION: &'static str = "uint8 TYPE_LED=0\nuint8 TYPE_RUMBLE=1\nuint8 TYPE_BUZZER=2\nuint8 type\nuint8 id\nfloat32 intensity";
         const HASH: &'static str = "RIHS01_231dd362f71d6fc08272770d07120ad5fe5874ce2dbac70109b28986834290cd";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.r#type);
             to.number(self.id);
             to.number(self.intensity);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 r#type: from.number()?,
@@ -4139,6 +4493,7 @@ pub mod sensor_msgs {
         pub array: alloc::vec::Vec<super::sensor_msgs::JoyFeedback>,
     }
     impl Default for JoyFeedbackArray {
+        #[inline]
         fn default() -> Self {
             Self { array: Default::default() }
         }
@@ -4147,12 +4502,14 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/JoyFeedbackArray";
         const DEFINITION: &'static str = "sensor_msgs/JoyFeedback[] array\n================================================================================\nMSG: sensor_msgs/JoyFeedback\nuint8 TYPE_LED=0\nuint8 TYPE_RUMBLE=1\nuint8 TYPE_BUZZER=2\nuint8 type\nuint8 id\nfloat32 intensity";
         const HASH: &'static str = "RIHS01_3287c32e1b688cae04555e465443df3cca7dae76ee4ebf85c4658d585037bcaa";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.array.len());
             for element in &self.array {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 array: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -4165,6 +4522,7 @@ pub mod sensor_msgs {
         pub echoes: alloc::vec::Vec<f32>,
     }
     impl Default for LaserEcho {
+        #[inline]
         fn default() -> Self {
             Self { echoes: Default::default() }
         }
@@ -4173,10 +4531,12 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/LaserEcho";
         const DEFINITION: &'static str = "float32[] echoes";
         const HASH: &'static str = "RIHS01_0fbc05a0db7d37fe52c0f0375356db55da0046f7ef5bd27ca6b34bd0582bc952";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.echoes.len());
             to.numbers(&self.echoes);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 echoes: from.list(usize::MAX)?,
@@ -4198,6 +4558,7 @@ pub mod sensor_msgs {
         pub intensities: alloc::vec::Vec<f32>,
     }
     impl Default for LaserScan {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4217,6 +4578,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/LaserScan";
         const DEFINITION: &'static str = "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\nfloat32 time_increment\nfloat32 scan_time\nfloat32 range_min\nfloat32 range_max\nfloat32[] ranges\nfloat32[] intensities\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.angle_min);
@@ -4231,6 +4593,7 @@ pub mod sensor_msgs {
             to.length(self.intensities.len());
             to.numbers(&self.intensities);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4254,6 +4617,7 @@ pub mod sensor_msgs {
         pub magnetic_field_covariance: [f64; 9],
     }
     impl Default for MagneticField {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4266,11 +4630,13 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/MagneticField";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Vector3 magnetic_field\nfloat64[9] magnetic_field_covariance\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_e80f32f56a20486c9923008fc1a1db07bbb273cbbf6a5b3bfa00835ee00e4dff";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.magnetic_field, to);
             to.numbers(&self.magnetic_field_covariance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4289,6 +4655,7 @@ pub mod sensor_msgs {
         pub wrench: alloc::vec::Vec<super::geometry_msgs::Wrench>,
     }
     impl Default for MultiDOFJointState {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4303,6 +4670,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/MultiDOFJointState";
         const DEFINITION: &'static str = "std_msgs/Header header\nstring[] joint_names\ngeometry_msgs/Transform[] transforms\ngeometry_msgs/Twist[] twist\ngeometry_msgs/Wrench[] wrench\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: geometry_msgs/Wrench\ngeometry_msgs/Vector3 force\ngeometry_msgs/Vector3 torque";
         const HASH: &'static str = "RIHS01_4d4ded702cfba7ff3ec783835c1a1425f75e53939a430ff355d1fee4b3bbc40b";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.joint_names.len());
@@ -4322,6 +4690,7 @@ pub mod sensor_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4347,6 +4716,7 @@ pub mod sensor_msgs {
         pub intensities: alloc::vec::Vec<super::sensor_msgs::LaserEcho>,
     }
     impl Default for MultiEchoLaserScan {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4366,6 +4736,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/MultiEchoLaserScan";
         const DEFINITION: &'static str = "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\nfloat32 time_increment\nfloat32 scan_time\nfloat32 range_min\nfloat32 range_max\nsensor_msgs/LaserEcho[] ranges\nsensor_msgs/LaserEcho[] intensities\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/LaserEcho\nfloat32[] echoes";
         const HASH: &'static str = "RIHS01_ba5eac341cd5bbb2701527aa4568e8baec172b69cadb9a1945d6f149d087ee48";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.angle_min);
@@ -4384,6 +4755,7 @@ pub mod sensor_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4417,6 +4789,7 @@ pub mod sensor_msgs {
         pub const COVARIANCE_TYPE_KNOWN: u8 = 3;
     }
     impl Default for NavSatFix {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4433,6 +4806,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/NavSatFix";
         const DEFINITION: &'static str = "uint8 COVARIANCE_TYPE_UNKNOWN=0\nuint8 COVARIANCE_TYPE_APPROXIMATED=1\nuint8 COVARIANCE_TYPE_DIAGONAL_KNOWN=2\nuint8 COVARIANCE_TYPE_KNOWN=3\nstd_msgs/Header header\nsensor_msgs/NavSatStatus status\nfloat64 latitude\nfloat64 longitude\nfloat64 altitude\nfloat64[9] position_covariance\nuint8 position_covariance_type\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/NavSatStatus\nint8 STATUS_UNKNOWN=-2\nint8 STATUS_NO_FIX=-1\nint8 STATUS_FIX=0\nint8 STATUS_SBAS_FIX=1\nint8 STATUS_GBAS_FIX=2\nuint16 SERVICE_UNKNOWN=0\nuint16 SERVICE_GPS=1\nuint16 SERVICE_GLONASS=2\nuint16 SERVICE_COMPASS=4\nuint16 SERVICE_GALILEO=8\nint8 status\nuint16 service";
         const HASH: &'static str = "RIHS01_62223ab3fe210a15976021da7afddc9e200dc9ec75231c1b6a557fc598a65404";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.status, to);
@@ -4442,6 +4816,7 @@ pub mod sensor_msgs {
             to.numbers(&self.position_covariance);
             to.number(self.position_covariance_type);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4473,6 +4848,7 @@ pub mod sensor_msgs {
         pub const SERVICE_GALILEO: u16 = 8;
     }
     impl Default for NavSatStatus {
+        #[inline]
         fn default() -> Self {
             Self {
                 status: Default::default(),
@@ -4484,10 +4860,12 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/NavSatStatus";
         const DEFINITION: &'static str = "int8 STATUS_UNKNOWN=-2\nint8 STATUS_NO_FIX=-1\nint8 STATUS_FIX=0\nint8 STATUS_SBAS_FIX=1\nint8 STATUS_GBAS_FIX=2\nuint16 SERVICE_UNKNOWN=0\nuint16 SERVICE_GPS=1\nuint16 SERVICE_GLONASS=2\nuint16 SERVICE_COMPASS=4\nuint16 SERVICE_GALILEO=8\nint8 status\nuint16 service";
         const HASH: &'static str = "RIHS01_d1ed3befa628e09571bd273b888ba1c1fd187c9a5e0006b385d7e5e9095a3204";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.status);
             to.number(self.service);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 status: from.number()?,
@@ -4503,6 +4881,7 @@ pub mod sensor_msgs {
         pub channels: alloc::vec::Vec<super::sensor_msgs::ChannelFloat32>,
     }
     impl Default for PointCloud {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4515,6 +4894,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/PointCloud";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Point32[] points\nsensor_msgs/ChannelFloat32[] channels\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Point32\nfloat32 x\nfloat32 y\nfloat32 z\n================================================================================\nMSG: sensor_msgs/ChannelFloat32\nstring name\nfloat32[] values";
         const HASH: &'static str = "RIHS01_614593df71d3c2b9bd4604a71b750fd218f0d65c045ea988b713719455a65b3b";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.points.len());
@@ -4526,6 +4906,7 @@ pub mod sensor_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4548,6 +4929,7 @@ pub mod sensor_msgs {
         pub is_dense: bool,
     }
     impl Default for PointCloud2 {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4566,6 +4948,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/PointCloud2";
         const DEFINITION: &'static str = "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/PointField\nuint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 count";
         const HASH: &'static str = "RIHS01_9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.height);
@@ -4581,6 +4964,7 @@ pub mod sensor_msgs {
             to.numbers(&self.data);
             to.number(self.is_dense);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4614,6 +4998,7 @@ pub mod sensor_msgs {
         pub const FLOAT64: u8 = 8;
     }
     impl Default for PointField {
+        #[inline]
         fn default() -> Self {
             Self {
                 name: Default::default(),
@@ -4627,12 +5012,14 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/PointField";
         const DEFINITION: &'static str = "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 count";
         const HASH: &'static str = "RIHS01_5c6a4750728c2bcfbbf7037225b20b02d4429634732146b742dee1726637ef01";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.name);
             to.number(self.offset);
             to.number(self.datatype);
             to.number(self.count);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 name: from.text_of(usize::MAX)?,
@@ -4658,6 +5045,7 @@ pub mod sensor_msgs {
         pub const INFRARED: u8 = 1;
     }
     impl Default for Range {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4674,6 +5062,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/Range";
         const DEFINITION: &'static str = "uint8 ULTRASOUND=0\nuint8 INFRARED=1\nstd_msgs/Header header\nuint8 radiation_type\nfloat32 field_of_view\nfloat32 min_range\nfloat32 max_range\nfloat32 range\nfloat32 variance\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_b42b62562e93cbfe9d42b82fe5994dfa3d63d7d5c90a317981703f7388adff3a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.radiation_type);
@@ -4683,6 +5072,7 @@ pub mod sensor_msgs {
             to.number(self.range);
             to.number(self.variance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4705,6 +5095,7 @@ pub mod sensor_msgs {
         pub do_rectify: bool,
     }
     impl Default for RegionOfInterest {
+        #[inline]
         fn default() -> Self {
             Self {
                 x_offset: Default::default(),
@@ -4719,6 +5110,7 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/RegionOfInterest";
         const DEFINITION: &'static str = "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify";
         const HASH: &'static str = "RIHS01_ad16bcba5f9131dcdba6fbded19f726f5440e3c513b4fb586dd3027eeed8abb1";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.x_offset);
             to.number(self.y_offset);
@@ -4726,6 +5118,7 @@ pub mod sensor_msgs {
             to.number(self.width);
             to.number(self.do_rectify);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 x_offset: from.number()?,
@@ -4744,6 +5137,7 @@ pub mod sensor_msgs {
         pub variance: f64,
     }
     impl Default for RelativeHumidity {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4756,11 +5150,13 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/RelativeHumidity";
         const DEFINITION: &'static str = "std_msgs/Header header\nfloat64 relative_humidity\nfloat64 variance\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_8687c99b4fb393cb2e545e407b5ea7fd0b5d8960bcd849a0f86c544740138839";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.relative_humidity);
             to.number(self.variance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4777,6 +5173,7 @@ pub mod sensor_msgs {
         pub variance: f64,
     }
     impl Default for Temperature {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4789,11 +5186,13 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/Temperature";
         const DEFINITION: &'static str = "std_msgs/Header header\nfloat64 temperature\nfloat64 variance\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_72514a14126ab9f8a9abec974c78e5610a367b59db5da355ff1fb982d5bad4b8";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.number(self.temperature);
             to.number(self.variance);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4810,6 +5209,7 @@ pub mod sensor_msgs {
         pub source: alloc::string::String,
     }
     impl Default for TimeReference {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -4822,11 +5222,13 @@ pub mod sensor_msgs {
         const NAME: &'static str = "sensor_msgs/msg/TimeReference";
         const DEFINITION: &'static str = "std_msgs/Header header\nbuiltin_interfaces/Time time_ref\nstring source\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_dd66e84cf40bbb5d5a40472e6ecf2675a031334d4c426abdb2ad41801a8efc99";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.time_ref, to);
             to.text(&self.source);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -4854,6 +5256,7 @@ pub mod service_msgs {
         pub const RESPONSE_RECEIVED: u8 = 3;
     }
     impl Default for ServiceEventInfo {
+        #[inline]
         fn default() -> Self {
             Self {
                 event_type: Default::default(),
@@ -4867,12 +5270,14 @@ pub mod service_msgs {
         const NAME: &'static str = "service_msgs/msg/ServiceEventInfo";
         const DEFINITION: &'static str = "uint8 REQUEST_SENT=0\nuint8 REQUEST_RECEIVED=1\nuint8 RESPONSE_SENT=2\nuint8 RESPONSE_RECEIVED=3\nuint8 event_type\nbuiltin_interfaces/Time stamp\nuint8[16] client_gid\nint64 sequence_number\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_41bcbbe07a75c9b52bc96bfd5c24d7f0fc0a08c0cb7921b3373c5732345a6f45";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.event_type);
             Message::write(&self.stamp, to);
             to.numbers(&self.client_gid);
             to.number(self.sequence_number);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 event_type: from.number()?,
@@ -4893,6 +5298,7 @@ pub mod shape_msgs {
         pub vertices: alloc::vec::Vec<super::geometry_msgs::Point>,
     }
     impl Default for Mesh {
+        #[inline]
         fn default() -> Self {
             Self {
                 triangles: Default::default(),
@@ -4904,6 +5310,7 @@ pub mod shape_msgs {
         const NAME: &'static str = "shape_msgs/msg/Mesh";
         const DEFINITION: &'static str = "shape_msgs/MeshTriangle[] triangles\ngeometry_msgs/Point[] vertices\n================================================================================\nMSG: shape_msgs/MeshTriangle\nuint32[3] vertex_indices\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z";
         const HASH: &'static str = "RIHS01_f2150b82d8ee7e8bc3f396a2b158aefb4b9a5510a474be271ba1268aebb55289";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.triangles.len());
             for element in &self.triangles {
@@ -4914,6 +5321,7 @@ pub mod shape_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 triangles: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -4927,6 +5335,7 @@ pub mod shape_msgs {
         pub vertex_indices: [u32; 3],
     }
     impl Default for MeshTriangle {
+        #[inline]
         fn default() -> Self {
             Self { vertex_indices: [0; 3] }
         }
@@ -4935,9 +5344,11 @@ pub mod shape_msgs {
         const NAME: &'static str = "shape_msgs/msg/MeshTriangle";
         const DEFINITION: &'static str = "uint32[3] vertex_indices";
         const HASH: &'static str = "RIHS01_618e5c073eeb729e433ef6226e72c01d995c459fb7d76348c9700409a5020bd0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.numbers(&self.vertex_indices);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 vertex_indices: from.array()?,
@@ -4950,6 +5361,7 @@ pub mod shape_msgs {
         pub coef: [f64; 4],
     }
     impl Default for Plane {
+        #[inline]
         fn default() -> Self {
             Self { coef: [0.0; 4] }
         }
@@ -4958,9 +5370,11 @@ pub mod shape_msgs {
         const NAME: &'static str = "shape_msgs/msg/Plane";
         const DEFINITION: &'static str = "float64[4] coef";
         const HASH: &'static str = "RIHS01_dfbfe8314689c850615d4a727af017e9aa86c10e369a606c8c851ef8f16c58c8";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.numbers(&self.coef);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { coef: from.array()? })
         }
@@ -4989,6 +5403,7 @@ pub mod shape_msgs {
         pub const PRISM_HEIGHT: u8 = 0;
     }
     impl Default for SolidPrimitive {
+        #[inline]
         fn default() -> Self {
             Self {
                 r#type: Default::default(),
@@ -5001,12 +5416,14 @@ pub mod shape_msgs {
         const NAME: &'static str = "shape_msgs/msg/SolidPrimitive";
         const DEFINITION: &'static str = "uint8 BOX=1\nuint8 SPHERE=2\nuint8 CYLINDER=3\nuint8 CONE=4\nuint8 PRISM=5\nuint8 BOX_X=0\nuint8 BOX_Y=1\nuint8 BOX_Z=2\nuint8 SPHERE_RADIUS=0\nuint8 CYLINDER_HEIGHT=0\nuint8 CYLINDER_RADIUS=1\nuint8 CONE_HEIGHT=0\nuint8 CONE_RADIUS=1\nuint8 PRISM_HEIGHT=0\nuint8 type\nfloat64[<=3] dimensions\ngeometry_msgs/Polygon polygon\n================================================================================\nMSG: geometry_msgs/Polygon\ngeometry_msgs/Point32[] points\n================================================================================\nMSG: geometry_msgs/Point32\nfloat32 x\nfloat32 y\nfloat32 z";
         const HASH: &'static str = "RIHS01_2802a15190aadc3f496584df4b0b4c5824d8a0b31aaef839faa75bc34dda38ac";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.r#type);
             to.length(self.dimensions.len());
             to.numbers(&self.dimensions);
             Message::write(&self.polygon, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 r#type: from.number()?,
@@ -5025,6 +5442,7 @@ pub mod std_msgs {
         pub data: bool,
     }
     impl Default for Bool {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5033,9 +5451,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Bool";
         const DEFINITION: &'static str = "bool data";
         const HASH: &'static str = "RIHS01_feb91e995ff9ebd09c0cb3d2aed18b11077585839fb5db80193b62d74528f6c9";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5046,6 +5466,7 @@ pub mod std_msgs {
         pub data: u8,
     }
     impl Default for Byte {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5054,9 +5475,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Byte";
         const DEFINITION: &'static str = "byte data";
         const HASH: &'static str = "RIHS01_41e1a3345f73fe93ede006da826a6ee274af23dd4653976ff249b0f44e3e798f";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5068,6 +5491,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<u8>,
     }
     impl Default for ByteMultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5079,11 +5503,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/ByteMultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nbyte[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_972fec7f50ab3c1d06783c228e79e8a9a509021708c511c059926261ada901d4";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5097,6 +5523,7 @@ pub mod std_msgs {
         pub data: u8,
     }
     impl Default for Char {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5105,9 +5532,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Char";
         const DEFINITION: &'static str = "uint8 data";
         const HASH: &'static str = "RIHS01_3ad2d04dd29ba19d04b16659afa3ccaedd691914b02a64e82e252f2fa6a586a9";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5121,6 +5550,7 @@ pub mod std_msgs {
         pub a: f32,
     }
     impl Default for ColorRGBA {
+        #[inline]
         fn default() -> Self {
             Self {
                 r: Default::default(),
@@ -5134,12 +5564,14 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/ColorRGBA";
         const DEFINITION: &'static str = "float32 r\nfloat32 g\nfloat32 b\nfloat32 a";
         const HASH: &'static str = "RIHS01_77a7a5b9ae477306097665106e0413ba74440245b1f3d0c6d6405fe5c7813fe8";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.r);
             to.number(self.g);
             to.number(self.b);
             to.number(self.a);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 r: from.number()?,
@@ -5153,6 +5585,7 @@ pub mod std_msgs {
     #[derive(Debug, Clone, PartialEq)]
     pub struct Empty {}
     impl Default for Empty {
+        #[inline]
         fn default() -> Self {
             Self {}
         }
@@ -5161,9 +5594,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Empty";
         const DEFINITION: &'static str = "";
         const HASH: &'static str = "RIHS01_20b625256f32d5dbc0d04fee44f43c41e51c70d3502f84b4a08e7a9c26a96312";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(0_u8);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.empty()?;
             Ok(Self {})
@@ -5175,6 +5610,7 @@ pub mod std_msgs {
         pub data: f32,
     }
     impl Default for Float32 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5183,9 +5619,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Float32";
         const DEFINITION: &'static str = "float32 data";
         const HASH: &'static str = "RIHS01_7170d3d8f841f7be3172ce5f4f59f3a4d7f63b0447e8b33327601ad64d83d6e2";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5197,6 +5635,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<f32>,
     }
     impl Default for Float32MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5208,11 +5647,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Float32MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nfloat32[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_0599f6f85b4bfca379873a0b4375a0aca022156bd2d7021275d116ed1fa8bfe0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5226,6 +5667,7 @@ pub mod std_msgs {
         pub data: f64,
     }
     impl Default for Float64 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5234,9 +5676,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Float64";
         const DEFINITION: &'static str = "float64 data";
         const HASH: &'static str = "RIHS01_705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5248,6 +5692,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<f64>,
     }
     impl Default for Float64MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5259,11 +5704,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Float64MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nfloat64[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_1025ddc6b9552d191f89ef1a8d2f60f3d373e28b283d8891ddcc974e8c55397f";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5278,6 +5725,7 @@ pub mod std_msgs {
         pub frame_id: alloc::string::String,
     }
     impl Default for Header {
+        #[inline]
         fn default() -> Self {
             Self {
                 stamp: Default::default(),
@@ -5289,11 +5737,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Header";
         const DEFINITION: &'static str = "builtin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             let header = to.outgoing(self);
             Message::write(&header.stamp, to);
             to.text(&header.frame_id);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.number_of_header()?;
             let header = Self {
@@ -5309,6 +5759,7 @@ pub mod std_msgs {
         pub data: i16,
     }
     impl Default for Int16 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5317,9 +5768,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Int16";
         const DEFINITION: &'static str = "int16 data";
         const HASH: &'static str = "RIHS01_1dcc3464e47c288a55f943a389d337cdb06804de3f5cd7a266b0de718eee17e5";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5331,6 +5784,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<i16>,
     }
     impl Default for Int16MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5342,11 +5796,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Int16MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nint16[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_b58810e8e5b90fb19a5062469eb8409f5ab11a446d60de7157a1457e52a076ce";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5360,6 +5816,7 @@ pub mod std_msgs {
         pub data: i32,
     }
     impl Default for Int32 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5368,9 +5825,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Int32";
         const DEFINITION: &'static str = "int32 data";
         const HASH: &'static str = "RIHS01_b6578ded3c58c626cfe8d1a6fb6e04f706f97e9f03d2727c9ff4e74b1cef0deb";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5382,6 +5841,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<i32>,
     }
     impl Default for Int32MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5393,11 +5853,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Int32MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nint32[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_84a7346323525d1b4dfca899df3820f245e54009dac5a6b69217d14fdefd1701";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5411,6 +5873,7 @@ pub mod std_msgs {
         pub data: i64,
     }
     impl Default for Int64 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5419,9 +5882,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Int64";
         const DEFINITION: &'static str = "int64 data";
         const HASH: &'static str = "RIHS01_8cd1048c2f186b6bd9a92472dc1ce51723c0833a221e2b7aecfff111774f4b49";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5433,6 +5898,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<i64>,
     }
     impl Default for Int64MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5444,11 +5910,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Int64MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nint64[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_e60f9fe34d697f0939ad49d33158693c1277fbac0e2f04b7c2995dc21c89b422";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5462,6 +5930,7 @@ pub mod std_msgs {
         pub data: i8,
     }
     impl Default for Int8 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5470,9 +5939,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Int8";
         const DEFINITION: &'static str = "int8 data";
         const HASH: &'static str = "RIHS01_26525065a403d972cb672f0777e333f0c799ad444ae5fcd79e43d1e73bd0f440";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5484,6 +5955,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<i8>,
     }
     impl Default for Int8MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5495,11 +5967,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/Int8MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nint8[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_f21998d4b492abd63330765d75d5831238d400740386f651f13a872a4d2188db";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5515,6 +5989,7 @@ pub mod std_msgs {
         pub stride: u32,
     }
     impl Default for MultiArrayDimension {
+        #[inline]
         fn default() -> Self {
             Self {
                 label: Default::default(),
@@ -5527,11 +6002,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/MultiArrayDimension";
         const DEFINITION: &'static str = "string label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_5e773a60a4c7fc8a54985f307c7837aa2994252a126c301957a24e31282c9cbe";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.label);
             to.number(self.size);
             to.number(self.stride);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 label: from.text_of(usize::MAX)?,
@@ -5547,6 +6024,7 @@ pub mod std_msgs {
         pub data_offset: u32,
     }
     impl Default for MultiArrayLayout {
+        #[inline]
         fn default() -> Self {
             Self {
                 dim: Default::default(),
@@ -5558,6 +6036,7 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/MultiArrayLayout";
         const DEFINITION: &'static str = "std_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_4c66e6f78e740ac103a94cf63259f968e48c617e7699e829b63c21a5cb50dac6";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.dim.len());
             for element in &self.dim {
@@ -5565,6 +6044,7 @@ pub mod std_msgs {
             }
             to.number(self.data_offset);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 dim: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -5578,6 +6058,7 @@ pub mod std_msgs {
         pub data: alloc::string::String,
     }
     impl Default for String {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5586,9 +6067,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/String";
         const DEFINITION: &'static str = "string data";
         const HASH: &'static str = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 data: from.text_of(usize::MAX)?,
@@ -5601,6 +6084,7 @@ pub mod std_msgs {
         pub data: u16,
     }
     impl Default for UInt16 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5609,9 +6093,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/UInt16";
         const DEFINITION: &'static str = "uint16 data";
         const HASH: &'static str = "RIHS01_08a406e4b022bc22e907f985d6a9e9dd1d4fbecae573549cf49350113e7757b1";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5623,6 +6109,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<u16>,
     }
     impl Default for UInt16MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5634,11 +6121,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/UInt16MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nuint16[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_94fe73428ec63baecc774f8fb82406123e9291cf728f1b7c91caf5335129492b";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5652,6 +6141,7 @@ pub mod std_msgs {
         pub data: u32,
     }
     impl Default for UInt32 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5660,9 +6150,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/UInt32";
         const DEFINITION: &'static str = "uint32 data";
         const HASH: &'static str = "RIHS01_a5c874829b752bc5fa190024b0ad76f578cc278271e855c7d02a818b3516fb4a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5674,6 +6166,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<u32>,
     }
     impl Default for UInt32MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5685,11 +6178,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/UInt32MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nuint32[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_6c2577c7ad3cbdcc2164a41c12f1d5ad314ea320f3fb1ee47e78019fe16bb5b0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5703,6 +6198,7 @@ pub mod std_msgs {
         pub data: u64,
     }
     impl Default for UInt64 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5711,9 +6207,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/UInt64";
         const DEFINITION: &'static str = "uint64 data";
         const HASH: &'static str = "RIHS01_fbdc52018fc13755dce18024d1a671c856aa8b4aaf63adfb095b608f98e8c943";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5725,6 +6223,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<u64>,
     }
     impl Default for UInt64MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5736,11 +6235,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/UInt64MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nuint64[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_fc1c685c2f76bdc6983da025cb25d2db5fb5157b059e300f6d957d86f981b366";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5754,6 +6255,7 @@ pub mod std_msgs {
         pub data: u8,
     }
     impl Default for UInt8 {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5762,9 +6264,11 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/UInt8";
         const DEFINITION: &'static str = "uint8 data";
         const HASH: &'static str = "RIHS01_6138bd83d8c3569cb80a667db03cfc1629f529fee79d944c39c34e352e72f010";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5776,6 +6280,7 @@ pub mod std_msgs {
         pub data: alloc::vec::Vec<u8>,
     }
     impl Default for UInt8MultiArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 layout: Default::default(),
@@ -5787,11 +6292,13 @@ pub mod std_msgs {
         const NAME: &'static str = "std_msgs/msg/UInt8MultiArray";
         const DEFINITION: &'static str = "std_msgs/MultiArrayLayout layout\nuint8[] data\n================================================================================\nMSG: std_msgs/MultiArrayLayout\nstd_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n================================================================================\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride";
         const HASH: &'static str = "RIHS01_5687e861b8d307a5e48b7515467ae7a5fc2daf805bd0ce6d8e9e604bade9f385";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.layout, to);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 layout: Message::read(from)?,
@@ -5816,6 +6323,7 @@ pub mod std_srvs {
     #[derive(Debug, Clone, PartialEq)]
     pub struct EmptyRequest {}
     impl Default for EmptyRequest {
+        #[inline]
         fn default() -> Self {
             Self {}
         }
@@ -5824,9 +6332,11 @@ pub mod std_srvs {
         const NAME: &'static str = "std_srvs/srv/Empty_Request";
         const DEFINITION: &'static str = "";
         const HASH: &'static str = "RIHS01_458eaf200a3f63d9cc53d19436edebc0c140ef4c93ca75d5bd4ce19fd7759e35";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(0_u8);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.empty()?;
             Ok(Self {})
@@ -5836,6 +6346,7 @@ pub mod std_srvs {
     #[derive(Debug, Clone, PartialEq)]
     pub struct EmptyResponse {}
     impl Default for EmptyResponse {
+        #[inline]
         fn default() -> Self {
             Self {}
         }
@@ -5844,9 +6355,11 @@ pub mod std_srvs {
         const NAME: &'static str = "std_srvs/srv/Empty_Response";
         const DEFINITION: &'static str = "";
         const HASH: &'static str = "RIHS01_0a2858b3f60df644a61d0fa44cfc923a3d3628e0ad9c8ad8534b1a2c92a413dc";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(0_u8);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.empty()?;
             Ok(Self {})
@@ -5867,6 +6380,7 @@ pub mod std_srvs {
         pub data: bool,
     }
     impl Default for SetBoolRequest {
+        #[inline]
         fn default() -> Self {
             Self { data: Default::default() }
         }
@@ -5875,9 +6389,11 @@ pub mod std_srvs {
         const NAME: &'static str = "std_srvs/srv/SetBool_Request";
         const DEFINITION: &'static str = "bool data";
         const HASH: &'static str = "RIHS01_c62fbb99d94e1b25e8ef9e109f9581956bb1b3361a45a4e5810c36a90d29932e";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { data: from.number()? })
         }
@@ -5889,6 +6405,7 @@ pub mod std_srvs {
         pub message: alloc::string::String,
     }
     impl Default for SetBoolResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 success: Default::default(),
@@ -5900,10 +6417,12 @@ pub mod std_srvs {
         const NAME: &'static str = "std_srvs/srv/SetBool_Response";
         const DEFINITION: &'static str = "bool success\nstring message";
         const HASH: &'static str = "RIHS01_d0814e7f7b4880ab77e9c57426c7aa1562ab69f11eef8e2e968812f9cbd0b059";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.success);
             to.text(&self.message);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 success: from.number()?,
@@ -5924,6 +6443,7 @@ pub mod std_srvs {
     #[derive(Debug, Clone, PartialEq)]
     pub struct TriggerRequest {}
     impl Default for TriggerRequest {
+        #[inline]
         fn default() -> Self {
             Self {}
         }
@@ -5932,9 +6452,11 @@ pub mod std_srvs {
         const NAME: &'static str = "std_srvs/srv/Trigger_Request";
         const DEFINITION: &'static str = "";
         const HASH: &'static str = "RIHS01_d010825374ce8918e72bfd826c82603e60f45419e932ea976f807b74a863a199";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(0_u8);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             from.empty()?;
             Ok(Self {})
@@ -5947,6 +6469,7 @@ pub mod std_srvs {
         pub message: alloc::string::String,
     }
     impl Default for TriggerResponse {
+        #[inline]
         fn default() -> Self {
             Self {
                 success: Default::default(),
@@ -5958,10 +6481,12 @@ pub mod std_srvs {
         const NAME: &'static str = "std_srvs/srv/Trigger_Response";
         const DEFINITION: &'static str = "bool success\nstring message";
         const HASH: &'static str = "RIHS01_2d946c21e2fc3f1e9ca6986a8191d85fcc70097a8bb7771a053564bc47009cdf";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.success);
             to.text(&self.message);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 success: from.number()?,
@@ -5989,6 +6514,7 @@ pub mod tf2_msgs {
         pub const TRANSFORM_ERROR: u8 = 6;
     }
     impl Default for TF2Error {
+        #[inline]
         fn default() -> Self {
             Self {
                 error: Default::default(),
@@ -6000,10 +6526,12 @@ pub mod tf2_msgs {
         const NAME: &'static str = "tf2_msgs/msg/TF2Error";
         const DEFINITION: &'static str = "uint8 NO_ERROR=0\nuint8 LOOKUP_ERROR=1\nuint8 CONNECTIVITY_ERROR=2\nuint8 EXTRAPOLATION_ERROR=3\nuint8 INVALID_ARGUMENT_ERROR=4\nuint8 TIMEOUT_ERROR=5\nuint8 TRANSFORM_ERROR=6\nuint8 error\nstring error_string";
         const HASH: &'static str = "RIHS01_db2485e7d6a0ec75bf087e058ee45df682acc3a621ca7780503d10aac141809a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.error);
             to.text(&self.error_string);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 error: from.number()?,
@@ -6017,6 +6545,7 @@ pub mod tf2_msgs {
         pub transforms: alloc::vec::Vec<super::geometry_msgs::TransformStamped>,
     }
     impl Default for TFMessage {
+        #[inline]
         fn default() -> Self {
             Self {
                 transforms: Default::default(),
@@ -6027,12 +6556,14 @@ pub mod tf2_msgs {
         const NAME: &'static str = "tf2_msgs/msg/TFMessage";
         const DEFINITION: &'static str = "geometry_msgs/TransformStamped[] transforms\n================================================================================\nMSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.transforms.len());
             for element in &self.transforms {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 transforms: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -6051,6 +6582,7 @@ pub mod trajectory_msgs {
         pub points: alloc::vec::Vec<super::trajectory_msgs::JointTrajectoryPoint>,
     }
     impl Default for JointTrajectory {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -6063,6 +6595,7 @@ pub mod trajectory_msgs {
         const NAME: &'static str = "trajectory_msgs/msg/JointTrajectory";
         const DEFINITION: &'static str = "std_msgs/Header header\nstring[] joint_names\ntrajectory_msgs/JointTrajectoryPoint[] points\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: trajectory_msgs/JointTrajectoryPoint\nfloat64[] positions\nfloat64[] velocities\nfloat64[] accelerations\nfloat64[] effort\nbuiltin_interfaces/Duration time_from_start\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_179b33eba59d676f6d967ac71fe35e7ca2f64b2f3928f4a018cec115e213796e";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.joint_names.len());
@@ -6074,6 +6607,7 @@ pub mod trajectory_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -6092,6 +6626,7 @@ pub mod trajectory_msgs {
         pub time_from_start: super::builtin_interfaces::Duration,
     }
     impl Default for JointTrajectoryPoint {
+        #[inline]
         fn default() -> Self {
             Self {
                 positions: Default::default(),
@@ -6106,6 +6641,7 @@ pub mod trajectory_msgs {
         const NAME: &'static str = "trajectory_msgs/msg/JointTrajectoryPoint";
         const DEFINITION: &'static str = "float64[] positions\nfloat64[] velocities\nfloat64[] accelerations\nfloat64[] effort\nbuiltin_interfaces/Duration time_from_start\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_de8907036d8bd45aac6f30cc9044a3d4a329c42cbf719aff7d95a584cfa532d7";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.positions.len());
             to.numbers(&self.positions);
@@ -6117,6 +6653,7 @@ pub mod trajectory_msgs {
             to.numbers(&self.effort);
             Message::write(&self.time_from_start, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 positions: from.list(usize::MAX)?,
@@ -6137,6 +6674,7 @@ pub mod trajectory_msgs {
         >,
     }
     impl Default for MultiDOFJointTrajectory {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -6149,6 +6687,7 @@ pub mod trajectory_msgs {
         const NAME: &'static str = "trajectory_msgs/msg/MultiDOFJointTrajectory";
         const DEFINITION: &'static str = "std_msgs/Header header\nstring[] joint_names\ntrajectory_msgs/MultiDOFJointTrajectoryPoint[] points\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: trajectory_msgs/MultiDOFJointTrajectoryPoint\ngeometry_msgs/Transform[] transforms\ngeometry_msgs/Twist[] velocities\ngeometry_msgs/Twist[] accelerations\nbuiltin_interfaces/Duration time_from_start\n================================================================================\nMSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_3a18fd095292a65cfde8833c72985a30af981f3ec44494655c6267262b443a4a";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.length(self.joint_names.len());
@@ -6160,6 +6699,7 @@ pub mod trajectory_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -6177,6 +6717,7 @@ pub mod trajectory_msgs {
         pub time_from_start: super::builtin_interfaces::Duration,
     }
     impl Default for MultiDOFJointTrajectoryPoint {
+        #[inline]
         fn default() -> Self {
             Self {
                 transforms: Default::default(),
@@ -6190,6 +6731,7 @@ pub mod trajectory_msgs {
         const NAME: &'static str = "trajectory_msgs/msg/MultiDOFJointTrajectoryPoint";
         const DEFINITION: &'static str = "geometry_msgs/Transform[] transforms\ngeometry_msgs/Twist[] velocities\ngeometry_msgs/Twist[] accelerations\nbuiltin_interfaces/Duration time_from_start\n================================================================================\nMSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_6ada1085b5ee64eaa069b074968e69f0e27c8c5e6f5bb0586dd1c834ef0e32b8";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.transforms.len());
             for element in &self.transforms {
@@ -6205,6 +6747,7 @@ pub mod trajectory_msgs {
             }
             Message::write(&self.time_from_start, to);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 transforms: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -6224,6 +6767,7 @@ pub mod unique_identifier_msgs {
         pub uuid: [u8; 16],
     }
     impl Default for UUID {
+        #[inline]
         fn default() -> Self {
             Self { uuid: [0; 16] }
         }
@@ -6232,9 +6776,11 @@ pub mod unique_identifier_msgs {
         const NAME: &'static str = "unique_identifier_msgs/msg/UUID";
         const DEFINITION: &'static str = "uint8[16] uuid";
         const HASH: &'static str = "RIHS01_1b8e8aca958cbea28fe6ef60bf6c19b683c97a9ef60bb34752067d0f2f7ab437";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.numbers(&self.uuid);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self { uuid: from.array()? })
         }
@@ -6270,6 +6816,7 @@ pub mod visualization_msgs {
         pub const REMOVE: i32 = 1;
     }
     impl Default for ImageMarker {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -6292,6 +6839,7 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/ImageMarker";
         const DEFINITION: &'static str = "int32 CIRCLE=0\nint32 LINE_STRIP=1\nint32 LINE_LIST=2\nint32 POLYGON=3\nint32 POINTS=4\nint32 ADD=0\nint32 REMOVE=1\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Point position\nfloat32 scale\nstd_msgs/ColorRGBA outline_color\nuint8 filled\nstd_msgs/ColorRGBA fill_color\nbuiltin_interfaces/Duration lifetime\ngeometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] outline_colors\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: std_msgs/ColorRGBA\nfloat32 r\nfloat32 g\nfloat32 b\nfloat32 a\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec";
         const HASH: &'static str = "RIHS01_603152491ef2331c200a5305230d31f6e8704875944b388da0f547c415d11836";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.text(&self.ns);
@@ -6313,6 +6861,7 @@ pub mod visualization_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -6345,6 +6894,7 @@ pub mod visualization_msgs {
         >,
     }
     impl Default for InteractiveMarker {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -6361,6 +6911,7 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/InteractiveMarker";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Pose pose\nstring name\nstring description\nfloat32 scale\nvisualization_msgs/MenuEntry[] menu_entries\nvisualization_msgs/InteractiveMarkerControl[] controls\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: visualization_msgs/MenuEntry\nuint8 FEEDBACK=0\nuint8 ROSRUN=1\nuint8 ROSLAUNCH=2\nuint32 id\nuint32 parent_id\nstring title\nstring command\nuint8 command_type\n================================================================================\nMSG: visualization_msgs/InteractiveMarkerControl\nuint8 INHERIT=0\nuint8 FIXED=1\nuint8 VIEW_FACING=2\nuint8 NONE=0\nuint8 MENU=1\nuint8 BUTTON=2\nuint8 MOVE_AXIS=3\nuint8 MOVE_PLANE=4\nuint8 ROTATE_AXIS=5\nuint8 MOVE_ROTATE=6\nuint8 MOVE_3D=7\nuint8 ROTATE_3D=8\nuint8 MOVE_ROTATE_3D=9\nstring name\ngeometry_msgs/Quaternion orientation\nuint8 orientation_mode\nuint8 interaction_mode\nbool always_visible\nvisualization_msgs/Marker[] markers\nbool independent_marker_orientation\nstring description\n================================================================================\nMSG: visualization_msgs/Marker\nint32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\nint32 LINE_STRIP=4\nint32 LINE_LIST=5\nint32 CUBE_LIST=6\nint32 SPHERE_LIST=7\nint32 POINTS=8\nint32 TEXT_VIEW_FACING=9\nint32 MESH_RESOURCE=10\nint32 TRIANGLE_LIST=11\nint32 ARROW_STRIP=12\nint32 ADD=0\nint32 MODIFY=0\nint32 DELETE=2\nint32 DELETEALL=3\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\nvisualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\nvisualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: std_msgs/ColorRGBA\nfloat32 r\nfloat32 g\nfloat32 b\nfloat32 a\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/CompressedImage\nstd_msgs/Header header\nstring format\nuint8[] data\n================================================================================\nMSG: visualization_msgs/UVCoordinate\nfloat32 u\nfloat32 v\n================================================================================\nMSG: visualization_msgs/MeshFile\nstring filename\nuint8[] data";
         const HASH: &'static str = "RIHS01_3d5b51448b51d73b0f395b94d259edd3a5d269ae9f7d9fd5cceb9ae4b72be346";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.pose, to);
@@ -6376,6 +6927,7 @@ pub mod visualization_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -6416,6 +6968,7 @@ pub mod visualization_msgs {
         pub const MOVE_ROTATE_3D: u8 = 9;
     }
     impl Default for InteractiveMarkerControl {
+        #[inline]
         fn default() -> Self {
             Self {
                 name: Default::default(),
@@ -6433,6 +6986,7 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/InteractiveMarkerControl";
         const DEFINITION: &'static str = "uint8 INHERIT=0\nuint8 FIXED=1\nuint8 VIEW_FACING=2\nuint8 NONE=0\nuint8 MENU=1\nuint8 BUTTON=2\nuint8 MOVE_AXIS=3\nuint8 MOVE_PLANE=4\nuint8 ROTATE_AXIS=5\nuint8 MOVE_ROTATE=6\nuint8 MOVE_3D=7\nuint8 ROTATE_3D=8\nuint8 MOVE_ROTATE_3D=9\nstring name\ngeometry_msgs/Quaternion orientation\nuint8 orientation_mode\nuint8 interaction_mode\nbool always_visible\nvisualization_msgs/Marker[] markers\nbool independent_marker_orientation\nstring description\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: visualization_msgs/Marker\nint32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\nint32 LINE_STRIP=4\nint32 LINE_LIST=5\nint32 CUBE_LIST=6\nint32 SPHERE_LIST=7\nint32 POINTS=8\nint32 TEXT_VIEW_FACING=9\nint32 MESH_RESOURCE=10\nint32 TRIANGLE_LIST=11\nint32 ARROW_STRIP=12\nint32 ADD=0\nint32 MODIFY=0\nint32 DELETE=2\nint32 DELETEALL=3\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\nvisualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\nvisualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: std_msgs/ColorRGBA\nfloat32 r\nfloat32 g\nfloat32 b\nfloat32 a\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/CompressedImage\nstd_msgs/Header header\nstring format\nuint8[] data\n================================================================================\nMSG: visualization_msgs/UVCoordinate\nfloat32 u\nfloat32 v\n================================================================================\nMSG: visualization_msgs/MeshFile\nstring filename\nuint8[] data";
         const HASH: &'static str = "RIHS01_60e2fa36344f5f4791b24a809542a18bffd555f563550d4b22b3bbfc31ec0ed5";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.name);
             Message::write(&self.orientation, to);
@@ -6446,6 +7000,7 @@ pub mod visualization_msgs {
             to.number(self.independent_marker_orientation);
             to.text(&self.description);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 name: from.text_of(usize::MAX)?,
@@ -6481,6 +7036,7 @@ pub mod visualization_msgs {
         pub const MOUSE_UP: u8 = 5;
     }
     impl Default for InteractiveMarkerFeedback {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -6499,6 +7055,7 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/InteractiveMarkerFeedback";
         const DEFINITION: &'static str = "uint8 KEEP_ALIVE=0\nuint8 POSE_UPDATE=1\nuint8 MENU_SELECT=2\nuint8 BUTTON_CLICK=3\nuint8 MOUSE_DOWN=4\nuint8 MOUSE_UP=5\nstd_msgs/Header header\nstring client_id\nstring marker_name\nstring control_name\nuint8 event_type\ngeometry_msgs/Pose pose\nuint32 menu_entry_id\ngeometry_msgs/Point mouse_point\nbool mouse_point_valid\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_6cc48741df9f05d19ba7d9ea3101e9fcd1309c9d6bda3c55668ba607492f725e";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.text(&self.client_id);
@@ -6510,6 +7067,7 @@ pub mod visualization_msgs {
             Message::write(&self.mouse_point, to);
             to.number(self.mouse_point_valid);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -6532,6 +7090,7 @@ pub mod visualization_msgs {
         pub markers: alloc::vec::Vec<super::visualization_msgs::InteractiveMarker>,
     }
     impl Default for InteractiveMarkerInit {
+        #[inline]
         fn default() -> Self {
             Self {
                 server_id: Default::default(),
@@ -6544,6 +7103,7 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/InteractiveMarkerInit";
         const DEFINITION: &'static str = "string server_id\nuint64 seq_num\nvisualization_msgs/InteractiveMarker[] markers\n================================================================================\nMSG: visualization_msgs/InteractiveMarker\nstd_msgs/Header header\ngeometry_msgs/Pose pose\nstring name\nstring description\nfloat32 scale\nvisualization_msgs/MenuEntry[] menu_entries\nvisualization_msgs/InteractiveMarkerControl[] controls\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: visualization_msgs/MenuEntry\nuint8 FEEDBACK=0\nuint8 ROSRUN=1\nuint8 ROSLAUNCH=2\nuint32 id\nuint32 parent_id\nstring title\nstring command\nuint8 command_type\n================================================================================\nMSG: visualization_msgs/InteractiveMarkerControl\nuint8 INHERIT=0\nuint8 FIXED=1\nuint8 VIEW_FACING=2\nuint8 NONE=0\nuint8 MENU=1\nuint8 BUTTON=2\nuint8 MOVE_AXIS=3\nuint8 MOVE_PLANE=4\nuint8 ROTATE_AXIS=5\nuint8 MOVE_ROTATE=6\nuint8 MOVE_3D=7\nuint8 ROTATE_3D=8\nuint8 MOVE_ROTATE_3D=9\nstring name\ngeometry_msgs/Quaternion orientation\nuint8 orientation_mode\nuint8 interaction_mode\nbool always_visible\nvisualization_msgs/Marker[] markers\nbool independent_marker_orientation\nstring description\n================================================================================\nMSG: visualization_msgs/Marker\nint32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\nint32 LINE_STRIP=4\nint32 LINE_LIST=5\nint32 CUBE_LIST=6\nint32 SPHERE_LIST=7\nint32 POINTS=8\nint32 TEXT_VIEW_FACING=9\nint32 MESH_RESOURCE=10\nint32 TRIANGLE_LIST=11\nint32 ARROW_STRIP=12\nint32 ADD=0\nint32 MODIFY=0\nint32 DELETE=2\nint32 DELETEALL=3\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\nvisualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\nvisualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: std_msgs/ColorRGBA\nfloat32 r\nfloat32 g\nfloat32 b\nfloat32 a\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/CompressedImage\nstd_msgs/Header header\nstring format\nuint8[] data\n================================================================================\nMSG: visualization_msgs/UVCoordinate\nfloat32 u\nfloat32 v\n================================================================================\nMSG: visualization_msgs/MeshFile\nstring filename\nuint8[] data";
         const HASH: &'static str = "RIHS01_23fda1b3373b154d9d6408dd7b9f8129b2a2b76b905ee421e8c4109d8bf71f78";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.server_id);
             to.number(self.seq_num);
@@ -6552,6 +7112,7 @@ pub mod visualization_msgs {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 server_id: from.text_of(usize::MAX)?,
@@ -6568,6 +7129,7 @@ pub mod visualization_msgs {
         pub name: alloc::string::String,
     }
     impl Default for InteractiveMarkerPose {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -6580,11 +7142,13 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/InteractiveMarkerPose";
         const DEFINITION: &'static str = "std_msgs/Header header\ngeometry_msgs/Pose pose\nstring name\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
         const HASH: &'static str = "RIHS01_c60e9a4407d5f709a63e0fe9caea324aee08fe717cd090209ebe35012ce7cb66";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             Message::write(&self.pose, to);
             to.text(&self.name);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -6608,6 +7172,7 @@ pub mod visualization_msgs {
         pub const UPDATE: u8 = 1;
     }
     impl Default for InteractiveMarkerUpdate {
+        #[inline]
         fn default() -> Self {
             Self {
                 server_id: Default::default(),
@@ -6623,6 +7188,7 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/InteractiveMarkerUpdate";
         const DEFINITION: &'static str = "uint8 KEEP_ALIVE=0\nuint8 UPDATE=1\nstring server_id\nuint64 seq_num\nuint8 type\nvisualization_msgs/InteractiveMarker[] markers\nvisualization_msgs/InteractiveMarkerPose[] poses\nstring[] erases\n================================================================================\nMSG: visualization_msgs/InteractiveMarker\nstd_msgs/Header header\ngeometry_msgs/Pose pose\nstring name\nstring description\nfloat32 scale\nvisualization_msgs/MenuEntry[] menu_entries\nvisualization_msgs/InteractiveMarkerControl[] controls\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: visualization_msgs/MenuEntry\nuint8 FEEDBACK=0\nuint8 ROSRUN=1\nuint8 ROSLAUNCH=2\nuint32 id\nuint32 parent_id\nstring title\nstring command\nuint8 command_type\n================================================================================\nMSG: visualization_msgs/InteractiveMarkerControl\nuint8 INHERIT=0\nuint8 FIXED=1\nuint8 VIEW_FACING=2\nuint8 NONE=0\nuint8 MENU=1\nuint8 BUTTON=2\nuint8 MOVE_AXIS=3\nuint8 MOVE_PLANE=4\nuint8 ROTATE_AXIS=5\nuint8 MOVE_ROTATE=6\nuint8 MOVE_3D=7\nuint8 ROTATE_3D=8\nuint8 MOVE_ROTATE_3D=9\nstring name\ngeometry_msgs/Quaternion orientation\nuint8 orientation_mode\nuint8 interaction_mode\nbool always_visible\nvisualization_msgs/Marker[] markers\nbool independent_marker_orientation\nstring description\n================================================================================\nMSG: visualization_msgs/Marker\nint32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\nint32 LINE_STRIP=4\nint32 LINE_LIST=5\nint32 CUBE_LIST=6\nint32 SPHERE_LIST=7\nint32 POINTS=8\nint32 TEXT_VIEW_FACING=9\nint32 MESH_RESOURCE=10\nint32 TRIANGLE_LIST=11\nint32 ARROW_STRIP=12\nint32 ADD=0\nint32 MODIFY=0\nint32 DELETE=2\nint32 DELETEALL=3\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\nvisualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\nvisualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: std_msgs/ColorRGBA\nfloat32 r\nfloat32 g\nfloat32 b\nfloat32 a\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/CompressedImage\nstd_msgs/Header header\nstring format\nuint8[] data\n================================================================================\nMSG: visualization_msgs/UVCoordinate\nfloat32 u\nfloat32 v\n================================================================================\nMSG: visualization_msgs/MeshFile\nstring filename\nuint8[] data\n================================================================================\nMSG: visualization_msgs/InteractiveMarkerPose\nstd_msgs/Header header\ngeometry_msgs/Pose pose\nstring name";
         const HASH: &'static str = "RIHS01_0a8b000c4fd4d50876ac716a7de018911599a2f015795388e956a2ca8b0c54f0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.server_id);
             to.number(self.seq_num);
@@ -6640,6 +7206,7 @@ pub mod visualization_msgs {
                 to.text(element);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 server_id: from.text_of(usize::MAX)?,
@@ -6694,6 +7261,7 @@ pub mod visualization_msgs {
         pub const DELETEALL: i32 = 3;
     }
     impl Default for Marker {
+        #[inline]
         fn default() -> Self {
             Self {
                 header: Default::default(),
@@ -6722,6 +7290,7 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/Marker";
         const DEFINITION: &'static str = "int32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\nint32 LINE_STRIP=4\nint32 LINE_LIST=5\nint32 CUBE_LIST=6\nint32 SPHERE_LIST=7\nint32 POINTS=8\nint32 TEXT_VIEW_FACING=9\nint32 MESH_RESOURCE=10\nint32 TRIANGLE_LIST=11\nint32 ARROW_STRIP=12\nint32 ADD=0\nint32 MODIFY=0\nint32 DELETE=2\nint32 DELETEALL=3\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\nvisualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\nvisualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: std_msgs/ColorRGBA\nfloat32 r\nfloat32 g\nfloat32 b\nfloat32 a\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/CompressedImage\nstd_msgs/Header header\nstring format\nuint8[] data\n================================================================================\nMSG: visualization_msgs/UVCoordinate\nfloat32 u\nfloat32 v\n================================================================================\nMSG: visualization_msgs/MeshFile\nstring filename\nuint8[] data";
         const HASH: &'static str = "RIHS01_45b13ccf791f225962bf74e746f9644518855d783a6f42ba0cc14fde2b4f3ce0";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             Message::write(&self.header, to);
             to.text(&self.ns);
@@ -6752,6 +7321,7 @@ pub mod visualization_msgs {
             Message::write(&self.mesh_file, to);
             to.number(self.mesh_use_embedded_materials);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 header: Message::read(from)?,
@@ -6782,6 +7352,7 @@ pub mod visualization_msgs {
         pub markers: alloc::vec::Vec<super::visualization_msgs::Marker>,
     }
     impl Default for MarkerArray {
+        #[inline]
         fn default() -> Self {
             Self {
                 markers: Default::default(),
@@ -6792,12 +7363,14 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/MarkerArray";
         const DEFINITION: &'static str = "visualization_msgs/Marker[] markers\n================================================================================\nMSG: visualization_msgs/Marker\nint32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\nint32 LINE_STRIP=4\nint32 LINE_LIST=5\nint32 CUBE_LIST=6\nint32 SPHERE_LIST=7\nint32 POINTS=8\nint32 TEXT_VIEW_FACING=9\nint32 MESH_RESOURCE=10\nint32 TRIANGLE_LIST=11\nint32 ARROW_STRIP=12\nint32 ADD=0\nint32 MODIFY=0\nint32 DELETE=2\nint32 DELETEALL=3\nstd_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\ngeometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring texture_resource\nsensor_msgs/CompressedImage texture\nvisualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\nvisualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n================================================================================\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================\nMSG: std_msgs/ColorRGBA\nfloat32 r\nfloat32 g\nfloat32 b\nfloat32 a\n================================================================================\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec\n================================================================================\nMSG: sensor_msgs/CompressedImage\nstd_msgs/Header header\nstring format\nuint8[] data\n================================================================================\nMSG: visualization_msgs/UVCoordinate\nfloat32 u\nfloat32 v\n================================================================================\nMSG: visualization_msgs/MeshFile\nstring filename\nuint8[] data";
         const HASH: &'static str = "RIHS01_86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.length(self.markers.len());
             for element in &self.markers {
                 Message::write(element, to);
             }
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 markers: from.list_of(usize::MAX, |from| Message::read(from))?,
@@ -6819,6 +7392,7 @@ pub mod visualization_msgs {
         pub const ROSLAUNCH: u8 = 2;
     }
     impl Default for MenuEntry {
+        #[inline]
         fn default() -> Self {
             Self {
                 id: Default::default(),
@@ -6833,6 +7407,7 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/MenuEntry";
         const DEFINITION: &'static str = "uint8 FEEDBACK=0\nuint8 ROSRUN=1\nuint8 ROSLAUNCH=2\nuint32 id\nuint32 parent_id\nstring title\nstring command\nuint8 command_type";
         const HASH: &'static str = "RIHS01_22170c387c70fd4236232ec902de8604e72ff027342c7c0f28ad9f68c64c51d6";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.id);
             to.number(self.parent_id);
@@ -6840,6 +7415,7 @@ pub mod visualization_msgs {
             to.text(&self.command);
             to.number(self.command_type);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 id: from.number()?,
@@ -6857,6 +7433,7 @@ pub mod visualization_msgs {
         pub data: alloc::vec::Vec<u8>,
     }
     impl Default for MeshFile {
+        #[inline]
         fn default() -> Self {
             Self {
                 filename: Default::default(),
@@ -6868,11 +7445,13 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/MeshFile";
         const DEFINITION: &'static str = "string filename\nuint8[] data";
         const HASH: &'static str = "RIHS01_7710ece15a148fb7c9b546364cfb215bb06098087bd6394fe5b73a493508f8c4";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.text(&self.filename);
             to.length(self.data.len());
             to.numbers(&self.data);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 filename: from.text_of(usize::MAX)?,
@@ -6887,6 +7466,7 @@ pub mod visualization_msgs {
         pub v: f32,
     }
     impl Default for UVCoordinate {
+        #[inline]
         fn default() -> Self {
             Self {
                 u: Default::default(),
@@ -6898,10 +7478,12 @@ pub mod visualization_msgs {
         const NAME: &'static str = "visualization_msgs/msg/UVCoordinate";
         const DEFINITION: &'static str = "float32 u\nfloat32 v";
         const HASH: &'static str = "RIHS01_f27f7ed21fe360c6066944f856b801a0c0d1e94e815b6886444b42d90b196a26";
+        #[inline]
         fn write(&self, to: &mut Writer<'_>) {
             to.number(self.u);
             to.number(self.v);
         }
+        #[inline]
         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {
             Ok(Self {
                 u: from.number()?,

@@ -113,15 +113,16 @@ fn message(ty: &Type, types: &Types) -> Result<String, String> {
     } else {
         (format!("{writes} {empty_write}"), format!("{empty_read} Ok(Self {{ {reads} }})"))
     };
+    // Inlined functions are compiled where they are used: a program uses few of the messages.
     let _ = write!(
         rust,
-        "impl Default for {name} {{\nfn default() -> Self {{ Self {{ {defaults} }} }}\n}}\n\
+        "impl Default for {name} {{\n#[inline] fn default() -> Self {{ Self {{ {defaults} }} }}\n}}\n\
          impl Message for {name} {{\n\
          const NAME: &'static str = \"{whole}\";\n\
          const DEFINITION: &'static str = {definition:?};\n\
          const HASH: &'static str = \"{hash}\";\n\
-         fn write(&self, to: &mut Writer<'_>) {{ {write} }}\n\
-         fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {{ {read} }}\n}}\n"
+         #[inline] fn write(&self, to: &mut Writer<'_>) {{ {write} }}\n\
+         #[inline] fn read(from: &mut Reader<'_>) -> Result<Self, Reason> {{ {read} }}\n}}\n"
     );
     Ok(rust)
 }
