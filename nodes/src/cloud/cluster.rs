@@ -1,4 +1,5 @@
-use super::{Columns, Labels, sets::Sets};
+use super::{Columns, Labels};
+use crate::math::sets::Sets;
 use apex_rt::{Out, node};
 
 /// Maximum number of voxels along a side of the grid, which bounds its memory.

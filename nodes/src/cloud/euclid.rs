@@ -1,8 +1,8 @@
 use super::{
     Cluster,
-    sets::Sets,
     voxel::{VoxelTable, Voxels},
 };
+use crate::math::sets::Sets;
 use apex_rt::{Out, node};
 
 /// Mark of a cluster that has no number yet.

@@ -35,7 +35,6 @@ mod outline;
 mod points;
 mod rings;
 mod rolling;
-mod sets;
 mod sides;
 mod smooth;
 mod upright;

@@ -9,6 +9,8 @@ mod compare;
 mod convert;
 mod filter;
 mod pid;
+#[cfg(feature = "std")]
+pub(crate) mod sets;
 mod several;
 
 pub use angle::{angle_difference, atan2, cos, degrees, hypot, normalize_angle, radians, sin};

@@ -1,6 +1,6 @@
 /// Disjoint sets of numbers (union-find). The root of a set is its least number.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Sets {
+pub(crate) struct Sets {
     parents: Vec<u32>,
 }
 
