@@ -144,13 +144,22 @@ impl Browser {
 
     /// Waits until an expression is true.
     pub fn wait_for(&mut self, expression: &str) {
+        let is_true = self.is_soon(expression, PATIENCE);
+        assert!(is_true, "still not: {expression}\n{}\n{:?}", self.words(), self.complaints);
+    }
+
+    /// Waits for a time at most until an expression is true. Returns whether it is.
+    pub fn is_soon(&mut self, expression: &str, patience: Duration) -> bool {
         let start = Instant::now();
         // While the page loads, there is nothing to look at.
         let tried = format!("(() => {{ try {{ return Boolean({expression}) }} catch {{ return false }} }})()");
         while self.value(&tried) != json!(true) {
-            assert!(start.elapsed() < PATIENCE, "still not: {expression}\n{}\n{:?}", self.words(), self.complaints);
+            if start.elapsed() > patience {
+                return false;
+            }
             thread::sleep(Duration::from_millis(30));
         }
+        true
     }
 
     /// All words on the page.

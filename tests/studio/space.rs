@@ -2,7 +2,7 @@
 
 use crate::{
     browser::Browser,
-    hands::HALTED,
+    hands::halt,
     page::{RUNNING, Started, start_of, studio},
     socket,
     stream::Viewer,
@@ -75,8 +75,7 @@ fn clouds_and_boxes_are_seen_in_space_and_the_mouse_moves_the_eye() {
     page.wait_for(&format!("!{SPACE}.hidden && document.getElementById('world').hidden"));
     page.wait_for(&format!("{PIXELS}.every((count) => count > 40)"));
     // Halted, the picture changes only if the eye does.
-    page.press(" ");
-    page.wait_for(HALTED);
+    halt(&mut page);
     let mut last = String::new();
     let mut changes = |page: &mut Browser, what: &str| {
         page.wait_for(&format!("{IMAGE} !== {last:?}"));
