@@ -12,8 +12,8 @@ use std::{sync::Arc, thread, time::Duration};
 /// `true` if the robot is halted.
 const HALTED: &str = "document.getElementById('run').textContent === 'halted'";
 
-/// Halts the robot. On a busy machine a page may just have lost its connection: it says so in its header, and drops what
-/// it is told until it has another one.
+/// Halts the robot. On a busy machine a page may just have lost its connection: its header says so, and until it has
+/// another one it drops what it is told.
 pub fn halt(page: &mut Browser) {
     let is_halted = (0..6).any(|_| {
         page.press(" ");
