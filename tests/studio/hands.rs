@@ -10,17 +10,7 @@ use serde_json::json;
 use std::{sync::Arc, thread, time::Duration};
 
 /// `true` if the robot is halted.
-const HALTED: &str = "document.getElementById('run').textContent === 'halted'";
-
-/// Halts the robot. On a busy machine a page may just have lost its connection: its header says so, and until it has
-/// another one it drops what it is told.
-pub fn halt(page: &mut Browser) {
-    let is_halted = (0..6).any(|_| {
-        page.press(" ");
-        page.is_soon(HALTED, Duration::from_secs(10))
-    });
-    assert!(is_halted, "the robot does not halt: {}", page.words());
-}
+pub const HALTED: &str = "document.getElementById('run').textContent === 'halted'";
 
 /// The rows of the timeline.
 const ROWS: &str = "document.getElementById('timeline').dataset.rows";
@@ -153,7 +143,8 @@ fn why_tells_values_and_what_slots_took() {
     page.wait_for(RUNNING);
     wiring(&mut page);
     page.wait_for("parseFloat(document.getElementById('now').textContent) > 0.3");
-    halt(&mut page);
+    page.press(" ");
+    page.wait_for(HALTED);
     page.click("document.querySelector('[data-item=\"gated.gate\"]')");
     page.press("w");
     let why = "document.getElementById('why').textContent";

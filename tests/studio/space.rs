@@ -2,7 +2,7 @@
 
 use crate::{
     browser::Browser,
-    hands::halt,
+    hands::HALTED,
     page::{RUNNING, Started, start_of, studio},
     socket,
     stream::Viewer,
@@ -63,6 +63,16 @@ fn seen(name: &'static str, nodes: &[&str]) -> Option<(Browser, Started)> {
         page.wait_for(&format!("document.getElementById('world').dataset.drawn === '{}'", at + 1));
     }
     Some((page, robot))
+}
+
+/// Halts the robot. Drawing in space keeps a machine busy, and a page may just have lost its connection: its header
+/// says so, and until it has another one it drops what it is told.
+fn halt(page: &mut Browser) {
+    let is_halted = (0..6).any(|_| {
+        page.press(" ");
+        page.is_soon(HALTED, Duration::from_secs(10))
+    });
+    assert!(is_halted, "the robot does not halt: {}", page.words());
 }
 
 #[test]

@@ -18,6 +18,8 @@ pub struct UnknownRegions {
 struct Run {
     y: usize,
     x: Range<usize>,
+    /// Number of its region.
+    region: usize,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -41,14 +43,14 @@ impl UnknownRegions {
         self.find(map);
         self.measure(&raster);
         let is_small = |region: &Region| region.area <= largest && !region.touches_border;
-        for (run, number) in self.runs.iter().zip(0..) {
-            let region = &mut self.regions[self.sets.root(number) as usize];
+        for run in &self.runs {
+            let region = &mut self.regions[run.region];
             if is_small(region) {
                 region.touch(map.cells(), run, raster.width);
             }
         }
-        for (run, number) in self.runs.iter().zip(0..) {
-            let region = &self.regions[self.sets.root(number) as usize];
+        for run in &self.runs {
+            let region = &self.regions[run.region];
             if is_small(region) {
                 let first = run.y * raster.width;
                 map.cells_mut()[first + run.x.start..first + run.x.end].fill(region.filling());
@@ -70,18 +72,19 @@ impl UnknownRegions {
                 let number = self.runs.len() as u32;
                 self.sets.add();
                 (above.start..above.start + touching).for_each(|other| self.sets.join(other as u32, number));
-                self.runs.push(Run { y, x });
+                self.runs.push(Run { y, x, region: 0 });
             }
             above = begin..self.runs.len();
         }
     }
 
-    /// Sums up the cells of the regions.
+    /// Finds the region of each run, and sums up the cells of the regions.
     fn measure(&mut self, raster: &Raster) {
         self.regions.clear();
         self.regions.resize(self.runs.len(), Region::default());
-        for (run, number) in self.runs.iter().zip(0..) {
-            let region = &mut self.regions[self.sets.root(number) as usize];
+        for (run, number) in self.runs.iter_mut().zip(0..) {
+            run.region = self.sets.root(number) as usize;
+            let region = &mut self.regions[run.region];
             region.area += run.x.len();
             region.touches_border |=
                 run.x.start == 0 || run.x.end == raster.width || run.y == 0 || run.y + 1 == raster.height;
@@ -182,8 +185,8 @@ mod tests {
         ]
     }
 
-    /// The region of a cell, cell by cell, as it is to be.
-    fn filled(map: &mut Grid<Occupancy>, cell: Cell, largest: usize) {
+    /// State that an unknown cell is to have, by its region, cell by cell.
+    fn closed(map: &Grid<Occupancy>, cell: Cell, largest: usize) -> Occupancy {
         let mut region = vec![cell];
         let (mut next, mut balance, mut touches_border) = (0, 0_i32, false);
         while let Some(&cell) = region.get(next) {
@@ -197,9 +200,10 @@ mod tests {
                 }
             }
         }
-        let filling = if balance > 0 { Occupancy::Free } else { Occupancy::Occupied };
-        if region.len() <= largest && !touches_border {
-            region.iter().filter_map(|cell| map.get_mut(*cell).map(|state| *state = filling)).count();
+        match region.len() > largest || touches_border {
+            true => Occupancy::Unknown,
+            false if balance > 0 => Occupancy::Free,
+            false => Occupancy::Occupied,
         }
     }
 
@@ -214,21 +218,14 @@ mod tests {
             let sign = |random: &mut Random| char::from(signs[random.below(signs.len() as u64) as usize]);
             let rows: Vec<String> = (0..height).map(|_| (0..width).map(|_| sign(&mut random)).collect()).collect();
             let open = map(&rows.iter().map(String::as_str).collect::<Vec<_>>());
-            let (mut closed, mut expected) = (open.clone(), open.clone());
+            let (mut found, mut expected) = (open.clone(), open.clone());
             let largest = round % 6;
-            regions.close(&mut closed, largest as f32);
-            for y in 0..height {
-                for x in 0..width {
-                    if open.get(Cell::new(x, y)) == Some(&Occupancy::Unknown) {
-                        let mut alone = open.clone();
-                        filled(&mut alone, Cell::new(x, y), largest);
-                        let (cell, state) = (Cell::new(x, y), alone.get(Cell::new(x, y)).copied());
-                        expected.get_mut(cell).zip(state).map(|(cell, state)| *cell = state).expect("it is there");
-                    }
-                }
+            regions.close(&mut found, largest as f32);
+            for (cell, _) in open.iter().filter(|(_, state)| **state == Occupancy::Unknown) {
+                *expected.get_mut(cell).expect("a cell of the map") = closed(&open, cell, largest);
             }
-            assert_eq!(closed, expected, "{rows:?}, at most {largest}");
-            changed += usize::from(closed != open);
+            assert_eq!(found, expected, "{rows:?}, at most {largest}");
+            changed += usize::from(found != open);
         }
         assert!(changed > 50, "{changed}");
     }

@@ -39,9 +39,9 @@ impl UncertainPose {
 /// Change of what is known about the pose of a robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PoseChange {
-    /// The pose is known from now on.
+    /// Pose known from now on.
     Localized,
-    /// The pose is no longer known: measurements contradict it.
+    /// Pose contradicted by measurements, and no longer known.
     Lost,
 }
 
