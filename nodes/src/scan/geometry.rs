@@ -178,6 +178,14 @@ impl Pose2 {
         let position = reference.to_inner(self.position());
         Self::new(position.x, position.y, wrap_angle(self.theta - reference.theta))
     }
+
+    /// Pose after a part of the way to another one, in a straight line and by the smaller turn: `self` at 0, and `to`
+    /// at 1. Both are given in the same outer frame.
+    #[must_use]
+    pub fn on_way_to(&self, to: &Self, part: f32) -> Self {
+        let position = self.position() + (to.position() - self.position()).scaled(part);
+        Self::new(position.x, position.y, wrap_angle(self.theta + part * wrap_angle(to.theta - self.theta)))
+    }
 }
 
 /// Transformation of points between the frame of a pose and its outer frame: the sine and the cosine of the heading are

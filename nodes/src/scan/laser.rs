@@ -1,6 +1,6 @@
 use super::{Point2, Ranges};
 use apex_rt::Time;
-use core::f32::consts::TAU;
+use core::{f32::consts::TAU, time::Duration};
 
 /// One sweep of a plane laser scanner, in the frame of the scanner.
 #[derive(Debug, PartialEq)]
@@ -13,8 +13,11 @@ pub struct Scan {
     pub range_min: f32,
     /// Maximum range that counts as measured, in m.
     pub range_max: f32,
-    /// Time of the measurement.
+    /// Time of the measurement, of beam 0 if they are one after the other.
     pub stamp: Time,
+    /// Time between consecutive beams, in s: 0 if all measure at once, or if it is not known. What moves on in that
+    /// time bends the scan, which [`CatchUp`](super::CatchUp) undoes.
+    pub time_increment: f32,
     /// Ranges in m, by beam, with the values of REP 117 of ROS: infinity means that nothing is within range, NaN that
     /// nothing was measured, because the beam is covered, broken or filtered away. A range outside
     /// `range_min..=range_max` (minus infinity: too near) counts as not measured, too.
@@ -67,6 +70,12 @@ impl Scan {
     /// Direction of a beam, in rad.
     pub fn angle(&self, beam: usize) -> f32 {
         self.angle_min + beam as f32 * self.angle_increment
+    }
+
+    /// Time of the measurement of a beam.
+    pub fn time(&self, beam: usize) -> Time {
+        // No time for a number that is none, which is what other programs may send.
+        self.stamp + Duration::try_from_secs_f32(beam as f32 * self.time_increment).unwrap_or_default()
     }
 
     /// Index of the beam nearest to a direction in rad, or `None` outside the field of view.
@@ -132,6 +141,7 @@ impl Default for Scan {
             range_min: f32::MIN_POSITIVE,
             range_max: f32::MAX,
             stamp: Time::ZERO,
+            time_increment: 0.0,
             ranges: Ranges::new(),
         }
     }

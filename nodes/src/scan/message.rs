@@ -25,8 +25,8 @@ impl From<&Scan> for LaserScan {
             angle_min: scan.angle_min,
             angle_max: scan.angle(scan.ranges.len().saturating_sub(1)),
             angle_increment: scan.angle_increment,
-            // The beams have no time offsets, and the time until the next scan is unknown.
-            time_increment: 0.0,
+            time_increment: scan.time_increment,
+            // The time until the next scan is unknown.
             scan_time: 0.0,
             range_min: scan.range_min,
             range_max: scan.range_max,
@@ -40,12 +40,20 @@ impl TryFrom<LaserScan> for Scan {
     type Error = Reason;
 
     fn try_from(message: LaserScan) -> Result<Self, Reason> {
-        let LaserScan { header, angle_min, angle_increment, range_min, range_max, .. } = message;
+        let LaserScan { header, angle_min, angle_increment, time_increment, range_min, range_max, .. } = message;
         let mut ranges = Ranges::new();
         for range in message.ranges {
             ranges.push(range).map_err(|error| error.to_string())?;
         }
-        Ok(Self { angle_min, angle_increment, range_min, range_max, stamp: header.stamp.into(), ranges })
+        Ok(Self {
+            angle_min,
+            angle_increment,
+            range_min,
+            range_max,
+            stamp: header.stamp.into(),
+            time_increment,
+            ranges,
+        })
     }
 }
 
@@ -276,12 +284,14 @@ pub(crate) mod tests {
 
     #[test]
     fn scans_come_back_bit_by_bit() {
-        let mut scan = Scan { angle_min: -PI, angle_increment: 0.1, stamp: Time::from_nanos(-1), ..Scan::default() };
+        let stamp = Time::from_nanos(-1);
+        let mut scan = Scan { angle_min: -PI, angle_increment: 0.1, time_increment: 1e-4, stamp, ..Scan::default() };
         let odd = [f32::from_bits(0x7fc0_1234), f32::NAN, f32::INFINITY, -0.0, 1.5, f32::MIN_POSITIVE / 2.0];
         scan.ranges.extend(odd);
         let read: Scan = again(&bytes(&scan)).expect("what was written");
         assert!(read.ranges.iter().zip(odd).all(|(a, b)| a.to_bits() == b.to_bits()));
         assert_eq!((read.stamp, read.angle_min, read.angle_increment), (scan.stamp, scan.angle_min, 0.1));
+        assert_eq!(read.time_increment, scan.time_increment);
         assert_eq!((read.range_min, read.range_max, read.ranges.len()), (scan.range_min, scan.range_max, odd.len()));
     }
 

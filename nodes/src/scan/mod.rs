@@ -4,6 +4,7 @@
 //! ([`Ranges`]).
 
 mod carried;
+mod catch_up;
 mod confirm;
 mod consensus;
 mod container;
@@ -23,6 +24,7 @@ mod uncertain;
 mod wheel;
 
 pub use carried::HideCarried;
+pub use catch_up::CatchUp;
 pub use confirm::ConfirmContainer;
 pub use container::{Container, ContainerSearch, best_container};
 pub use directions::BeamDirections;

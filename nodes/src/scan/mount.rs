@@ -51,6 +51,7 @@ pub(crate) fn around(
     mounted.range_min = f32::MIN_POSITIVE;
     mounted.range_max = f32::MAX;
     mounted.stamp = scan.stamp;
+    mounted.time_increment = 0.0;
     mounted.ranges.clear();
     mounted.ranges.extend([f32::NAN; BEAMS]);
     let towards = |angle: f32| libm::roundf((angle + PI) / (TAU / BEAMS as f32)) as usize % BEAMS;

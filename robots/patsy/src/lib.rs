@@ -7,7 +7,6 @@
 //! The scanner is at the origin and faces along x; a cart moves in front of it.
 
 mod beneath;
-mod catch_up;
 mod container;
 mod detector;
 mod drive;
@@ -62,7 +61,6 @@ pub fn absent<T>() -> Option<T> {
 }
 
 pub use beneath::Beneath;
-pub use catch_up::CatchUp;
 pub use container::{BODY, LENGTH, TOP, TRAIL, WHEEL_BOXES, WHEEL_LENGTH, WHEEL_WIDTH, WIDTH};
 pub use detector::{Detector, Weights};
 pub use drive::Drive;

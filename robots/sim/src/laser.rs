@@ -1,6 +1,6 @@
 use crate::{Random, World};
 use apex_nodes::scan::{MAX_BEAMS, Point2, Pose2, Scan};
-use core::f32::consts::PI;
+use core::f32::consts::{PI, TAU};
 
 /// Simulated plane laser scanner that faces forward.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +17,8 @@ pub struct Laser {
     pub noise: f32,
     /// Probability that a beam measures nothing.
     pub dropout: f32,
+    /// Time of a turn of the mirror, in s, in which the scanner may move on; 0 if all beams measure at once.
+    pub turn: f32,
 }
 
 /// The safety scanner of the thesis (6.6): an [`S300`](Laser::S300).
@@ -35,6 +37,7 @@ impl Laser {
         range_max: 20.0,
         noise: 0.012,
         dropout: 0.005,
+        turn: 0.0,
     };
 
     /// A SICK TiM551: 270° at 1°, up to 10 m, with a statistical error of 20 mm.
@@ -56,18 +59,16 @@ impl Laser {
     }
 
     /// As [`measure`](Self::measure) for a scanner that moves while its mirror turns: `pose_at` gives its pose at a
-    /// part of the sweep, from 0 at the first beam to 1 at the last one. The scan is bent by the motion, as it says
-    /// nothing of it. The world stands still.
+    /// time after the first beam, in s. The scan is bent by the motion. The world stands still.
     pub fn sweep(&self, world: &World, pose_at: impl Fn(f32) -> Pose2, random: &mut Random, scan: &mut Scan) {
         scan.angle_min = -0.5 * self.field_of_view;
         scan.angle_increment = self.resolution;
         scan.range_min = self.range_min;
         scan.range_max = self.range_max;
+        scan.time_increment = self.turn * self.resolution / TAU;
         scan.ranges.clear();
-        let beams = self.beams();
-        let step = 1.0 / beams.saturating_sub(1).max(1) as f32;
-        for beam in 0..beams {
-            let pose = pose_at(beam as f32 * step);
+        for beam in 0..self.beams() {
+            let pose = pose_at(beam as f32 * scan.time_increment);
             let direction = Point2::polar(1.0, pose.theta + scan.angle(beam));
             let range = world.cast(pose.position(), direction).map_or(f32::INFINITY, |r| r + random.normal(self.noise));
             let lost = random.chance(self.dropout) || range > self.range_max;
@@ -76,9 +77,9 @@ impl Laser {
         }
     }
 
-    /// Time from the first beam to the last one of a mirror that turns once in `turn` s.
-    pub fn sweep_time(&self, turn: f32) -> f32 {
-        turn * self.field_of_view / core::f32::consts::TAU
+    /// Time from the first beam to the last one, in s.
+    pub fn sweep_time(&self) -> f32 {
+        self.turn * self.field_of_view / TAU
     }
 }
 
@@ -135,10 +136,12 @@ mod tests {
     fn a_wall_is_bent_while_the_scanner_turns() {
         let mut world = World::default();
         world.wall(Point2::new(2.0, -20.0), Point2::new(2.0, 20.0));
-        let laser = Laser { noise: 0.0, dropout: 0.0, field_of_view: 2.0, ..Laser::default() };
+        let laser = Laser { noise: 0.0, dropout: 0.0, field_of_view: 2.0, turn: 0.1, ..Laser::default() };
+        let sweep = laser.sweep_time();
         let points = |turn: f32| {
             let mut scan = Scan::default();
-            laser.sweep(&world, |part| Pose2::new(0.0, 0.0, turn * (part - 1.0)), &mut Random::new(1), &mut scan);
+            let pose = |time: f32| Pose2::new(0.0, 0.0, turn * (time / sweep - 1.0));
+            laser.sweep(&world, pose, &mut Random::new(1), &mut scan);
             let at = |beam: usize| Point2::polar(scan.ranges[beam], scan.angle(beam));
             [0, scan.ranges.len() / 2, scan.ranges.len() - 1].map(at)
         };
@@ -150,19 +153,20 @@ mod tests {
         assert!(sag(points(0.0)).abs() < 1e-4);
         assert!(sag(points(0.2)).abs() > 0.05, "{}", sag(points(0.2)));
         let last = points(0.2)[2];
-        assert!((last - points(0.0)[2]).norm() < 1e-4, "the stamp is that of the last beam");
+        assert!((last - points(0.0)[2]).norm() < 1e-4, "the last beam is as at the end");
     }
 
     #[test]
     fn a_wall_is_as_far_as_at_the_time_of_its_beam() {
         let mut world = World::default();
         world.wall(Point2::new(3.0, -20.0), Point2::new(3.0, 20.0));
-        let laser = Laser { noise: 0.0, dropout: 0.0, ..Laser::default() };
+        let laser = Laser { noise: 0.0, dropout: 0.0, turn: 0.04, ..Laser::default() };
         let mut scan = Scan::default();
-        laser.sweep(&world, |part| Pose2::new(part - 1.0, 0.0, 0.0), &mut Random::new(1), &mut scan);
+        laser.sweep(&world, |time| Pose2::new(time / 0.03 - 1.0, 0.0, 0.0), &mut Random::new(1), &mut scan);
         let ahead = scan.beam_towards(0.0).expect("in view");
         assert!((scan.ranges[ahead] - 3.5).abs() < 1e-4, "half of the way before the end");
-        assert!((laser.sweep_time(0.04) - 0.03).abs() < 1e-6);
+        assert!((laser.sweep_time() - 0.03).abs() < 1e-6);
+        assert!((scan.time(540).since(scan.stamp).as_secs_f32() - 0.03).abs() < 1e-5);
     }
 
     #[test]

@@ -1,7 +1,4 @@
-use apex_nodes::{
-    math::normalize_angle,
-    scan::{Point2, Pose2},
-};
+use apex_nodes::scan::Pose2;
 use std::collections::VecDeque;
 
 /// Poses of a body in the last steps of a simulation.
@@ -32,17 +29,10 @@ impl PoseTrack {
         let place = (age / self.step).clamp(0.0, (self.poses.len() - 1) as f32);
         let later = place as usize;
         let (b, a) = (self.poses[later], self.poses[(later + 1).min(self.poses.len() - 1)]);
-        between(&b, &a, place - later as f32)
+        let part = place - later as f32;
+        // Without rounding where no other pose takes part.
+        if part > 0.0 { b.on_way_to(&a, part) } else { b }
     }
-}
-
-/// Pose at a part of the way from `a` to `b`: `a` itself at 0.
-fn between(a: &Pose2, b: &Pose2, part: f32) -> Pose2 {
-    if part <= 0.0 {
-        return *a;
-    }
-    let Point2 { x, y } = a.position() + (b.position() - a.position()).scaled(part);
-    Pose2::new(x, y, normalize_angle(&(a.theta + part * normalize_angle(&(b.theta - a.theta)))))
 }
 
 #[cfg(test)]

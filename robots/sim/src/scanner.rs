@@ -63,6 +63,7 @@ impl LaserScanner {
             range_max: self.range_max,
             noise: self.noise,
             dropout: self.dropout,
+            turn: 0.0,
         }
     }
 }

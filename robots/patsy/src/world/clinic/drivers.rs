@@ -117,9 +117,10 @@ impl RearScanner {
 
 /// Scan of a turn that ends now. `pose` gives the pose of the scanner at an age in s.
 fn turn(clinic: &mut State, now: Time, pose: impl Fn(f32) -> Pose2, random: &mut Random) -> Scan {
-    let sweep = Laser::S300.sweep_time(clinic.conditions().scan_turn.as_secs_f32());
-    let mut scan = Scan { stamp: now, ..Scan::default() };
-    Laser::S300.sweep(clinic.scanned(), |part| pose((1.0 - part) * sweep), random, &mut scan);
+    let laser = Laser { turn: clinic.conditions().scan_turn.as_secs_f32(), ..Laser::S300 };
+    let sweep = laser.sweep_time();
+    let mut scan = Scan { stamp: now - Duration::from_secs_f32(sweep), ..Scan::default() };
+    laser.sweep(clinic.scanned(), |time| pose(sweep - time), random, &mut scan);
     scan
 }
 
