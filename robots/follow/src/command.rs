@@ -8,17 +8,15 @@ use follow::{
     experiments::{Accuracy, HEAD, Localisation, Row, Run, accuracy, localisation, picture, run, summary},
     world::{self, Ending, Fault},
 };
-use std::{
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::{path::PathBuf, process::ExitCode};
 
 const HELP: &str = "\
 A skid-steered robot follows a runner outdoors, in simulation: over hills, between trees, rocks, ditches and people.
 
 Usage: follow [follow] [--seed N] [--metres N] [--no-people] [--fault FAULT] [--out FILE] [--record FILE]
+                       [--timeline FILE]
        follow missions [--first-seed N] [--seeds N] [--jobs N] [--metres N] [--no-people] [--fault FAULT] [--out FILE]
-                       [--record FILE]
+                       [--record FILE] [--timeline FILE]
        follow localisation [--first-seed N] [--seeds N] [--jobs N] [--metres N]
        follow perception [--first-seed N] [--seeds N] [--jobs N]
 
@@ -33,6 +31,7 @@ robot lost the runner as violet ones.
                     gnss-silent (no positions), gnss-jump (20 m too far to the east), gyro-nan and wheels-silent
   --out FILE        the picture (default out/follow/track.svg)
   --record FILE     recording of the (first) run, for Foxglove, Rerun and `apex bag`: clouds, scans, maps, paths, poses
+  --timeline FILE   what happened in the (first) run, and when: active nodes, losses, contacts
 
 `missions` does so for many seeds, with a line for each, and draws the first run.
 
@@ -77,11 +76,13 @@ struct World {
     fault: Option<Fault>,
     out: PathBuf,
     record: Option<PathBuf>,
+    timeline: Option<PathBuf>,
 }
 
 impl World {
     fn new() -> Self {
-        Self { metres: 1700, people: true, fault: None, out: PathBuf::from("out/follow/track.svg"), record: None }
+        let out = PathBuf::from("out/follow/track.svg");
+        Self { metres: 1700, people: true, fault: None, out, record: None, timeline: None }
     }
 
     /// Reads the value of the option `name`.
@@ -92,6 +93,7 @@ impl World {
             "fault" => self.fault = Some(options.text()?.parse()?),
             "out" => self.out = options.path()?,
             "record" => self.record = Some(options.path()?),
+            "timeline" => self.timeline = Some(options.path()?),
             _ => return Err(Options::unknown(name)),
         }
         Ok(())
@@ -101,6 +103,15 @@ impl World {
     fn run(&self, seed: u64, first: u64) -> Result<Run, String> {
         let options = world::Options { seed, length: self.metres as f32, people: self.people, fault: self.fault };
         run(&options, self.record.as_deref().filter(|_| seed == first))
+    }
+
+    /// Writes the files about the first run.
+    fn write(&self, run: &Run) -> Result<(), String> {
+        if let Some(path) = &self.timeline {
+            write_file(path, &run.timeline())?;
+        }
+        write_file(&self.out, &picture(run))?;
+        say(&format!("picture: {}\n", self.out.display()))
     }
 }
 
@@ -125,7 +136,7 @@ fn follow_one(options: &mut Options) -> Result<ExitCode, String> {
         format!("{position:.2} m, {:.1}°", heading.to_degrees())
     });
     say(&format!("error of the pose in the world: {located}\n"))?;
-    draw(&run, &world.out)?;
+    world.write(&run)?;
     Ok(verdict(&[run]))
 }
 
@@ -137,7 +148,7 @@ fn missions(options: &mut Options) -> Result<ExitCode, String> {
     let work = |seed: &u64| world.run(*seed, all[0]);
     let runs = rows("runs", &all, seeds.jobs, work, |_, run| Some(Row(run).to_string()))?;
     say(&format!("\n{}", summary(&runs)))?;
-    draw(&runs[0], &world.out)?;
+    world.write(&runs[0])?;
     Ok(verdict(&runs))
 }
 
@@ -166,11 +177,6 @@ fn perception(options: &mut Options) -> Result<ExitCode, String> {
     say(&format!("\n{}", sum.table()))?;
     let is_fine = all.iter().all(|one| one.rates().iter().all(|rate| *rate >= 0.95));
     Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(1) })
-}
-
-fn draw(run: &Run, out: &Path) -> Result<(), String> {
-    write_file(out, &picture(run))?;
-    say(&format!("picture: {}\n", out.display()))
 }
 
 /// Exit code: 0 if each run met the goals.

@@ -79,7 +79,7 @@ impl Laser {
 
     /// Time from the first beam to the last one, in s.
     pub fn sweep_time(&self) -> f32 {
-        self.turn * self.field_of_view / TAU
+        self.turn * self.resolution / TAU * self.beams().saturating_sub(1) as f32
     }
 }
 

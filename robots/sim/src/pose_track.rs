@@ -58,7 +58,7 @@ mod tests {
         let mut track = PoseTrack::new(Pose2::new(0.0, 0.0, 3.1), 0.1, 0.02);
         track.push(Pose2::new(0.0, 0.0, -3.1));
         let middle = track.before(0.01).theta;
-        assert!(normalize_angle(&(middle - core::f32::consts::PI)).abs() < 1e-3, "{middle}");
+        assert!(apex_nodes::scan::wrap_angle(middle - core::f32::consts::PI).abs() < 1e-3, "{middle}");
     }
 
     #[test]

@@ -16,7 +16,7 @@ pub fn picture(run: &Run) -> String {
     }
     let report = &run.report;
     drawing.path(report.runner.iter().copied(), "fill=\"none\" stroke=\"#e08030\" stroke-width=\"3\"");
-    let way = report.trajectory.iter().map(|pose| pose.position());
+    let way = report.trajectory.iter().map(|(_, pose)| pose.position());
     drawing.path(way, "fill=\"none\" stroke=\"#1f5fd0\" stroke-width=\"1.2\"");
     for thing in run.terrain.things().iter().filter(|thing| thing.radius_at_ground() > 0.0) {
         let colour = match thing.surface {

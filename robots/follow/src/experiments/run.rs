@@ -4,7 +4,7 @@ use crate::{
 };
 use apex_rt::Time;
 use apex_sim::{
-    experiment::{self, Failure, Recording},
+    experiment::{self, Failure, Recording, Spell},
     outdoor::{Terrain, Track},
 };
 use std::{
@@ -28,6 +28,8 @@ pub struct Run {
     pub failures: Vec<Failure>,
     /// Nodes that were active, and for how long.
     pub activity: Vec<(&'static str, Duration)>,
+    /// Times in which nodes were active without a break.
+    pub spells: Vec<Spell>,
     /// Simulated time.
     pub lasted: Duration,
     /// Computing time.
@@ -70,6 +72,7 @@ pub fn run(options: &Options, record: Option<&Path>) -> Result<Run, String> {
         report: state.report().clone(),
         activity: log.activity(log.now),
         failures: log.failures,
+        spells: log.spells,
         lasted: log.now.since(Time::ZERO),
         took: began.elapsed(),
         terrain: terrain.clone(),
@@ -81,6 +84,22 @@ impl Run {
     /// Time for which a node, or any node of a nested graph, was active, by the beginning of its name.
     pub fn time_of(&self, name: &str) -> Duration {
         self.activity.iter().filter(|(node, _)| node.starts_with(name)).map(|(_, time)| *time).sum()
+    }
+
+    /// Events and activity, with the times in s.
+    pub fn timeline(&self) -> String {
+        let report = &self.report;
+        let before = |at: Time| report.trajectory.partition_point(|(time, _)| *time <= at).checked_sub(1);
+        let pose = |at: Time| before(at).map(|place| report.trajectory[place].1);
+        let mut events = vec![];
+        for loss in &report.losses {
+            events.push((loss.from, format!("the runner is lost for {:.2} s", loss.lasted)));
+        }
+        for contact in &report.contacts {
+            let what = if contact.is_person { "a person" } else { "a thing" };
+            events.push((contact.at, format!("{what} is touched with {:.2} m/s", contact.speed)));
+        }
+        experiment::timeline(&self.spells, pose, &events)
     }
 
     /// Share of the time of following in which the robot followed slowly.

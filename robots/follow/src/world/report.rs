@@ -22,8 +22,8 @@ pub struct Report {
     pub fastest: f32,
     /// Largest share of the load that went over to the wheels of one side.
     pub load_transfer: f32,
-    /// Poses of the robot, two in a second.
-    pub trajectory: Vec<Pose2>,
+    /// Poses of the robot, two in a second, with their times.
+    pub trajectory: Vec<(Time, Pose2)>,
     /// Positions of the runner at the same times.
     pub runner: Vec<Point2>,
     /// Errors of the pose in the world while the robot knew one: of the position, in m, and of the heading, in rad.

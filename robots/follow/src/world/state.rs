@@ -293,7 +293,7 @@ impl State {
             self.report.distances.push(distance);
         }
         if tick % 50 == 0 {
-            self.report.trajectory.push(self.base.pose);
+            self.report.trajectory.push((self.now, self.base.pose));
             self.report.runner.push(self.runner.walker.position);
         }
         if self.runner.has_arrived() {

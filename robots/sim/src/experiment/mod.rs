@@ -11,6 +11,7 @@ mod progress;
 #[cfg(feature = "record")]
 mod recording;
 mod run;
+mod timeline;
 
 pub use commands::{Command, run_commands};
 pub use drawing::Drawing;
@@ -22,3 +23,4 @@ pub use progress::Progress;
 #[cfg(feature = "record")]
 pub use recording::Recording;
 pub use run::{Failure, RunLog, Spell, activity_table, instances_of, run};
+pub use timeline::timeline;

@@ -251,13 +251,29 @@ impl RingScanner {
         if terrain.depth(at) > 0.02 {
             return (s / ray.level, Surface::Ditch);
         }
-        let descent = (high - low) / (far - near);
-        let grass = terrain.grass(at) / descent.max(0.02);
+        let through = s - self.entry(terrain.grass(at), s, *next, above);
         let way = -THROUGH_GRASS * logf(1.0 - random.unit() as f32);
-        if way < grass {
-            return (((s - grass + way) / ray.level).max(0.3), Surface::Grass);
+        let stopped = s - through + way;
+        let is_in_grass = |s: f32| ray.from[2] + slope * s - terrain.height(place(s)) <= terrain.grass(place(s));
+        // The ground may fall between two samples.
+        if way < through && is_in_grass(stopped) {
+            return ((stopped / ray.level).max(0.3), Surface::Grass);
         }
         (s / ray.level, Surface::Ground)
+    }
+
+    /// Distance at which a ray comes into grass of this height. It meets the ground at `s`, before the sample `next`,
+    /// and `above` is its height above the samples.
+    fn entry(&self, grass: f32, s: f32, next: usize, above: impl Fn(usize) -> f32) -> f32 {
+        let (mut inside, mut left) = (s, 0.0);
+        for i in (0..next).rev() {
+            let (distance, height) = (self.distances[i], above(i));
+            if height >= grass {
+                return inside - (inside - distance) * (grass - left) / (height - left).max(1e-4);
+            }
+            (inside, left) = (distance, height);
+        }
+        inside
     }
 }
 
@@ -318,6 +334,7 @@ fn axes(sample: &Sample) -> [[f32; 3]; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::outdoor::Track;
 
     fn measure(terrain: &Terrain, samples: &[Sample], people: &[Walker]) -> (RingCloud, Vec<Surface>) {
         let mut scanner = RingScanner { noise: 0.0, dropout: 0.0, ..RingScanner::default() };
@@ -385,5 +402,28 @@ mod tests {
         let ys: Vec<f32> = of(Surface::Person).map(|i| cloud.points()[i].y).collect();
         let mean = ys.iter().sum::<f32>() / ys.len() as f32;
         assert!(ys.len() > 60 && (mean + 0.1).abs() < 0.05, "half a turn earlier: {mean}");
+    }
+
+    /// A ray that grazes the ground of a hill is in the grass only where it is low above the ground.
+    #[test]
+    fn grass_is_seen_where_it_grows() {
+        let mut random = Random::new(5);
+        let track = Track::new(&mut random, 300.0);
+        let terrain = Terrain::around(&track, &mut random);
+        let (mut count, mut grazing) = (0, 0);
+        for i in 0..30 {
+            let (here, ahead) = (track.way(10.0 * i as f32), track.way(10.0 * i as f32 + 0.5));
+            let pose = Pose2::new(here.x, here.y, (ahead - here).angle());
+            let attitude = Attitude { height: terrain.height(here), ..Attitude::default() };
+            let (cloud, truth) = measure(&terrain, &[Sample { pose, attitude }; 2], &[]);
+            for (point, _) in cloud.points().iter().zip(&truth).filter(|(_, what)| **what == Surface::Grass) {
+                let place = pose.to_outer(Point2::new(point.x, point.y));
+                let above = attitude.height + 0.85 + point.z - terrain.height(place);
+                assert!((-0.3..0.15).contains(&above), "{above} m above the ground, {point:?}");
+                count += 1;
+                grazing += usize::from(point.z.abs() < 0.3);
+            }
+        }
+        assert!(count > 10_000 && grazing > 100, "{count}, {grazing}");
     }
 }
