@@ -25,8 +25,10 @@ const BACKWARD: [f32; 2] = [2.0, 1.5];
 const GREED: f32 = 1.3;
 /// Maximum number of expanded states.
 const MOST: usize = 20_000;
-/// Distance from the start up to which a vehicle may be as near to obstacles as it is there, in m.
+/// Distance from the start up to which a vehicle may be as near to obstacles as it is there, in m, and by how much
+/// nearer, in m: it drives past what stands beside it.
 const LEAVES: f32 = 0.8;
+const PAST: f32 = 0.05;
 /// Additional cost per metre, for each metre of distance from the trail between these two, in m.
 const STRAY: f32 = 0.5;
 const ASTRAY: [f32; 2] = [0.3, 2.3];
@@ -292,7 +294,7 @@ impl Search {
         for part in 1..=PARTS {
             pose = advanced(&node.pose, curvature, length * f32::from(part) / f32::from(PARTS));
             let clearance = self.clearance(vehicle, &pose);
-            let least = if driven <= LEAVES { vehicle.margin.min(near) } else { vehicle.margin };
+            let least = if driven <= LEAVES { vehicle.margin.min(near - PAST) } else { vehicle.margin };
             // False for NaN: outside of the map.
             let is_free = clearance >= least;
             if !is_free {
@@ -515,6 +517,21 @@ mod tests {
         // Not if it is the person.
         let gap = Point2::new(0.7, 0.0);
         assert!(ask(false, gap).is_some());
+    }
+
+    #[test]
+    fn a_vehicle_drives_past_who_stands_beside_it() {
+        let mut scan = Scan { angle_min: -PI, angle_increment: PI / 180.0, range_max: 20.0, ..Scan::default() };
+        // Someone with a radius of 0.22 m, whose middle is 0.67 m to the right of that of the vehicle.
+        let beside = |degrees: i32| {
+            let (sin, cos) = libm::sincosf((degrees - 180) as f32 * PI / 180.0);
+            let rest = 0.22 * 0.22 - 0.67 * 0.67 * cos * cos;
+            if sin < 0.0 && rest > 0.0 { -0.67 * sin - sqrtf(rest) } else { f32::INFINITY }
+        };
+        scan.ranges.extend((0..360).map(beside));
+        for backward in [false, true] {
+            assert!(plan_with(&[], backward, Point2::new(8.0, 0.0), &[], None, Some(&scan)).is_some(), "{backward}");
+        }
     }
 
     #[test]

@@ -18,6 +18,8 @@ use libm::{coshf, fabsf, fmaxf, fminf, sinf, sqrtf, tanhf};
 const CHORD: f32 = 0.4;
 /// Distance between the places of a path at which its curvature and the map are looked at, in m.
 const PROBE: f32 = 0.2;
+/// Distance from the side of the robot within which what stands there is in its way, in m.
+const BESIDE: f32 = 0.05;
 /// Distance from the end up to which the last points are passed one by one, in m.
 const CORNER: f32 = 0.05;
 
@@ -86,6 +88,14 @@ pub struct SkidFollower {
     /// Distance of obstacles from the path up to which they are on it: half of the robot's width, and more.
     #[param(unit = "m", default = 0.42, range = 0.0..=10.0)]
     clearance: f32,
+    /// Width of the robot.
+    #[param(unit = "m", default = 0.61, range = 0.01..=20.0)]
+    width: f32,
+    /// Distance from the beginning of a path up to which the robot was beside what the scan sees there: it is on the path
+    /// only within half of `width`, and 5 cm more. What is occupied on the map does not count there. A planner that lets
+    /// the robot get away from what is that close does the same.
+    #[param(unit = "m", default = 0.3, range = 0.0..=20.0)]
+    stands: f32,
     /// Distance from an obstacle on the path, along it, at a stop, counted from the middle of the robot.
     #[param(unit = "m", default = 0.7, range = 0.0..=10.0)]
     margin: f32,
@@ -228,17 +238,21 @@ impl SkidFollower {
         let mut directions = core::mem::take(&mut self.directions);
         if let Some(scan) = self.scan.young(ctx, self.max_age) {
             let (sight, frame) = (self.look_ahead + self.clearance, pose.transform());
+            let beside = fminf(self.clearance, 0.5 * self.width + BESIDE);
             for (_, point) in directions.points(scan).filter(|(_, point)| point.norm_squared() <= sight * sight) {
-                free = fminf(free, self.along(frame.to_outer(point), projection, reach));
+                let point = frame.to_outer(point);
+                let clearance = if self.is_at_begin(point) { beside } else { self.clearance };
+                free = fminf(free, self.along(point, projection, reach, clearance));
             }
         }
         self.directions = directions;
         if let Some(map) = self.map.young(ctx, self.max_age) {
             let mut ahead = 0.0;
             while ahead < reach && ahead < free {
-                let cell = map.raster().cell(self.path.ahead(projection, ahead));
+                let place = self.path.ahead(projection, ahead);
+                let cell = map.raster().cell(place);
                 let is_occupied = cell.and_then(|cell| map.get(cell)).is_some_and(|cell| cell.is_obstacle());
-                if is_occupied && ahead > 0.3 {
+                if is_occupied && !self.is_at_begin(place) {
                     free = fminf(free, ahead);
                 }
                 ahead += PROBE;
@@ -247,8 +261,14 @@ impl SkidFollower {
         free
     }
 
-    /// Length of the path up to a point that is on it, in m; infinite for one beside it, or behind the robot.
-    fn along(&self, point: Point2, projection: &Projection, reach: f32) -> f32 {
+    /// Returns `true` for a place beside which the robot stood when the path was planned.
+    fn is_at_begin(&self, place: Point2) -> bool {
+        self.path.points.first().is_some_and(|begin| (place - *begin).norm_squared() <= self.stands * self.stands)
+    }
+
+    /// Length of the path up to a point that is within `clearance` m of it, in m; infinite for one beside it, or behind
+    /// the robot.
+    fn along(&self, point: Point2, projection: &Projection, reach: f32, clearance: f32) -> f32 {
         let (mut passed, mut last) = (0.0, projection.point);
         for next in &self.path.points[projection.segment + 1..] {
             if passed > reach {
@@ -257,7 +277,7 @@ impl SkidFollower {
             let nearest = nearest_on(last, *next, point);
             let along = passed + (nearest - last).norm();
             // What is beside the robot is not ahead of it.
-            if (point - nearest).norm() <= self.clearance && along > 0.0 {
+            if (point - nearest).norm() <= clearance && along > 0.0 {
                 return along;
             }
             passed += (*next - last).norm();
@@ -333,12 +353,14 @@ impl SkidFollower {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::map::Raster;
     use apex_rt::{Construct, event};
     use core::f32::consts::TAU;
 
     fn node(speed: f32, linger: f32) -> SkidFollower {
         SkidFollower::construct((
-            speed, 0.1, 1.5, 1.8, 1.6, 0.8, 2.5, 0.4, 0.25, 0.1, 0.15, 4.0, 0.42, 0.7, 0.3, 1.2, 0.4, 1.5, linger, 0.5,
+            speed, 0.1, 1.5, 1.8, 1.6, 0.8, 2.5, 0.4, 0.25, 0.1, 0.15, 4.0, 0.42, 0.61, 0.3, 0.7, 0.3, 1.2, 0.4, 1.5,
+            linger, 0.5,
         ))
     }
 
@@ -361,11 +383,12 @@ mod tests {
         twist: Twist,
         ms: i64,
         obstacles: Vec<Point2>,
+        map: Option<Grid<Occupancy>>,
     }
 
     impl Robot {
         fn new(node: SkidFollower, pose: Pose2) -> Self {
-            Self { node, pose, twist: Twist::ZERO, ms: 0, obstacles: vec![] }
+            Self { node, pose, twist: Twist::ZERO, ms: 0, obstacles: vec![], map: None }
         }
 
         fn react(&mut self, path: Option<&Path>, back: Option<&Path>) -> (Option<Twist>, Option<End>) {
@@ -389,7 +412,7 @@ mod tests {
                 &ctx,
                 Some(&self.pose),
                 Some(&scan),
-                None,
+                self.map.as_ref(),
                 event(&mut reached),
                 event(&mut blocked),
                 event(&mut off),
@@ -461,6 +484,33 @@ mod tests {
             let end = robot.follow(Some(&straight), None, |_, _| ());
             assert_eq!(end, expected);
             assert!(end == End::Reached || (7.5..8.4).contains(&robot.pose.x), "{}", robot.pose.x);
+        }
+    }
+
+    /// What the planner lets the robot get away from is not in its way.
+    #[test]
+    fn it_gets_away_from_what_it_stands_beside() {
+        let straight = path(Pose2::default(), &[(0.0, 4.0)]);
+        let raster = Raster { corner: Point2::new(-6.0, -6.0), resolution: 0.1, width: 120, height: 120 };
+        let ends = |stands: f32, seen: Point2, marked: Point2| {
+            let mut robot = Robot::new(node(1.0, 0.0), Pose2::default());
+            robot.node.stands = stands;
+            robot.obstacles.push(seen);
+            let mut map = Grid::new(raster, Occupancy::Free).expect("small");
+            *raster.cell(marked).and_then(|cell| map.get_mut(cell)).expect("on the map") = Occupancy::Occupied;
+            robot.map = Some(map);
+            robot.follow(Some(&straight), None, |_, _| ())
+        };
+        let (far, beside, ahead) = (Point2::new(5.0, 5.0), Point2::new(0.3, 0.39), Point2::new(0.52, 0.03));
+        for (seen, marked) in [(beside, far), (far, ahead), (beside, ahead)] {
+            assert_eq!(ends(0.3, seen, marked), End::Blocked, "{seen:?} {marked:?}");
+            assert_eq!(ends(0.7, seen, marked), End::Reached, "{seen:?} {marked:?}");
+        }
+        // What it would run into, and what stands farther away.
+        for (seen, marked) in
+            [(Point2::new(0.5, 0.3), far), (Point2::new(2.0, 0.39), far), (far, Point2::new(2.0, 0.0))]
+        {
+            assert_eq!(ends(0.7, seen, marked), End::Blocked, "{seen:?} {marked:?}");
         }
     }
 

@@ -143,7 +143,8 @@ pub const ROWS: &[Row] = &[
         max_age: 0.5,
         make: || {
             let mut node = SkidFollower::construct((
-                0.5, 0.1, 1.5, 1.8, 1.6, 0.8, 2.5, 0.4, 0.25, 0.1, 0.15, 4.0, 0.42, 0.7, 0.3, 1.2, 0.4, 1.5, 0.0, 0.5,
+                0.5, 0.1, 1.5, 1.8, 1.6, 0.8, 2.5, 0.4, 0.25, 0.1, 0.15, 4.0, 0.42, 0.61, 0.3, 0.7, 0.3, 1.2, 0.4, 1.5,
+                0.0, 0.5,
             ));
             let mut path = Some(Path { points: [0.0, 3.0, 6.0].map(|x| Point2::new(x, 0.0)).into(), heading: 0.0 });
             Box::new(move |ctx, i| {

@@ -11,8 +11,10 @@ const RUNS: f32 = 2.5;
 const SPURT: f32 = 1.0;
 /// Distance from the middle line at which a passer-by begins to cross it, in m.
 const ASIDE: f32 = 11.0;
-/// Distance of a vehicle at which a passer-by waits for it, in m.
+/// Distance of a vehicle at which a passer-by waits for it, in m, and time after which he goes back, in s. Otherwise he
+/// and the vehicle could wait for each other, and the runner for him.
 const WAITS: f32 = 1.6;
+const PATIENCE: f32 = 4.0;
 
 /// Person, with the velocity in the frame of the world.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -112,6 +114,8 @@ struct PasserBy {
     begins: f32,
     /// Length of the walk that is left, in m.
     left: f32,
+    /// Time for which the person has waited, in s.
+    waited: f32,
 }
 
 /// People who cross the track of a runner near a robot that follows, or stand beside it.
@@ -144,7 +148,7 @@ impl Passersby {
                 // In the middle of the track when the runner has come to `lead` m beyond it, at 2 m/s.
                 let begins = s + lead - 2.0 * ASIDE / speed;
                 let walker = Walker { position: from, velocity: Point2::default() };
-                people.push(PasserBy { walker, direction, speed, begins, left: length });
+                people.push(PasserBy { walker, direction, speed, begins, left: length, waited: 0.0 });
                 s += random.uniform(35.0, 90.0);
             } else {
                 s += 3.0;
@@ -160,12 +164,18 @@ impl Passersby {
     }
 
     /// Walks for `dt` s. `runner` is the distance of the runner along the track, in m. Who has the robot at `robot`
-    /// close ahead waits.
+    /// close ahead waits, and after 4 s goes back.
     pub fn step(&mut self, dt: f32, runner: f32, robot: Point2) {
         for (person, walker) in self.people.iter_mut().zip(&mut self.walkers) {
             let to = robot - person.walker.position;
             let waits = to.norm() < WAITS && to.dot(person.direction) > -0.3;
-            let walks = runner >= person.begins && person.left > 0.0 && !waits;
+            let is_on_way = runner >= person.begins && person.left > 0.0;
+            person.waited = if is_on_way && waits { person.waited + dt } else { 0.0 };
+            if person.waited > PATIENCE {
+                person.direction = person.direction.scaled(-1.0);
+                person.left = 2.0 * ASIDE - person.left;
+            }
+            let walks = is_on_way && !waits;
             person.walker.velocity = if walks { person.direction.scaled(person.speed) } else { Point2::default() };
             person.walker.position = person.walker.position + person.walker.velocity.scaled(dt);
             person.left -= if walks { person.speed * dt } else { 0.0 };
@@ -214,5 +224,9 @@ mod tests {
         assert_eq!(people.walkers()[index].velocity, Point2::default());
         people.step(0.1, person.begins + 1.0, Point2::new(1e6, 0.0));
         assert!(people.walkers()[index].velocity.norm() > 0.8);
+        // The robot stays where it is.
+        let robot = people.walkers()[index].position + person.direction.scaled(1.0);
+        (0..45).for_each(|_| people.step(0.1, person.begins + 1.0, robot));
+        assert!(people.walkers()[index].velocity.dot(person.direction) < -0.8, "he goes back");
     }
 }
