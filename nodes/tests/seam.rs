@@ -39,6 +39,7 @@ fn seen(turned: u16) -> (usize, usize, Vec<Point2>, Option<Pose2>) {
         range_max: 30.0,
         noise: 0.0,
         dropout: 0.0,
+        turn: 0.0,
     };
     let pose = Pose2::new(0.0, 0.0, step * f32::from(turned));
     let mut scan = Scan::default();

@@ -21,6 +21,7 @@ pub fn scan(random: &mut Random) -> Labelled {
         range_max: random.uniform(4.0, 12.0),
         noise: random.uniform(0.003, 0.02),
         dropout: if random.chance(0.5) { random.uniform(0.0, 0.3) } else { 0.0 },
+        turn: 0.0,
     };
     let mut scan = Scan::default();
     laser.measure(&world, &Pose2::default(), random, &mut scan);

@@ -11,9 +11,10 @@ const RUNS: f32 = 2.5;
 const SPURT: f32 = 1.0;
 /// Distance from the middle line at which a passer-by begins to cross it, in m.
 const ASIDE: f32 = 11.0;
-/// Distance of a vehicle at which a passer-by waits for it, in m, and time after which he goes back, in s. Otherwise he
-/// and the vehicle could wait for each other, and the runner for him.
+/// Distance of a vehicle at which a passer-by waits for it, in m.
 const WAITS: f32 = 1.6;
+/// Time after which a passer-by who waits goes back, and for which the runner waits for others, in s. They could wait for
+/// each other otherwise.
 const PATIENCE: f32 = 4.0;
 
 /// Person, with the velocity in the frame of the world.
@@ -44,6 +45,8 @@ pub struct Runner {
     plan: Vec<(f32, f32)>,
     wanted: f32,
     rests: f32,
+    /// Time for which others have been in the way, in s.
+    waited: f32,
     end: f32,
 }
 
@@ -61,7 +64,7 @@ impl Runner {
         }
         plan.reverse();
         let walker = Walker { position: track.way(0.0), velocity: Point2::default() };
-        Self { walker, s: 0.0, speed: 0.0, plan, wanted: 0.0, rests: STANDS, end }
+        Self { walker, s: 0.0, speed: 0.0, plan, wanted: 0.0, rests: STANDS, waited: 0.0, end }
     }
 
     /// Distance along the track, in m.
@@ -74,7 +77,7 @@ impl Runner {
         self.s >= self.end
     }
 
-    /// Runs for `dt` s. The runner stops before others who are in the way.
+    /// Runs for `dt` s. The runner stops before others who are in the way, and squeezes past them after 4 s.
     pub fn step(&mut self, dt: f32, track: &Track, others: &[Walker]) {
         self.rests = (self.rests - dt).max(0.0);
         if self.rests == 0.0 {
@@ -88,9 +91,11 @@ impl Runner {
         }
         let ahead = track.way(self.s + 1.3);
         let is_blocked = others.iter().any(|other| (other.position - ahead).norm() < 0.9);
+        self.waited = if is_blocked { self.waited + dt } else { 0.0 };
         let bend = [1.0, 3.0, 5.0].map(|d| fabsf(track.bend(self.s + d))).into_iter().fold(0.0, f32::max);
         let most = if bend > 0.12 { 1.7 } else { RUNS };
-        let stands = self.rests > 0.0 || is_blocked || self.has_arrived();
+        let waits = is_blocked && self.waited <= PATIENCE;
+        let stands = self.rests > 0.0 || waits || self.has_arrived();
         let wanted = if stands { 0.0 } else { self.wanted.min(most) };
         let change = if wanted < self.speed { 2.0 * SPURT } else { SPURT };
         self.speed += (wanted - self.speed).clamp(-change * dt, change * dt);
@@ -215,6 +220,19 @@ mod tests {
     }
 
     #[test]
+    fn the_runner_squeezes_past_who_stands_in_the_way() {
+        let (track, _, mut runner, _) = country(5);
+        let other = Walker { position: track.way(20.0), velocity: Point2::default() };
+        let mut standing = 0;
+        for _ in 0..3000 {
+            runner.step(0.01, &track, &[other]);
+            standing += usize::from(runner.walker.velocity == Point2::default());
+        }
+        assert!(runner.distance() > 25.0, "{} m", runner.distance());
+        assert!((600..1000).contains(&standing), "{standing}");
+    }
+
+    #[test]
     fn a_passer_by_waits_for_a_robot_ahead() {
         let (_, _, _, mut people) = country(6);
         let index = people.people.iter().position(|p| p.left > 0.0).expect("someone crosses");
@@ -224,6 +242,7 @@ mod tests {
         assert_eq!(people.walkers()[index].velocity, Point2::default());
         people.step(0.1, person.begins + 1.0, Point2::new(1e6, 0.0));
         assert!(people.walkers()[index].velocity.norm() > 0.8);
+        (0..30).for_each(|_| people.step(0.1, person.begins + 1.0, Point2::new(1e6, 0.0)));
         // The robot stays where it is.
         let robot = people.walkers()[index].position + person.direction.scaled(1.0);
         (0..45).for_each(|_| people.step(0.1, person.begins + 1.0, robot));
