@@ -91,9 +91,9 @@ pub struct SkidFollower {
     /// Width of the robot.
     #[param(unit = "m", default = 0.61, range = 0.01..=20.0)]
     width: f32,
-    /// Distance from the beginning of a path up to which the robot was beside what the scan sees there: it is on the path
-    /// only within half of `width`, and 5 cm more. What is occupied on the map does not count there. A planner that lets
-    /// the robot get away from what is that close does the same.
+    /// Distance from the beginning of a path up to which the robot was beside what the scan sees there: it is on the
+    /// path only within half of `width`, and 5 cm more. What is occupied on the map does not count there. A planner
+    /// that lets the robot get away from what is that close does the same.
     #[param(unit = "m", default = 0.3, range = 0.0..=20.0)]
     stands: f32,
     /// Distance from an obstacle on the path, along it, at a stop, counted from the middle of the robot.
@@ -487,7 +487,7 @@ mod tests {
         }
     }
 
-    /// What the planner lets the robot get away from is not in its way.
+    /// Things that the planner lets the robot get away from are not in its way.
     #[test]
     fn it_gets_away_from_what_it_stands_beside() {
         let straight = path(Pose2::default(), &[(0.0, 4.0)]);

@@ -13,8 +13,8 @@ const SPURT: f32 = 1.0;
 const ASIDE: f32 = 11.0;
 /// Distance of a vehicle at which a passer-by waits for it, in m.
 const WAITS: f32 = 1.6;
-/// Time after which a passer-by who waits goes back, and for which the runner waits for others, in s. They could wait for
-/// each other otherwise.
+/// Time after which a passer-by who waits goes back, and for which the runner waits for others, in s. They could wait
+/// for each other otherwise.
 const PATIENCE: f32 = 4.0;
 
 /// Person, with the velocity in the frame of the world.
