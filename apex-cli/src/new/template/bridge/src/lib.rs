@@ -44,6 +44,7 @@ impl Datagram {
                     range_max: *range_max,
                     stamp: now,
                     ranges,
+                    ..Scan::default()
                 }))
             }
             _ => None,
