@@ -179,6 +179,7 @@ impl Passersby {
             if person.waited > PATIENCE {
                 person.direction = person.direction.scaled(-1.0);
                 person.left = 2.0 * ASIDE - person.left;
+                person.waited = 0.0;
             }
             let walks = is_on_way && !waits;
             person.walker.velocity = if walks { person.direction.scaled(person.speed) } else { Point2::default() };
