@@ -1,7 +1,6 @@
 use super::{Detections, View};
-use crate::scan::Pose2;
-use apex_rt::{Ctx, Event, Time, node};
-use heapless::Deque;
+use crate::scan::{Pose2, PoseHistory};
+use apex_rt::{Ctx, Event, node};
 
 /// Number of poses that are kept: 1.6 s of 20 in a second.
 const POSES: usize = 32;
@@ -14,43 +13,20 @@ const POSES: usize = 32;
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct PlaceDetections {
-    poses: Deque<(Time, Pose2), POSES>,
+    poses: PoseHistory<POSES>,
 }
 
 #[node]
 impl PlaceDetections {
     fn process(&mut self, ctx: &Ctx, pose: &Pose2) {
-        // The clock was set back.
-        if self.poses.back().is_some_and(|(last, _)| *last > ctx.stamp()) {
-            self.poses.clear();
-        }
-        if !pose.is_usable() {
-            return;
-        }
-        if self.poses.is_full() {
-            self.poses.pop_front();
-        }
-        // Cannot fail: there is room.
-        let _ = self.poses.push_back((ctx.stamp(), *pose));
+        self.poses.keep(ctx.stamp(), pose);
     }
 
     /// Takes detections in the frame of the robot.
     #[slot]
     fn put(&mut self, detections: &Detections, placed: Event<Detections>) {
         let stamp = detections.stamp;
-        let is_past = self.poses.back().is_some_and(|(last, _)| stamp <= *last);
-        let next = self.poses.iter().position(|(time, _)| *time >= stamp).filter(|_| is_past);
-        let Some(((after, pose), next)) = next.and_then(|i| Some((self.poses.iter().nth(i)?, i))) else { return };
-        let before = next.checked_sub(1).and_then(|i| self.poses.iter().nth(i));
-        let pose = match before {
-            Some((time, last)) if after > time => {
-                let part = stamp.since(*time).as_secs_f32() / after.since(*time).as_secs_f32();
-                let step = pose.relative_to(last);
-                last.compose(&Pose2::new(part * step.x, part * step.y, part * step.theta))
-            }
-            _ if *after == stamp => *pose,
-            _ => return,
-        };
+        let Some(pose) = self.poses.at(stamp) else { return };
         let view = View { pose: pose.compose(&detections.view.pose), ..detections.view };
         let positions = detections.positions.iter().map(|place| pose.to_outer(*place)).collect();
         placed.emit(Detections { stamp, view, positions });
@@ -61,7 +37,7 @@ impl PlaceDetections {
 mod tests {
     use super::*;
     use crate::scan::Point2;
-    use apex_rt::event;
+    use apex_rt::{Time, event};
 
     fn placed(stamp: i64) -> Option<Detections> {
         let mut node = PlaceDetections::default();

@@ -1,6 +1,5 @@
-use super::{BeamDirections, Pose2, Scan, wrap_angle};
+use super::{BeamDirections, Pose2, PoseHistory, Scan, wrap_angle};
 use apex_rt::{Ctx, Out, Time, node};
-use heapless::Deque;
 
 /// Number of remembered poses: those of more than a second, at up to 15 in a second.
 const POSES: usize = 16;
@@ -22,21 +21,21 @@ const GAP: f32 = 0.08;
 #[node]
 #[derive(Debug, Clone, Default)]
 pub struct CatchUp {
-    track: Track,
+    poses: PoseHistory<POSES>,
     directions: BeamDirections,
 }
 
 #[node]
 impl CatchUp {
     fn process(&mut self, ctx: &Ctx, scan: Option<&Scan>, pose: Option<&Pose2>, now: &mut Out<Scan>) {
-        if let Some(pose) = pose.filter(|pose| pose.is_usable()) {
-            self.track.keep(ctx.now(), *pose);
+        if let Some(pose) = pose {
+            self.poses.keep(ctx.now(), pose);
         }
         let Some(scan) = scan else { return };
         let now = now.get_mut();
         now.clone_from(scan);
         now.time_increment = 0.0;
-        let ends = [0, scan.ranges.len().saturating_sub(1)].map(|beam| self.track.motion_since(scan.time(beam)));
+        let ends = [0, scan.ranges.len().saturating_sub(1)].map(|beam| motion_since(&self.poses, scan.time(beam)));
         if ends.into_iter().flatten().any(|motion| motion != Pose2::default()) {
             self.moved(scan, now);
         }
@@ -49,7 +48,7 @@ impl CatchUp {
             let middle = scan.angle_min + 0.5 * step * scan.ranges.len() as f32;
             (middle + wrap_angle(angle - middle) - scan.angle_min) / step
         };
-        let motion = |beam| self.track.motion_since(scan.time(beam)).unwrap_or_default();
+        let motion = |beam| motion_since(&self.poses, scan.time(beam)).unwrap_or_default();
         // What is far away is in the same direction from everywhere.
         for beam in (0..scan.ranges.len()).filter(|beam| scan.sight(*beam) == f32::INFINITY) {
             set(now, place(scan.angle(beam) - motion(beam).theta), f32::INFINITY);
@@ -67,39 +66,12 @@ impl CatchUp {
     }
 }
 
-/// The last poses of the scanner, with their times.
-#[derive(Debug, Clone, Default)]
-struct Track {
-    poses: Deque<(Time, Pose2), POSES>,
-}
-
-impl Track {
-    fn keep(&mut self, now: Time, pose: Pose2) {
-        // The clock was set back.
-        if self.poses.back().is_some_and(|(last, _)| *last >= now) {
-            self.poses.clear();
-        }
-        if self.poses.is_full() {
-            self.poses.pop_front();
-        }
-        // Cannot fail: there is room.
-        let _ = self.poses.push_back((now, pose));
-    }
-
-    /// Present pose in the frame of the scanner at a time. `None` if that is before all that is remembered.
-    fn motion_since(&self, time: Time) -> Option<Pose2> {
-        let (newest, now) = self.poses.back()?;
-        // A clock that is ahead.
-        let time = time.min(*newest);
-        let later = self.poses.iter().position(|(known, _)| *known >= time)?;
-        let (end, pose) = self.poses.iter().nth(later)?;
-        if *end == time {
-            return Some(now.relative_to(pose));
-        }
-        let (begin, from) = self.poses.iter().nth(later.checked_sub(1)?)?;
-        let part = time.since(*begin).as_secs_f32() / end.since(*begin).as_secs_f32();
-        Some(now.relative_to(&from.on_way_to(pose, part)))
-    }
+/// Present pose in the frame of the scanner at a time. `None` if that is before all that is remembered.
+fn motion_since(poses: &PoseHistory<POSES>, time: Time) -> Option<Pose2> {
+    let (newest, now) = poses.newest()?;
+    // A clock that is ahead.
+    let then = poses.at(time.min(*newest))?;
+    Some(now.relative_to(&then))
 }
 
 /// Sets the range of the beam nearest to a place among the beams, unless something nearer is there.
@@ -120,23 +92,5 @@ fn fill(scan: &mut Scan, [from, to]: [f32; 2], [a, b]: [f32; 2]) {
     }
     for beam in libm::ceilf(from.max(0.0)) as usize..=libm::floorf(to.max(0.0)) as usize {
         set(scan, beam as f32, a + (b - a) * (beam as f32 - from) / (to - from));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_time_lies_between_two_poses_and_not_after_the_last_one() {
-        let mut track = Track::default();
-        for ms in [0, 80, 160, 240] {
-            track.keep(Time::from_millis(ms), Pose2::new(0.0005 * ms as f32, 0.0, 0.0));
-        }
-        for (ms, way) in [(100, 0.07), (160, 0.04), (240, 0.0), (300, 0.0)] {
-            let motion = track.motion_since(Time::from_millis(ms)).expect("it is remembered");
-            assert!((motion.x - way).abs() < 1e-5, "{motion:?}");
-        }
-        assert_eq!(track.motion_since(Time::from_millis(-1)), None);
     }
 }

@@ -183,8 +183,8 @@ impl Pose2 {
     /// at 1. Both are given in the same outer frame.
     #[must_use]
     pub fn on_way_to(&self, to: &Self, part: f32) -> Self {
-        let position = self.position() + (to.position() - self.position()).scaled(part);
-        Self::new(position.x, position.y, wrap_angle(self.theta + part * wrap_angle(to.theta - self.theta)))
+        let way = to.relative_to(self);
+        self.compose(&Self::new(part * way.x, part * way.y, part * way.theta))
     }
 }
 

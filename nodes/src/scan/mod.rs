@@ -13,6 +13,7 @@ mod filter;
 #[cfg(feature = "record")]
 mod foreign;
 mod geometry;
+mod history;
 mod laser;
 #[cfg(feature = "record")]
 pub(crate) mod message;
@@ -30,6 +31,7 @@ pub use container::{Container, ContainerSearch, best_container};
 pub use directions::BeamDirections;
 pub use filter::{EnoughBeams, MedianFilter, RangeFilter, ShortSegmentFilter};
 pub use geometry::{FarFromOrigin, Point2, Pose2, Transform2, wrap_angle};
+pub(crate) use history::PoseHistory;
 pub use laser::Scan;
 pub(crate) use mount::around;
 pub use mount::{MergeScans, MountScan, OtherBeams};

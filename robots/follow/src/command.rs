@@ -129,7 +129,7 @@ fn follow_one(options: &mut Options) -> Result<ExitCode, String> {
         say(&format!("lost at {} for {:.2} s\n", loss.from, loss.lasted))?;
     }
     for contact in &run.report.contacts {
-        let what = if contact.is_person { "a person" } else { "a thing" };
+        let what = contact.what();
         say(&format!("touched {what} at {} with {:.2} m/s\n", contact.at, contact.speed))?;
     }
     let located = run.report.located().map_or("the robot did not know it".to_owned(), |[position, heading]| {

@@ -89,17 +89,15 @@ impl Run {
     /// Events and activity, with the times in s.
     pub fn timeline(&self) -> String {
         let report = &self.report;
-        let before = |at: Time| report.trajectory.partition_point(|(time, _)| *time <= at).checked_sub(1);
-        let pose = |at: Time| before(at).map(|place| report.trajectory[place].1);
         let mut events = vec![];
         for loss in &report.losses {
             events.push((loss.from, format!("the runner is lost for {:.2} s", loss.lasted)));
         }
         for contact in &report.contacts {
-            let what = if contact.is_person { "a person" } else { "a thing" };
+            let what = contact.what();
             events.push((contact.at, format!("{what} is touched with {:.2} m/s", contact.speed)));
         }
-        experiment::timeline(&self.spells, pose, &events)
+        experiment::timeline(&self.spells, &report.trajectory, &events)
     }
 
     /// Share of the time of following in which the robot followed slowly.

@@ -43,6 +43,13 @@ pub struct Contact {
     pub is_person: bool,
 }
 
+impl Contact {
+    /// Name of what was touched.
+    pub const fn what(&self) -> &'static str {
+        if self.is_person { "a person" } else { "a thing" }
+    }
+}
+
 /// Spell in which the robot did not know where the runner is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loss {

@@ -6,7 +6,6 @@ use apex_sim::experiment;
 /// Events and activity of a run, with the times in s.
 pub fn timeline(run: &Run) -> String {
     let report = &run.report;
-    let pose = |at: Time| report.trajectory.iter().take_while(|(time, _)| *time <= at).last().map(|(_, pose)| *pose);
     let mut events: Vec<(Time, String)> = vec![];
     let mut event = |at: Time, what: String| events.push((at, what));
     for Delivery { at, container, offset, turn, left, .. } in &report.deliveries {
@@ -20,5 +19,5 @@ pub fn timeline(run: &Run) -> String {
     report.run_over.iter().for_each(|(at, thing)| event(*at, format!("{thing:?} run over")));
     report.empty_lifts.iter().for_each(|at| event(*at, "empty lift".to_owned()));
     report.wedges.iter().for_each(|at| event(*at, "wedged".to_owned()));
-    experiment::timeline(&run.timeline, pose, &events)
+    experiment::timeline(&run.timeline, &report.trajectory, &events)
 }
