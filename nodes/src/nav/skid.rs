@@ -20,6 +20,8 @@ const CHORD: f32 = 0.4;
 const PROBE: f32 = 0.2;
 /// Distance from the side of the robot within which what stands there is in its way, in m.
 const BESIDE: f32 = 0.05;
+/// Time after which the robot begins to brake, in s.
+const LATENCY: f32 = 0.1;
 /// Distance from the end up to which the last points are passed one by one, in m.
 const CORNER: f32 = 0.05;
 
@@ -30,15 +32,16 @@ const CORNER: f32 = 0.05;
 /// angular velocity κ·v·cos θ + dδ/dt − `gain`·(θ − δ) makes both errors vanish. The speed is `speed`/(1 + |`slip`·κ|),
 /// times the exponential law of [`FollowingLaw`] with the turning of the path within `look_ahead`, the rotation of the
 /// robot and the distance from the end. It is limited so that neither the curve at hand nor those ahead take more than
-/// `side_acceleration`, as a robot that turns fast slides and tips, and by what `scan` sees within `clearance` of the
-/// path: from there the robot stops `margin` before it.
+/// `side_acceleration`, as a robot that turns fast slides and tips; so that the robot can stop at the end, beyond which
+/// nothing was planned; and by what `scan` sees within `clearance` of the path: from there the robot stops `margin`
+/// before it.
 ///
 /// A path at `follow` is followed forward, and one at `back` backward; a new one replaces the present one, and the
 /// robot goes on at its speed. `pose` is in the frame of the path. `scan` is in the frame of the robot, and `map` in
 /// that of the path: a path over an occupied cell is blocked. Without a pose that is younger than `max_age` the robot
 /// stands. The node sends twists while it has a path, and drops it when the robot
 ///
-/// - has `reached` its end up to `tolerance`,
+/// - has `reached` its end up to `tolerance`; with a `linger` it brakes there for as long, before it drops the path,
 /// - is `blocked`: for longer than `blocked_timeout`, an obstacle is on the path, or it makes no progress for longer
 ///   than `patience`, or the path is not finite,
 /// - is `off_path`: farther than `max_offset` from the path,
@@ -124,8 +127,9 @@ pub struct SkidFollower {
     last: Option<(Time, f32, f32)>,
     scan: Latest<Scan>,
     map: Latest<Grid<Occupancy>>,
-    /// Time up to which the robot goes on without activity, once that has left.
+    /// Time up to which the robot goes on without activity, or at the end of the path, once that has begun.
     until: Option<Option<Time>>,
+    is_at_end: bool,
     halt: Halt,
     directions: BeamDirections,
 }
@@ -194,7 +198,7 @@ impl SkidFollower {
         let goes_on = |at: Time| now.since(at).as_secs_f32() <= RESUMES;
         self.last = self.last.filter(|(at, ..)| goes_on(*at) && self.is_back == is_back);
         self.is_back = is_back;
-        self.until = None;
+        (self.until, self.is_at_end) = (None, false);
         self.path.take(path);
         self.progress = Progress::default();
     }
@@ -212,23 +216,26 @@ impl SkidFollower {
         self.progress.segment = projection.segment;
         let free = self.free_length(ctx, pose, &projection);
         match self.end(&projection, free.is_finite(), ctx.now()) {
-            None => {
-                let twist = self.drive(pose, &projection, free, ctx.now());
-                self.halt.drive(twist)
-            }
-            Some(end) => self.give_up_with(end, ends),
+            Some(End::Reached) if self.linger > 0.0 => self.arrive(ends),
+            Some(end) => return self.give_up_with(end, ends),
+            None => {}
         }
+        let twist = self.drive(pose, &projection, free, ctx.now());
+        self.halt.drive(twist)
     }
 
     fn give_up_with(&mut self, end: End, ends: [Event<()>; 3]) -> Option<Twist> {
         end.tell(ends);
-        // At the end of a path forward the next one may come, before the robot has to stand.
-        if end != End::Reached || self.linger == 0.0 {
-            self.path.points.clear();
-            return self.halt.drive(Twist::ZERO);
+        self.path.points.clear();
+        self.halt.drive(Twist::ZERO)
+    }
+
+    /// Tells that the end is reached, from where the next path may lead on before the robot stands.
+    fn arrive(&mut self, ends: [Event<()>; 3]) {
+        if !self.is_at_end {
+            End::Reached.tell(ends);
+            (self.is_at_end, self.until) = (true, Some(None));
         }
-        self.until = Some(None);
-        None
     }
 
     /// Length of the path up to an obstacle, in m; infinite if there is none within the look-ahead.
@@ -346,7 +353,8 @@ impl SkidFollower {
             speed = fminf(speed, sqrtf(in_curve + 2.0 * self.acceleration * ahead));
             ahead += 2.0 * PROBE;
         }
-        fminf(speed, braking_speed(fmaxf(free - self.margin, 0.0), self.acceleration, 0.1))
+        let way = fminf(fmaxf(free - self.margin, 0.0), projection.remaining);
+        fminf(speed, braking_speed(way, self.acceleration, LATENCY))
     }
 }
 
@@ -463,6 +471,28 @@ mod tests {
         });
         assert_eq!(end, End::Reached);
         assert!(fastest > 1.9 && side < 2.0 && off < 0.35, "{fastest} m/s, {side} m/s², {off} m");
+    }
+
+    /// What is beyond the end of a path was not looked at when it was planned.
+    #[test]
+    fn it_stands_where_its_path_ends() {
+        for linger in [0.0, 1.0] {
+            let straight = path(Pose2::default(), &[(0.0, 8.0)]);
+            let mut robot = Robot::new(node(2.5, linger), Pose2::default());
+            let (mut fastest, mut farthest) = (0.0_f32, 0.0_f32);
+            let end = robot.follow(Some(&straight), None, |_, twist| fastest = fastest.max(twist.x));
+            robot.node.leave();
+            let mut ends = vec![end];
+            for _ in 0..30 {
+                let (twist, end) = robot.react(None, None);
+                robot.drive(twist.unwrap_or(Twist::ZERO));
+                farthest = farthest.max(robot.pose.x);
+                ends.extend(end);
+            }
+            assert!(fastest > 2.0 && (7.5..8.1).contains(&farthest), "{linger}: {fastest} m/s, {farthest} m");
+            assert_eq!(ends, [End::Reached], "{linger}");
+            assert_eq!(robot.react(None, None).0, None, "{linger}");
+        }
     }
 
     #[test]

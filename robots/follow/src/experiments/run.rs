@@ -93,6 +93,7 @@ impl Run {
         for loss in &report.losses {
             events.push((loss.from, format!("the runner is lost for {:.2} s", loss.lasted)));
         }
+        events.extend(report.beliefs.iter().map(|(at, belief)| (*at, belief.what().to_owned())));
         for contact in &report.contacts {
             let what = contact.what();
             events.push((contact.at, format!("{what} is touched with {:.2} m/s", contact.speed)));

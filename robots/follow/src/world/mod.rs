@@ -8,5 +8,5 @@ mod state;
 
 pub use drivers::{Camera, Gnss, Imu, Judge, Motors, Odometry, Scanner, Wheels};
 pub use fault::{Fault, FaultKind};
-pub use report::{Contact, Ending, Loss, Report};
+pub use report::{Belief, Contact, Ending, Loss, Report};
 pub use state::{Field, Options, State};

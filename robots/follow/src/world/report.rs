@@ -10,6 +10,8 @@ pub struct Report {
     pub found: Option<Time>,
     /// Spells in which it did not know that, after it had.
     pub losses: Vec<Loss>,
+    /// Beliefs about the runner, each with the time from which on the robot had it.
+    pub beliefs: Vec<(Time, Belief)>,
     /// Reason for the end of the run.
     pub ending: Option<Ending>,
     /// Distances to the runner, ten in a second, from the time at which the runner was found on, in m.
@@ -59,6 +61,31 @@ pub struct Loss {
     pub lasted: f32,
     /// Place of the robot at the beginning.
     pub place: Point2,
+}
+
+/// Belief of the robot about the runner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Belief {
+    /// The runner is where he is.
+    Right,
+    /// Another person is the runner.
+    Another,
+    /// The runner is where nobody is.
+    Elsewhere,
+    /// None.
+    Unknown,
+}
+
+impl Belief {
+    /// Words for it.
+    pub const fn what(self) -> &'static str {
+        match self {
+            Self::Right => "the robot knows where the runner is",
+            Self::Another => "the robot takes another person for the runner",
+            Self::Elsewhere => "the robot believes the runner to be where nobody is",
+            Self::Unknown => "the robot does not know where the runner is",
+        }
+    }
 }
 
 /// Reason for the end of a run.

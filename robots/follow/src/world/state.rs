@@ -1,4 +1,4 @@
-use super::{Contact, Ending, Fault, FaultKind, Loss, Report};
+use super::{Belief, Contact, Ending, Fault, FaultKind, Loss, Report};
 use apex_nodes::{
     frames::{Pose3, Rotation},
     localize::TangentPlane,
@@ -207,12 +207,25 @@ impl State {
             return;
         }
         let believed = person.map(|person| self.base.pose.to_outer(pose.to_inner(person.position)));
-        let knows = believed.is_some_and(|place| (place - self.runner.walker.position).norm() <= KNOWS);
-        if knows {
+        let belief = self.belief(believed);
+        if self.report.beliefs.last().is_none_or(|(_, last)| *last != belief) {
+            self.report.beliefs.push((self.now, belief));
+        }
+        if belief == Belief::Right {
             self.report.found.get_or_insert(self.now);
             self.end_loss();
         } else if self.report.found.is_some() {
             self.lost.get_or_insert((self.now, self.base.pose.position()));
+        }
+    }
+
+    fn belief(&self, place: Option<Point2>) -> Belief {
+        let Some(place) = place else { return Belief::Unknown };
+        let is_there = |person: &Walker| (person.position - place).norm() <= KNOWS;
+        match self.people.iter().position(is_there) {
+            Some(0) => Belief::Right,
+            Some(_) => Belief::Another,
+            None => Belief::Elsewhere,
         }
     }
 
@@ -393,6 +406,11 @@ mod tests {
         state.judge(None, &pose);
         state.judge(Some(&right), &pose);
         assert_eq!(state.report().losses.iter().map(|loss| loss.lasted).collect::<Vec<_>>(), [2.0]);
+        let other = pose.to_outer(state.base.pose.to_inner(state.people[1].position));
+        state.judge(Some(&Person { position: other, ..right }), &pose);
+        let beliefs = [Belief::Elsewhere, Belief::Right, Belief::Elsewhere, Belief::Unknown, Belief::Right];
+        let beliefs = beliefs.into_iter().chain([Belief::Another]);
+        assert!(state.report().beliefs.iter().map(|(_, belief)| *belief).eq(beliefs));
     }
 
     #[test]
