@@ -5,6 +5,7 @@
 mod choice;
 mod detection;
 mod hypotheses;
+mod kalman;
 mod leaf;
 mod legs;
 mod motion;

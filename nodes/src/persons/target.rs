@@ -1,49 +1,40 @@
-use super::{Detections, Person, Persons};
+use super::{
+    Detections, Person, Persons,
+    kalman::{NEW, SURE, Track},
+};
 use crate::scan::{Point2, Pose2};
 use apex_rt::{Ctx, Event, Out, Time, node};
 use heapless::Vec;
-use libm::{fmaxf, sqrtf};
+use libm::fmaxf;
 
 /// Maximum number of tracks.
 const MAX_TRACKS: usize = 96;
 /// Maximum number of pairs of a track and a detection that are near each other.
 const MAX_PAIRS: usize = 512;
-/// Standard deviation of the velocity of something that is new, along each axis, in m/s.
-const SPEED: f32 = 1.5;
-/// Most evidence of a camera for a person, and loss of it when a person in view is not detected.
-const SURE: f32 = 6.0;
+/// Evidence that is lost when a person in view is not detected.
 const DOUBT: f32 = 0.15;
 /// Evidence with which something is a person to be followed.
 const PERSON: f32 = 2.0;
 /// Distance up to which a camera is expected to detect a person, in m.
 const EXPECTED: f32 = 14.0;
-/// Speed from which on something moves, in m/s.
-const MOVES: f32 = 0.6;
 /// Time after which what is not the target and is not seen any more is forgotten, in s.
 const FORGET: f32 = 0.8;
+/// Distance up to which the scanner may see two persons as one, and from which on they have parted, in m.
+const BESIDE: f32 = 0.8;
+const APART: f32 = 2.0;
+/// Time for which a person beside another one is not seen, before both stand together, in s.
+const HIDDEN: f32 = 1.0;
+/// Difference of velocities that tells two persons apart, in m/s.
+const SURELY: f32 = 0.3;
 /// Difference of velocities up to which a person may be the same, in m/s.
 const ALIKE: f32 = 1.2;
-/// Highest speed of a person who was lost, in m/s.
-const RUNS: f32 = 3.0;
-/// Age up to which a track may be a target that has appeared again, in s.
-const NEW: f32 = 2.5;
 
-/// Something that is tracked.
+/// Meeting of the person with another one. The scanner may see one of both.
 #[derive(Debug, Clone, Copy)]
-struct Track {
-    id: u32,
-    position: Point2,
-    velocity: Point2,
-    /// Covariance of position and velocity, the same along both axes: position, both, velocity.
-    spread: [f32; 3],
-    born: Time,
-    /// Time of the last detection.
-    seen: Time,
-    hits: u32,
-    /// Evidence of the camera for a person.
-    evidence: f32,
-    /// `true` if a detection of the present measurement belongs to it.
-    is_taken: bool,
+struct Meeting {
+    other: u32,
+    /// Velocity of the person before.
+    course: Point2,
 }
 
 /// Tracks what is upright around a robot, tells which of it is the person to be followed, and keeps that person while
@@ -57,10 +48,11 @@ struct Track {
 /// grow with the square of the distance from the pose of their view. Both are in the same fixed frame, that of `pose`.
 ///
 /// The person is the nearest one to the robot of whom there is enough evidence, which triggers `found`. A person who is
-/// hidden is predicted, for `keep` at most; one that appears again near the prediction is the same. `lost` says that
-/// this did not happen. While the node is active, `person` is triggered in each firing in which the person is farther
-/// from the robot than `near`. The output `target` is the person now, or ⊥, and `persons` are all persons and all that
-/// moves, as far as it is known.
+/// hidden is predicted, for `keep` at most; one that appears again near the prediction is the same. One who stops so
+/// near another one that the scanner sees one of both is kept there; when they part, the one who goes on as before is
+/// the person. `lost` says that the person did not appear again. While the node is active, `person` is triggered in each
+/// firing in which the person is farther from the robot than `near`. The output `target` is the person now, or ⊥, and
+/// `persons` are all persons and all that moves, as far as it is known.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TrackTarget {
@@ -90,6 +82,8 @@ pub struct TrackTarget {
     /// Time of the states of the tracks.
     now: Time,
     target: Option<u32>,
+    /// Other one beside whom the person is.
+    meeting: Option<Meeting>,
     /// Person who is lost, where the person was seen last.
     missing: Option<Track>,
     here: Option<Pose2>,
@@ -116,6 +110,7 @@ impl TrackTarget {
             self.associate(clusters);
         }
         self.forget();
+        self.meet();
         self.choose();
         match (had, self.target) {
             (None, Some(_)) => found.emit(()),
@@ -124,10 +119,7 @@ impl TrackTarget {
         }
         let all = persons.get_mut();
         all.clear();
-        let is_known = |track: &&Track| {
-            let moves = track.hits >= 4 && track.velocity.norm() > MOVES;
-            Some(track.id) == self.target || track.evidence >= 1.0 || moves
-        };
+        let is_known = |track: &&Track| Some(track.id) == self.target || track.is_someone();
         for track in self.tracks.iter().filter(is_known) {
             // There is room for all tracks.
             let _ = all.push(track.person());
@@ -251,18 +243,7 @@ impl TrackTarget {
     fn born(&mut self, position: Point2, spread: f32) -> Option<usize> {
         let id = self.next;
         self.next = self.next.wrapping_add(1);
-        let track = Track {
-            id,
-            position,
-            velocity: Point2::default(),
-            spread: [spread, 0.0, SPEED * SPEED],
-            born: self.now,
-            seen: self.now,
-            hits: 1,
-            evidence: 0.0,
-            is_taken: true,
-        };
-        self.tracks.push(track).ok().map(|()| self.tracks.len() - 1)
+        self.tracks.push(Track::new(id, position, spread, self.now)).ok().map(|()| self.tracks.len() - 1)
     }
 
     fn forget(&mut self) {
@@ -284,6 +265,43 @@ impl TrackTarget {
         self.tracks.iter().find(|track| Some(track.id) == self.target)
     }
 
+    /// Keeps a person who stands so near another one that the scanner sees one of both, and decides who is who when they
+    /// part: the person goes on as before, or stands, and the other one goes elsewhere.
+    fn meet(&mut self) {
+        let met = self.meeting.take();
+        let Some(mine) = self.followed().copied() else { return };
+        let unseen = |track: &Track| self.now.since(track.seen).as_secs_f32();
+        let apart = |track: &Track| (track.position - mine.position).norm();
+        let is_mine_seen = unseen(&mine) == 0.0;
+        let others = self.tracks.iter().filter(|track| track.id != mine.id && unseen(track) == 0.0);
+        let Some(Meeting { other, course }) = met else {
+            let beside = others.filter(|track| is_mine_seen && track.is_someone() && apart(track) < BESIDE);
+            let nearest = beside.min_by(|a, b| apart(a).total_cmp(&apart(b)));
+            self.meeting = nearest.map(|other| Meeting { other: other.id, course: mine.velocity });
+            return;
+        };
+        let Some(other) = others.copied().find(|track| track.id == other) else {
+            // It may be seen again in the next turn, until it is forgotten.
+            self.meeting = met.filter(|met| self.tracks.iter().any(|track| track.id == met.other));
+            return;
+        };
+        let is_over =
+            is_mine_seen && apart(&other) > BESIDE && (mine.moves() || other.moves() || apart(&other) > APART);
+        if is_over {
+            let off = |track: &Track| (track.velocity - course).norm();
+            if off(&other) + SURELY < off(&mine) {
+                self.target = Some(other.id);
+            }
+            return;
+        }
+        self.meeting = met;
+        if unseen(&mine) > HIDDEN
+            && let Some(mine) = self.tracks.iter_mut().find(|track| track.id == mine.id)
+        {
+            mine.stop_at(other.position);
+        }
+    }
+
     /// Chooses the person to be followed, or finds the present one again.
     fn choose(&mut self) {
         let now = self.now;
@@ -298,8 +316,9 @@ impl TrackTarget {
             let reach = 1.0 + 1.5 * unseen;
             let is_again = |track: &&Track| {
                 let alike = (track.velocity - followed.velocity).norm() < ALIKE;
-                let moves = track.hits >= 4 && track.velocity.norm() > MOVES && alike;
+                let moves = track.moves() && alike;
                 let may_be = since(track.born) < unseen + NEW && (track.evidence >= PERSON || moves);
+                let may_be = may_be && self.meeting.is_none_or(|meeting| track.id != meeting.other);
                 track.id != followed.id && since(track.seen) < 0.3 && may_be
             };
             let distance = |track: &Track| (track.position - followed.position).norm();
@@ -330,51 +349,7 @@ impl TrackTarget {
     #[slot]
     fn reset(&mut self) {
         self.tracks.clear();
-        (self.target, self.missing) = (None, None);
-    }
-}
-
-impl Track {
-    fn predict(&mut self, dt: f32, noise: f32) {
-        self.position = self.position + self.velocity.scaled(dt);
-        let [p, c, v] = self.spread;
-        let square = dt * dt;
-        self.spread = [
-            p + 2.0 * dt * c + square * (v + 0.25 * square * noise),
-            c + dt * (v + 0.5 * square * noise),
-            v + square * noise,
-        ];
-    }
-
-    /// Corrects the state by two parts of a difference, at right angles, with their variances.
-    fn correct(&mut self, parts: [Point2; 2], variances: [f32; 2]) {
-        let [p, c, v] = self.spread;
-        for (part, variance) in parts.into_iter().zip(variances) {
-            let whole = p + variance;
-            self.position = self.position + part.scaled(p / whole);
-            self.velocity = self.velocity + part.scaled(c / whole);
-        }
-        // The covariance is that of the worse direction.
-        let whole = p + fmaxf(variances[0], variances[1]);
-        self.spread = [p - p * p / whole, c - p * c / whole, v - c * c / whole];
-    }
-
-    /// Returns `true` if someone can be this lost person: not one who was seen beside the person, nor one who is too
-    /// far away.
-    fn may_be(&self, other: &Self, now: Time) -> bool {
-        let since = |time: Time| now.since(time).as_secs_f32();
-        let reach = 1.0 + RUNS * since(self.seen);
-        since(other.born) < since(self.seen) + NEW && (other.position - self.position).norm() <= reach
-    }
-
-    fn person(&self) -> Person {
-        Person {
-            id: self.id,
-            position: self.position,
-            velocity: self.velocity,
-            deviation: sqrtf(self.spread[0]),
-            presence: (self.evidence / SURE).clamp(0.0, 1.0),
-        }
+        (self.target, self.missing, self.meeting) = (None, None, None);
     }
 }
 
@@ -534,6 +509,55 @@ mod tests {
         }
         assert!((test.target.expect("it is followed").position.x - 12.9).abs() < 0.3, "{:?}", test.target);
         assert_eq!(test.said.len(), 1);
+    }
+
+    /// The scanner sees both as one while they stand together. Then one goes on, and the other one stays for a moment.
+    #[test]
+    fn who_stands_beside_another_one_is_known_when_they_part() {
+        let meets = Point2::new(9.0, 0.0);
+        for (goes_first, way) in [(true, 1.2), (false, 1.2), (false, -1.2)] {
+            let mut test = Test::new();
+            let person = |t: f32| Point2::new(if t < 4.0 { 5.0 + t } else { 9.0 + (t - 8.0).max(0.0) }, 0.0);
+            let other = |t: f32| {
+                let begins = if goes_first { 10.0 } else { 7.0 };
+                let y = if t < 4.0 { 1.2 * (t - 4.0) } else { way * (t - begins).max(0.0) };
+                meets + Point2::new(0.1, y)
+            };
+            for i in 0..120 {
+                let t = 0.1 * i as f32;
+                let (mine, theirs) = (person(t), other(t));
+                let middle = (mine + theirs).scaled(0.5);
+                let both = if (mine - theirs).norm() < 0.5 { vec![middle] } else { vec![theirs, mine] };
+                test.step(&both, &both);
+                let off = test.target.filter(|_| t > 1.0).map_or(0.0, |target| (target.position - mine).norm());
+                assert!(off < 1.5, "{off} m at {t} s: {goes_first} {way}");
+            }
+            let off = (test.target.expect("it is followed").position - person(12.0)).norm();
+            assert!(off < 0.4 && test.said.len() == 1, "{off} m: {goes_first} {way}");
+        }
+    }
+
+    /// The other one was hidden by the person, and then the scanner sees both as one for a moment.
+    #[test]
+    fn who_passes_someone_who_stands_is_not_taken_for_him() {
+        for aside in [0.1, 0.3, 0.5] {
+            let mut test = Test::new();
+            let other = Point2::new(9.0, aside);
+            for i in 0..80 {
+                let mine = Point2::new(5.0 + 0.13 * i as f32, 0.0);
+                let gap = (mine - other).norm();
+                let seen = if gap < 0.55 {
+                    vec![(mine + other).scaled(0.5)]
+                } else if mine.x < 7.5 {
+                    vec![mine]
+                } else {
+                    vec![other, mine]
+                };
+                test.step(&seen, &seen);
+            }
+            let off = (test.target.expect("it is followed").position.x - 15.27).abs();
+            assert!(off < 0.4 && test.said.len() == 1, "{off} m, {aside} m aside");
+        }
     }
 
     #[test]
