@@ -101,3 +101,18 @@ fn a_nested_graph_waits_for_its_input_from_another_thread() {
     assert_eq!(program.nodes().far.seen, [0, 1, 2]);
     assert_eq!(log.count("slow"), 3);
 }
+
+/// A latch is asked when its value is taken with the token of a timer, on whatever thread.
+#[test]
+fn what_is_taken_together_is_of_one_moment() {
+    fn moments<P: Program>(mut program: P, seen: impl Fn(&P) -> Vec<i64>) -> Vec<i64> {
+        simulate(&mut program, Time::ZERO, Time::from_millis(50));
+        seen(&program)
+    }
+    let expected = [0, 11, 22, 33, 44];
+    assert_eq!(moments(Moment::new(), |program| program.nodes().k.seen.clone()), expected);
+    assert_eq!(moments(MomentFar::new(), |program| program.nodes().k.seen.clone()), expected);
+    assert_eq!(moments(MomentFarther::new(), |program| program.nodes().k.seen.clone()), expected);
+    assert_eq!(moments(MomentNested::new(), |program| program.nodes().k.seen.clone()), expected);
+    assert_eq!(moments(MomentNested::new(), |program| program.nodes().l.seen.clone()), expected);
+}

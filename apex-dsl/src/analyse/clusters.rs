@@ -55,6 +55,9 @@ pub fn regions(graph: &Graph) -> IdVec<NodeId, usize> {
         let (a, b) = (find(&mut root, a), find(&mut root, b));
         root[a.max(b)] = a.min(b);
     };
+    for (source, paces) in &graph.paced {
+        paces.iter().for_each(|pace| join(*source, *pace));
+    }
     let mut at_scope: BTreeMap<ScopeId, NodeId> = BTreeMap::new();
     for c in graph.connections.iter().filter(|c| graph.flow(c) != Flow::ToSlot) {
         if graph.is_synchronous(c) {
@@ -173,10 +176,18 @@ fn join(graph: &Graph, cluster_of: &IdVec<NodeId, ClusterId>, clusters: &mut IdV
         let own = BTreeSet::from([cluster_of[c.from.node]]);
         let b = cluster_of[c.to.node];
         let last = c.crossings.last().map_or(&own, |side| &senders[side]);
-        for &a in last.iter().filter(|a| **a != b) {
-            clusters[a].downstream.insert(b);
-            clusters[b].upstream.insert(a);
-        }
+        last.iter().for_each(|a| waits(clusters, b, *a));
+    }
+    for (source, paces) in &graph.paced {
+        paces.iter().for_each(|pace| waits(clusters, cluster_of[*source], cluster_of[*pace]));
+    }
+}
+
+/// Notes that a cluster waits for another one.
+fn waits(clusters: &mut IdVec<ClusterId, Cluster>, cluster: ClusterId, upstream: ClusterId) {
+    if cluster != upstream {
+        clusters[upstream].downstream.insert(cluster);
+        clusters[cluster].upstream.insert(upstream);
     }
 }
 
@@ -265,7 +276,8 @@ type Alike<'a> = (usize, &'a BTreeSet<usize>, &'a Holding, usize);
 /// such a loop would not have a condition to wait for, and would fire without end.
 fn without_pace(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize>>) -> Vec<NodeId> {
     let View { graph, catalog, links, .. } = *view;
-    let paced = |n: NodeId| own[n].iter().any(|g| matches!(guards[*g], Guard::Timer(_) | Guard::Input(_)));
+    let has_pace = |n: NodeId| own[n].iter().any(|g| matches!(guards[*g], Guard::Timer(_) | Guard::Input(_)));
+    let paced = |n: NodeId| has_pace(n) || graph.paced.contains_key(&n);
     let sources = graph.nodes.ids().filter(|n| !paced(*n) && is_source(graph, catalog, links, *n));
     let mut plain: Vec<NodeId> = sources.collect();
     // A further guard flows downstream from these sources. Delays that neither it nor another guard reaches are on
@@ -294,6 +306,7 @@ fn accumulate(view: &View<'_>, guards: &[Guard], own: &IdVec<NodeId, Vec<usize>>
         for &node in order {
             let mut set = std::mem::take(&mut sets[node]);
             let before = set.len();
+            graph.paced.get(&node).into_iter().flatten().for_each(|pace| set.extend(&sets[*pace]));
             for &index in &links.inputs[node] {
                 let connection = &graph.connections[index];
                 // The token of an event does not bring the guards of the event's node, which fires on its own.

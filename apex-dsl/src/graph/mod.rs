@@ -66,6 +66,9 @@ pub struct Graph {
     pub open_pins: BTreeSet<NodeId>,
     /// Inputs whose connection could not be made; the error has been reported.
     pub suppressed: BTreeSet<PortId>,
+    /// Sources that fire each time when certain other nodes have fired, although no connection leads from these to
+    /// them: on another thread, their tokens are taken together. Only graphs of thread groups have some.
+    pub paced: BTreeMap<NodeId, BTreeSet<NodeId>>,
 }
 
 /// A node that takes activity out of others, and gives it back.

@@ -118,6 +118,7 @@ impl<'a> Builder<'a> {
             threads,
             open_pins,
             suppressed: ports(&self.suppressed),
+            paced: BTreeMap::new(),
             record: None,
         };
         generics::infer(&mut graph, self.catalog, self.diagnostics);

@@ -17,7 +17,7 @@ use crate::{
     source::Span,
     syntax::tree::{Expr, Ident, Instance, Modifier, ModifierKind, PortKind},
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Builder<'_> {
     /// The body of an `each` on a single node: a graph with only that node and its ports.
@@ -85,6 +85,7 @@ impl Builder<'_> {
                 threads: vec![],
                 open_pins,
                 suppressed: BTreeSet::new(),
+                paced: BTreeMap::new(),
                 record: None,
             };
             generics::settle(&mut graph, builder.catalog);

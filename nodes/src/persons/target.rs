@@ -20,7 +20,7 @@ const EXPECTED: f32 = 14.0;
 /// Time after which what is not the target and is not seen any more is forgotten, in s.
 const FORGET: f32 = 0.8;
 /// Distance up to which the scanner may see two persons as one, and from which on they have parted, in m.
-const BESIDE: f32 = 0.8;
+const BESIDE: f32 = 1.2;
 const APART: f32 = 2.0;
 /// Time for which a person beside another one is not seen, before both stand together, in s.
 const HIDDEN: f32 = 1.0;
