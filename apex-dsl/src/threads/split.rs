@@ -218,9 +218,9 @@ impl Splitter<'_> {
         giver
     }
 
-    /// Lets the sources of tokens that other threads take together with those of a timer, an input or an event fire with
-    /// these, as they would on one thread. Where what sets the pace is on another thread, too, they fire when there is
-    /// room.
+    /// Lets the sources of tokens that other threads take together with those of a timer, an input or an event fire
+    /// with these, as they would on one thread. Where what sets the pace is on another thread, too, they fire when
+    /// there is room.
     fn pace_sources(&mut self) {
         for node in self.before_cells() {
             let (Some(group), Some(placed)) = (self.group_of[node], self.placed[node]) else { continue };

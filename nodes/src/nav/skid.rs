@@ -473,7 +473,7 @@ mod tests {
         assert!(fastest > 1.9 && side < 2.0 && off < 0.35, "{fastest} m/s, {side} m/s², {off} m");
     }
 
-    /// What is beyond the end of a path was not looked at when it was planned.
+    /// Nothing beyond the end of a path was looked at when it was planned.
     #[test]
     fn it_stands_where_its_path_ends() {
         for linger in [0.0, 1.0] {

@@ -50,9 +50,9 @@ struct Meeting {
 /// The person is the nearest one to the robot of whom there is enough evidence, which triggers `found`. A person who is
 /// hidden is predicted, for `keep` at most; one that appears again near the prediction is the same. One who stops so
 /// near another one that the scanner sees one of both is kept there; when they part, the one who goes on as before is
-/// the person. `lost` says that the person did not appear again. While the node is active, `person` is triggered in each
-/// firing in which the person is farther from the robot than `near`. The output `target` is the person now, or ⊥, and
-/// `persons` are all persons and all that moves, as far as it is known.
+/// the person. `lost` says that the person did not appear again. While the node is active, `person` is triggered in
+/// each firing in which the person is farther from the robot than `near`. The output `target` is the person now, or ⊥,
+/// and `persons` are all persons and all that moves, as far as it is known.
 #[node]
 #[derive(Debug, Clone)]
 pub struct TrackTarget {
@@ -265,8 +265,8 @@ impl TrackTarget {
         self.tracks.iter().find(|track| Some(track.id) == self.target)
     }
 
-    /// Keeps a person who stands so near another one that the scanner sees one of both, and decides who is who when they
-    /// part: the person goes on as before, or stands, and the other one goes elsewhere.
+    /// Keeps a person who stands so near another one that the scanner sees one of both, and decides who is who when
+    /// they part: the person goes on as before, or stands, and the other one goes elsewhere.
     fn meet(&mut self) {
         let met = self.meeting.take();
         let Some(mine) = self.followed().copied() else { return };

@@ -70,7 +70,7 @@ pub enum Belief {
     Right,
     /// Another person is the runner.
     Another,
-    /// The runner is where nobody is.
+    /// The runner is where no person is.
     Elsewhere,
     /// None.
     Unknown,
@@ -82,7 +82,7 @@ impl Belief {
         match self {
             Self::Right => "the robot knows where the runner is",
             Self::Another => "the robot takes another person for the runner",
-            Self::Elsewhere => "the robot believes the runner to be where nobody is",
+            Self::Elsewhere => "the robot believes the runner to be where no person is",
             Self::Unknown => "the robot does not know where the runner is",
         }
     }
