@@ -57,7 +57,7 @@ pub fn check_all(
         check::check(&graph, catalog, diagnostics);
         if let Some(analysis) = analyse::analyse(&graph, catalog, diagnostics) {
             check::check_rates(&graph, &analysis, diagnostics);
-            threads::check(&graph, &analysis, diagnostics);
+            threads::check(&graph, &analysis, catalog, diagnostics);
             if graph.is_open {
                 parts.push(graph);
             } else {

@@ -50,6 +50,7 @@ pages! {
     "rates"
     "recursion"
     "robot-port"
+    "stale"
     "stuck"
     "syntax"
     "target"

@@ -1,7 +1,9 @@
 //! Parts of a graph that have to run on one thread.
 
+use super::pace::{self, synchronous};
 use crate::{
     analyse::{Analysis, circles, has_rates},
+    catalog::Catalog,
     graph::{Connection, Crossing, Graph, NodeId, NodeKind, PortId, ScopeId},
     report::{Diagnostic, Diagnostics},
 };
@@ -11,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const MAX_GROUPS: usize = 64;
 
 /// Reports parts of the graph that are split over several thread groups but have to run on one thread.
-pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) {
+pub fn check(graph: &Graph, analysis: &Analysis, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     for node in &graph.nodes {
         if let NodeKind::Each(each) = &node.kind {
             check_body(&each.body, diagnostics);
@@ -31,6 +33,7 @@ pub fn check(graph: &Graph, analysis: &Analysis, diagnostics: &mut Diagnostics) 
     check_rates(graph, analysis, diagnostics);
     check_reset(graph, analysis, diagnostics);
     check_sides(graph, diagnostics);
+    pace::check(graph, analysis, catalog, diagnostics);
 }
 
 /// Reports thread groups in the body of an `each`, which runs on the thread of the `each`.
@@ -60,12 +63,6 @@ fn check_watch(graph: &Graph, is_alone: bool, diagnostics: &mut Diagnostics) {
         let error = Diagnostic::error("threads", c.span, message);
         diagnostics.push(error.note(format!("run `{node}` on its own thread with `on`, or connect `hung` to `abort`")));
     }
-}
-
-/// Synchronous connections between groups.
-fn synchronous(graph: &Graph) -> impl Iterator<Item = &Connection> {
-    let crosses = |c: &&Connection| graph.group(c.from.node) != graph.group(c.to.node);
-    graph.connections.iter().filter(|c| graph.is_synchronous(c)).filter(crosses)
 }
 
 fn groups(graph: &Graph, from: NodeId, to: NodeId) -> String {

@@ -6,6 +6,7 @@
 //! receiving group it is an event. Each group is therefore analysed, and runs, like any other graph.
 
 mod check;
+mod pace;
 mod split;
 
 use crate::{

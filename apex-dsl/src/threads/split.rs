@@ -1,8 +1,8 @@
 //! Splits a graph into one graph per thread group.
 
-use super::{Cell, Origin, Part, Split};
+use super::{Cell, Origin, Part, Split, pace::paced};
 use crate::{
-    analyse::{self, Analysis, Guard},
+    analyse::{self, Analysis},
     catalog::Catalog,
     graph::{
         CellEnd, Connection, ConnectionId, Crossing, Graph, Modifiers, Node, NodeId, NodeKind, Port, PortId, ScopeId,
@@ -12,7 +12,7 @@ use crate::{
     report::Diagnostics,
     syntax::tree::PortKind,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Splits a checked graph; `None` if all its nodes are in one group.
 pub fn split(whole: &Graph, analysis: &Analysis, catalog: &Catalog) -> Option<Split> {
@@ -220,49 +220,15 @@ impl Splitter<'_> {
 
     /// Lets the sources of tokens that other threads take together with those of a timer, an input or an event fire
     /// with these, as they would on one thread. Where what sets the pace is on another thread, too, they fire when
-    /// there is room.
+    /// there is room, of which `pace::check` warns.
     fn pace_sources(&mut self) {
-        for node in self.before_cells() {
-            let (Some(group), Some(placed)) = (self.group_of[node], self.placed[node]) else { continue };
-            let Some(paces) = self.paces(node) else { continue };
+        for (source, paces) in paced(self.whole, self.analysis, self.catalog) {
+            let (Some(group), Some(placed)) = (self.group_of[source], self.placed[source]) else { continue };
             if paces.iter().all(|pace| self.group_of[*pace] == Some(group)) {
                 let paces = paces.into_iter().filter_map(|pace| self.placed[pace]).collect();
                 self.drafts[group].graph.paced.insert(placed, paces);
             }
         }
-    }
-
-    /// Nodes whose tokens go to other threads, and the nodes upstream of them on their threads.
-    fn before_cells(&self) -> BTreeSet<NodeId> {
-        let mut found = BTreeSet::new();
-        let mut ends: Vec<NodeId> = self.cells.iter().map(|cell| cell.from.node).collect();
-        while let Some(node) = ends.pop() {
-            if found.insert(node) {
-                let into = self.analysis.links.into[node].iter().map(|c| self.whole.connections[*c].from.node);
-                ends.extend(into.filter(|from| self.group_of[*from] == self.group_of[node]));
-            }
-        }
-        found
-    }
-
-    /// Nodes that determine when a source without a period fires, as its consumers take other tokens, too. `None` for
-    /// other nodes.
-    fn paces(&self, source: NodeId) -> Option<BTreeSet<NodeId>> {
-        let Analysis { links, clusters, cluster_of, guards, .. } = self.analysis;
-        if !analyse::is_source(self.whole, self.catalog, links, source) {
-            return None;
-        }
-        let mut paces = BTreeSet::new();
-        for guard in &clusters[cluster_of[source]].guards {
-            match guards[*guard] {
-                Guard::Timer(node) | Guard::Input(node) => paces.insert(node),
-                Guard::Token(connection) => paces.insert(self.whole.connections[connection].to.node),
-                Guard::Events(_) => continue,
-                Guard::React => return None,
-            };
-        }
-        paces.remove(&source);
-        Some(paces).filter(|paces| !paces.is_empty())
     }
 
     /// Returns `true` if the tokens of a node may carry activity. In its part the receiver does not know it.
