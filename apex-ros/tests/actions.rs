@@ -62,6 +62,47 @@ impl Count {
     }
 }
 
+/// Word for what becomes of a goal.
+#[derive(Clone, Copy)]
+pub struct Word(&'static str);
+
+/// Puts all that becomes of goals on one port: two ports have no order, since a thread waits for each of them.
+#[node]
+pub struct Fate;
+
+#[node]
+impl Fate {
+    #[slot]
+    fn accepted(&mut self, word: Event<Word>) {
+        word.emit(Word("accepted"));
+    }
+
+    #[slot]
+    fn succeeded(&mut self, word: Event<Word>) {
+        word.emit(Word("succeeded"));
+    }
+
+    #[slot]
+    fn aborted(&mut self, word: Event<Word>) {
+        word.emit(Word("aborted"));
+    }
+
+    #[slot]
+    fn canceled(&mut self, word: Event<Word>) {
+        word.emit(Word("canceled"));
+    }
+
+    #[slot]
+    fn rejected(&mut self, word: Event<Word>) {
+        word.emit(Word("rejected"));
+    }
+
+    #[slot]
+    fn lost(&mut self, word: Event<Word>) {
+        word.emit(Word("lost"));
+    }
+}
+
 graph!("actions.afg");
 
 /// A program that runs beside ROS until it is dropped.
@@ -105,8 +146,8 @@ struct Asker {
     action: String,
     want: PortSender<FibonacciGoal>,
     stop: PortSender<()>,
-    /// Names of the events.
-    events: Collected<&'static str>,
+    /// What becomes of the goals, in its order.
+    fates: Collected<&'static str>,
     feedback: Collected<Vec<i32>>,
     results: Collected<Vec<i32>>,
     said: Collected<String>,
@@ -130,24 +171,16 @@ impl Asker {
         let (orders, reports) = (ports.event(|events| &mut events.orders), ports.input(|inputs| &mut inputs.reports));
         let goals = ros.send_goals::<Fibonacci>(action).timeout(timeout);
         goals.through(orders, reports).expect("an action");
-        let (events, feedback, results) = (Collected::new(), Collected::new(), Collected::new());
-        let named = |name: &'static str| {
-            let events = events.clone();
-            move |()| events.add(name)
-        };
-        collect(ports.event(|events| &mut events.accepted), named("accepted"));
-        collect(ports.event(|events| &mut events.succeeded), named("succeeded"));
-        collect(ports.event(|events| &mut events.aborted), named("aborted"));
-        collect(ports.event(|events| &mut events.canceled), named("canceled"));
-        collect(ports.event(|events| &mut events.rejected), named("rejected"));
-        collect(ports.event(|events| &mut events.lost), named("lost"));
+        let (fates, feedback, results) = (Collected::new(), Collected::new(), Collected::new());
+        let add = fates.collector();
+        collect(ports.event(|events| &mut events.fates), move |Word(word)| add(word));
         let add = feedback.collector();
         collect(ports.event(|events| &mut events.feedback), move |feedback| add(feedback.sequence));
         let add = results.collector();
         collect(ports.event(|events| &mut events.result), move |result| add(result.sequence));
         let (want, stop) = (ports.input(|inputs| &mut inputs.want), ports.input(|inputs| &mut inputs.stop));
         let (action, running) = (format!("/{action}"), Running::start(ros, Asking::new(), ports));
-        Self { action, want, stop, events, feedback, results, said, running }
+        Self { action, want, stop, fates, feedback, results, said, running }
     }
 
     fn at(router: &Router, name: &str) -> Self {
@@ -178,8 +211,9 @@ impl Asker {
         self.stop.send(()).expect("it runs");
     }
 
-    fn expect(&self, seconds: f32, events: &[&str]) -> Duration {
-        within(seconds, &format!("{events:?}, but {:?}", self.said.all()), || self.events.all() == events)
+    fn expect(&self, seconds: f32, fates: &[&str]) {
+        self.fates.wait(Duration::from_secs_f32(seconds), |all| all == fates);
+        assert_eq!(self.fates.all(), fates, "within {seconds} s; said: {:?}", self.said.all());
     }
 
     /// The result of order 8, and parts of it before.
@@ -193,9 +227,9 @@ impl Asker {
     }
 
     /// Nothing more happens.
-    fn expect_no_more(&self, events: &[&str]) {
+    fn expect_no_more(&self, fates: &[&str]) {
         thread::sleep(Duration::from_millis(500));
-        assert_eq!(self.events.all(), events);
+        assert_eq!(self.fates.all(), fates);
     }
 }
 
@@ -526,7 +560,7 @@ fn goals_of_a_run_with_a_seed_have_the_same_identifications() {
         asker.meets();
         for count in 1..=3 {
             asker.want(3);
-            within(15.0, "a goal", || ids.all().len() == count && asker.events.all().len() == count);
+            within(15.0, "a goal", || ids.all().len() == count && asker.fates.all().len() == count);
         }
         ids.all()
     };
