@@ -146,7 +146,7 @@ struct Asker {
     action: String,
     want: PortSender<FibonacciGoal>,
     stop: PortSender<()>,
-    /// What becomes of the goals, in its order.
+    /// Words for what becomes of the goals, in its order.
     fates: Collected<&'static str>,
     feedback: Collected<Vec<i32>>,
     results: Collected<Vec<i32>>,
