@@ -1,6 +1,6 @@
 use super::{
     Cluster,
-    voxel::{VoxelTable, Voxels},
+    voxel::{Voxel, VoxelTable, Voxels},
 };
 use crate::math::sets::Sets;
 use apex_rt::{Out, node};
@@ -15,7 +15,7 @@ const NONE: u32 = u32::MAX;
 /// gap may be longer by `spread` for each metre of distance from the origin. A cluster has at least `min_points`
 /// points. The sizes of clusters are those of the means of their voxels. They are in the order of their first voxels.
 ///
-/// Cost: O(n) for n voxels, times the number of voxels within a gap. Allocates with the first cloud, and whenever one
+/// Cost: O(n) for n voxels, times the number of voxels in the columns within a gap. Allocates with the first cloud, and whenever one
 /// is larger than all before it.
 #[node]
 #[derive(Debug, Clone)]
@@ -29,7 +29,10 @@ pub struct EuclideanClusters {
     /// Minimum number of points of a cluster.
     #[param(default = 4, range = 1..=1_000_000)]
     min_points: u32,
-    table: VoxelTable,
+    /// Voxels by their columns along z: the last one of each.
+    columns: VoxelTable,
+    /// The voxel before each one in its column.
+    below: Vec<Option<u32>>,
     sets: Sets,
     numbers: Vec<u32>,
 }
@@ -39,13 +42,14 @@ impl EuclideanClusters {
     fn process(&mut self, voxels: &Voxels, clusters: &mut Out<Vec<Cluster>>) {
         let out = clusters.get_mut();
         out.clear();
-        self.table.reset(voxels.voxels.len());
+        self.columns.reset(voxels.voxels.len());
+        self.below.clear();
         self.sets.clear();
         for i in 0..voxels.voxels.len() as u32 {
             self.sets.add();
-            self.table.insert(i, &voxels.voxels);
+            self.join(voxels, i);
+            self.below.push(self.columns.put(i, |number| column_of(&voxels.voxels[number as usize])));
         }
-        (0..voxels.voxels.len()).for_each(|i| self.join(voxels, i));
         self.numbers.clear();
         self.numbers.resize(self.sets.len(), NONE);
         for (i, voxel) in voxels.voxels.iter().enumerate() {
@@ -61,31 +65,34 @@ impl EuclideanClusters {
     }
 
     /// Joins a voxel with those before it that are near.
-    fn join(&mut self, voxels: &Voxels, i: usize) {
-        let voxel = &voxels.voxels[i];
+    fn join(&mut self, voxels: &Voxels, i: u32) {
+        let voxel = &voxels.voxels[i as usize];
         let range = libm::sqrtf(voxel.mean.iter().map(|c| c * c).sum());
         let up = self.gap + self.spread * range;
-        let cells = |gap: f32| (libm::ceilf(gap / voxels.side) as i16).clamp(1, 40);
-        let (level, high) = (cells(self.gap), cells(up));
+        let level = (libm::ceilf(self.gap / voxels.side) as i16).clamp(1, 40);
+        let [x, y, _] = voxel.cell;
         for dx in -level..=level {
             for dy in -level..=level {
-                for dz in -high..=high {
-                    let [x, y, z] = voxel.cell;
-                    let cell = [x.saturating_add(dx), y.saturating_add(dy), z.saturating_add(dz)];
-                    let Some(other) = self.table.find(cell, &voxels.voxels) else { continue };
-                    if other as usize >= i {
-                        continue;
-                    }
+                let column = [x.saturating_add(dx), y.saturating_add(dy), 0];
+                let mut next = self.columns.find(column, |number| column_of(&voxels.voxels[number as usize]));
+                while let Some(other) = next {
                     let mean = &voxels.voxels[other as usize].mean;
                     let d: [f32; 3] =
                         std::array::from_fn(|k| (voxel.mean[k] - mean[k]) / if k == 2 { up } else { self.gap });
                     if d.iter().map(|c| c * c).sum::<f32>() <= 1.0 {
-                        self.sets.join(i as u32, other);
+                        self.sets.join(i, other);
                     }
+                    next = self.below[other as usize];
                 }
             }
         }
     }
+}
+
+/// Column of a voxel along z.
+fn column_of(voxel: &Voxel) -> [i16; 3] {
+    let [x, y, _] = voxel.cell;
+    [x, y, 0]
 }
 
 #[cfg(test)]

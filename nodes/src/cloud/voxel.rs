@@ -38,7 +38,7 @@ impl Clone for Voxels {
     }
 }
 
-/// Table of the voxels by their cells, with open addressing.
+/// Table of voxels by their cells, or by other numbers along the axes, with open addressing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct VoxelTable {
     places: Vec<u32>,
@@ -53,14 +53,14 @@ impl VoxelTable {
     }
 
     /// Place of a cell: that of its voxel, or an empty one.
-    fn place(&self, cell: [i16; 3], voxels: &[Voxel]) -> usize {
+    fn place(&self, cell: [i16; 3], cell_of: impl Fn(u32) -> [i16; 3]) -> usize {
         let [x, y, z] = cell.map(|c| u32::from(c as u16));
         let hash = (x.wrapping_mul(73_856_093)) ^ (y.wrapping_mul(19_349_663)) ^ (z.wrapping_mul(83_492_791));
         let mask = self.places.len() - 1;
         let mut at = (hash ^ (hash >> 15)) as usize & mask;
         loop {
             let number = self.places[at];
-            if number == EMPTY || voxels[number as usize].cell == cell {
+            if number == EMPTY || cell_of(number) == cell {
                 return at;
             }
             at = (at + 1) & mask;
@@ -68,24 +68,21 @@ impl VoxelTable {
     }
 
     /// Number of the voxel of a cell.
-    pub fn find(&self, cell: [i16; 3], voxels: &[Voxel]) -> Option<u32> {
-        let number = self.places[self.place(cell, voxels)];
+    pub fn find(&self, cell: [i16; 3], cell_of: impl Fn(u32) -> [i16; 3]) -> Option<u32> {
+        let number = self.places[self.place(cell, cell_of)];
         (number != EMPTY).then_some(number)
     }
 
-    /// Notes a voxel by its number. Returns `false` if another one has its cell.
-    pub fn insert(&mut self, number: u32, voxels: &[Voxel]) -> bool {
-        let place = self.place(voxels[number as usize].cell, voxels);
-        let is_free = self.places[place] == EMPTY;
-        if is_free {
-            self.places[place] = number;
-        }
-        is_free
+    /// Notes a voxel by its number. Returns the one that had its cell before.
+    pub fn put(&mut self, number: u32, cell_of: impl Fn(u32) -> [i16; 3]) -> Option<u32> {
+        let place = self.place(cell_of(number), cell_of);
+        let before = std::mem::replace(&mut self.places[place], number);
+        (before != EMPTY).then_some(before)
     }
 
     /// Number of the voxel of a cell, which is added if it is not there.
     pub fn find_or_add(&mut self, cell: [i16; 3], voxels: &mut Vec<Voxel>) -> u32 {
-        let place = self.place(cell, voxels);
+        let place = self.place(cell, |number| voxels[number as usize].cell);
         if self.places[place] == EMPTY {
             self.places[place] = voxels.len() as u32;
             voxels.push(Voxel { mean: [0.0; 3], count: 0, cell });
