@@ -1,12 +1,19 @@
-//! Inputs of the kernels, as files that all processes read: an image `NAME` of bytes, with its size in `NAME.size`.
+//! Inputs of the kernels, as files that all processes read: an image `NAME` of bytes, with its size in `NAME.size`, and
+//! points as numbers of 32 bits.
 
 use apex_nodes::{
+    cloud::{Columns, VoxelGrid, Voxels},
     image::{AdaptiveThreshold, Edges, GrayImage, Region},
     math::Random,
 };
 use apex_rt::{Construct, Out};
 use image::{ImageBuffer, Luma, Rgb, imageops::FilterType};
 use std::{fs, path::Path};
+
+/// Points of a cloud: as many as a turn of a scanner with 16 rings has.
+const POINTS: usize = 28_800;
+/// Things of the cloud.
+const THINGS: usize = 150;
 
 /// Writes all inputs. Those of recordings are left out if the recordings are missing.
 pub fn write(folder: &Path) -> Result<(), String> {
@@ -16,6 +23,9 @@ pub fn write(folder: &Path) -> Result<(), String> {
         write_image(folder, &format!("{name}_binary"), &binary(&image))?;
         write_image(folder, &format!("{name}_edges"), &edges(&image))?;
     }
+    let cloud = cloud(&mut Random::new(7));
+    write_points(folder, "cloud", &cloud)?;
+    write_points(folder, "voxels", &voxels(&columns(&cloud)).voxels.iter().map(|v| v.mean).collect::<Vec<_>>())?;
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
     if let Ok(bytes) = fs::read(data.join("persons_image/frames/f0000.jpg")) {
         fs::write(folder.join("photo.jpg"), &bytes).map_err(|e| e.to_string())?;
@@ -49,6 +59,49 @@ pub fn read(folder: &Path, name: &str) -> Option<GrayImage> {
     let (width, height) = size.split_once(' ')?;
     let bytes = fs::read(folder.join(name)).ok()?;
     Some(ImageBuffer::from_raw(width.parse().ok()?, height.parse().ok()?, bytes)?.into())
+}
+
+fn write_points(folder: &Path, name: &str, points: &[[f32; 3]]) -> Result<(), String> {
+    let bytes: Vec<u8> = points.as_flattened().iter().flat_map(|c| c.to_le_bytes()).collect();
+    fs::write(folder.join(name), bytes).map_err(|e| format!("{}: {e}", folder.display()))
+}
+
+/// Reads the cloud; `None` if there is none.
+pub fn read_cloud(folder: &Path) -> Option<Columns> {
+    let bytes = fs::read(folder.join("cloud")).ok()?;
+    let numbers: Vec<f32> = bytes.as_chunks().0.iter().map(|c| f32::from_le_bytes(*c)).collect();
+    Some(columns(numbers.as_chunks().0))
+}
+
+/// Upright things of the size of a person, on a field of 60 m × 60 m.
+fn cloud(random: &mut Random) -> Vec<[f32; 3]> {
+    let mut points = vec![];
+    for _ in 0..THINGS {
+        let [x, y] = [(); 2].map(|()| random.uniform(-30.0, 30.0));
+        points.extend((0..POINTS / THINGS).map(|_| {
+            let [dx, dy] = [(); 2].map(|()| random.uniform(-0.2, 0.2));
+            [x + dx, y + dy, random.uniform(0.0, 1.8)]
+        }));
+    }
+    points
+}
+
+fn columns(points: &[[f32; 3]]) -> Columns {
+    let of = |axis: usize| points.iter().map(|point| point[axis]).collect();
+    let intensity = vec![0.0; points.len()];
+    Columns { height: 16, x: of(0), y: of(1), z: of(2), intensity, ..Columns::default() }
+}
+
+/// Grid that the robot that follows a runner has.
+pub fn grid() -> VoxelGrid {
+    VoxelGrid::construct((0.2, 35.0))
+}
+
+/// Voxels of a cloud.
+pub fn voxels(columns: &Columns) -> Voxels {
+    let mut out = Out::new();
+    grid().process(columns, None, &mut out);
+    out.get().cloned().unwrap_or_default()
 }
 
 /// Discs and bars with noise, on a ground whose light changes.

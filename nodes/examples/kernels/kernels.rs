@@ -1,7 +1,8 @@
 //! Kernels of the library, by the names of the rows of the table.
 
-use super::inputs::{read, whole};
+use super::inputs::{grid, read, read_cloud, voxels, whole};
 use apex_nodes::{
+    cloud::EuclideanClusters,
     image::{
         AdaptiveThreshold, BlackHat, Blobs, Close, ColorImage, Edges, Erode, FindBlobs, GrayImage, Open,
         ProbabilisticHough, Region, Regions, bar_code, to_gray,
@@ -19,7 +20,7 @@ use std::{
 };
 
 /// Names of the kernels, the libraries beside them, and the goals.
-pub const ROWS: [(&str, &str, &str); 21] = [
+pub const ROWS: [(&str, &str, &str); 23] = [
     ("canny large", "OpenCV", "1.5"),
     ("canny small", "OpenCV", "1.5"),
     ("erode 1", "OpenCV", "1.2"),
@@ -41,6 +42,8 @@ pub const ROWS: [(&str, &str, &str); 21] = [
     ("bar code, Code 128", "zxing-cpp", "1.5"),
     ("jpeg photo", "libjpeg-turbo", "1.2"),
     ("jpeg colors", "libjpeg-turbo", "1.2"),
+    ("cloud voxels", "small_gicp", "1"),
+    ("cloud clusters", "scipy", "1"),
 ];
 
 /// Kernel with its input and its last result.
@@ -97,6 +100,14 @@ impl Kernel {
             "bar code, none in discs" => image("large").map(code),
             "bar code, Code 128" => image("code128").map(code),
             "jpeg photo" | "jpeg colors" => fs::read(folder.join(format!("{word}.jpg"))).ok().map(jpeg),
+            "cloud voxels" => read_cloud(folder).map(|columns| {
+                let mut node = grid();
+                Self::of(move |out| node.process(&columns, None, out), text)
+            }),
+            "cloud clusters" => read_cloud(folder).map(|columns| {
+                let (mut node, voxels) = (EuclideanClusters::construct((0.35, 0.0, 1)), voxels(&columns));
+                Self::of(move |out| node.process(&voxels, out), text)
+            }),
             other => return Err(format!("no kernel has the name `{other}`")),
         })
     }

@@ -1,6 +1,6 @@
-//! Thread CPU times of the image kernels of the library beside those of the libraries that a user would take instead,
-//! from their Python wheels (`pip install "opencv-python-headless<5" numpy zxing-cpp simplejpeg`): the same inputs, one
-//! thread each, in turns.
+//! Thread CPU times of the kernels of the library, for images and clouds, beside those of the libraries that a user
+//! would take instead, from their Python wheels (`pip install "opencv-python-headless<5" numpy zxing-cpp simplejpeg
+//! small_gicp scipy`): the same inputs, one thread each, in turns.
 //!
 //! ```text
 //! cargo build --release -p apex-nodes --example kernels
@@ -23,7 +23,7 @@ use server::{Answer, Server};
 const USAGE: &str = "usage: kernels [--native PROGRAM] [--python PROGRAM] [--rounds N] [NAME…]
 
   --native PROGRAM  this program, built with `-C target-cpu=native`
-  --python PROGRAM  Python with opencv-python-headless below 5, zxing-cpp and simplejpeg [python3]
+  --python PROGRAM  Python with opencv-python-headless below 5, zxing-cpp, simplejpeg, small_gicp and scipy [python3]
   --rounds N        rounds, of which the medians are printed [15]
   NAME…             only the kernels whose names begin so";
 

@@ -9,7 +9,11 @@ import time
 import cv2
 import numpy
 import simplejpeg
+import small_gicp
 import zxingcpp
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 FORMATS = [zxingcpp.BarcodeFormat.Code128, zxingcpp.BarcodeFormat.Code39, zxingcpp.BarcodeFormat.EAN13,
            zxingcpp.BarcodeFormat.EAN8, zxingcpp.BarcodeFormat.ITF]
@@ -39,7 +43,27 @@ def hog():
     return lambda: describe.compute(cv2.resize(crop, (32, 64), interpolation=cv2.INTER_AREA))
 
 
+def points(name):
+    return numpy.fromfile(folder / name, numpy.float32).reshape(-1, 3).astype(numpy.float64)
+
+
+def voxels(cloud):
+    return lambda: small_gicp.voxelgrid_sampling(cloud, 0.2)
+
+
+def clusters(means):
+    def find():
+        pairs = cKDTree(means).query_pairs(0.35, output_type="ndarray")
+        graph = coo_array((numpy.ones(len(pairs), bool), pairs.T), (len(means), len(means)))
+        return connected_components(graph, directed=False)
+    return find
+
+
 def act(kernel):
+    if kernel == "cloud voxels":
+        return voxels(points("cloud"))
+    if kernel == "cloud clusters":
+        return clusters(points("voxels"))
     name, _, word = kernel.rpartition(" ")
     if name == "canny":
         pixels = image(word)

@@ -15,8 +15,8 @@ const NONE: u32 = u32::MAX;
 /// gap may be longer by `spread` for each metre of distance from the origin. A cluster has at least `min_points`
 /// points. The sizes of clusters are those of the means of their voxels. They are in the order of their first voxels.
 ///
-/// Cost: O(n) for n voxels, times the number of voxels in the columns within a gap. Allocates with the first cloud, and whenever one
-/// is larger than all before it.
+/// Cost: O(n) for n voxels, times the number of voxels in the columns within a gap. Allocates with the first cloud, and
+/// whenever one is larger than all before it.
 #[node]
 #[derive(Debug, Clone)]
 pub struct EuclideanClusters {
