@@ -76,22 +76,13 @@ impl Builder<'_> {
         let message = format!("`{}` has no port `{}`", node.text, port.text);
         let error = unknown("unknown-port", message.clone(), port, &uses, &known).unwrap_or_else(|| {
             let error = Diagnostic::error("unknown-port", port.span, message);
-            suggest(error, port, self.standards_at(body, *owner, port).map(Standard::name))
+            self.suggest_standard(error, body, (*owner, ports), port)
         });
         let shown: Vec<&Candidate> = ports.iter().filter(|p| !p.parameter).collect();
         let error = error.note(match list(&shown) {
             ports if ports.is_empty() => format!("`{}` has no ports", node.text),
             ports => format!("`{}` has {ports}", node.text),
         });
-        let is_for_activity = ACTIVITY.contains(&port.text.as_str()) && near.is_none();
-        let has_slot = ports.iter().any(|port| port.kind == PortKind::Slot);
-        let error = match owner {
-            Owner::Node(_) if is_for_activity && !has_slot => {
-                let help = "a node without slots gets activity by `enable`, which every node has";
-                error.guess(help, port.span, Standard::Enable.name())
-            }
-            _ => error,
-        };
         let is_standard = Standard::ALL.iter().any(|standard| standard.name() == port.text);
         self.diagnostics.push(match (is_standard, owner) {
             (true, Owner::Scope(_)) => error.note("nodes have this port, but nested graphs do not"),
@@ -100,20 +91,38 @@ impl Builder<'_> {
         });
     }
 
+    /// Adds the standard port that may be meant by `port` as a fix: one that resembles it, or `enable` for the activity
+    /// of a node without slots.
+    fn suggest_standard(
+        &self,
+        error: Diagnostic,
+        body: &Body<'_>,
+        (owner, ports): (Owner, &[Candidate]),
+        port: &Ident,
+    ) -> Diagnostic {
+        let standards = self.standards_at(body, owner, port);
+        let has_slot = ports.iter().any(|port| port.kind == PortKind::Slot);
+        let is_activity = ACTIVITY.contains(&port.text.as_str()) && standards.contains(&Standard::Enable);
+        if is_activity && !has_slot && matches!(owner, Owner::Node(_)) {
+            let help = "a node without slots gets activity by `enable`, which every node has";
+            return error.guess(help, port.span, Standard::Enable.name());
+        }
+        suggest(error, port, standards.into_iter().map(Standard::name))
+    }
+
     /// The standard ports of `owner` that can be where `port` is written: slots behind an arrow, events before one.
-    fn standards_at(&self, body: &Body<'_>, owner: Owner, port: &Ident) -> impl Iterator<Item = Standard> {
-        let has_them = match owner {
-            Owner::Node(node) => matches!(self.nodes[node].kind, NodeKind::Library(_)),
-            Owner::Scope(_) => true,
-        };
+    fn standards_at(&self, body: &Body<'_>, owner: Owner, port: &Ident) -> Vec<Standard> {
         let place = body.item.chains.iter().find_map(|chain| {
             let at = chain.ends.iter().position(|end| end.span().contains(port.span))?;
             Some((at > 0, at + 1 < chain.ends.len()))
         });
         let (takes, sends) = place.unwrap_or((true, true));
-        let fits = move |standard: &Standard| if standard.kind() == PortKind::Slot { takes } else { sends };
-        let is_there = move |standard: &Standard| matches!(owner, Owner::Node(_)) || standard.is_shared();
-        Standard::ALL.into_iter().filter(move |standard| has_them && is_there(standard) && fits(standard))
+        let has = |standard: &Standard| match owner {
+            Owner::Node(node) => matches!(self.nodes[node].kind, NodeKind::Library(_)),
+            Owner::Scope(_) => standard.is_shared(),
+        };
+        let fits = |standard: &Standard| if standard.kind() == PortKind::Slot { takes } else { sends };
+        Standard::ALL.into_iter().filter(|standard| has(standard) && fits(standard)).collect()
     }
 
     /// The places in source file `file` that use the port name: behind the name of a node, or inside the graph at
