@@ -27,7 +27,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
     },
     thread::{self, JoinHandle},
-    time::Duration,
+    time::{Duration, Instant},
 };
 use zenoh::Wait as _;
 
@@ -211,9 +211,12 @@ impl Asker {
         self.stop.send(()).expect("it runs");
     }
 
-    fn expect(&self, seconds: f32, fates: &[&str]) {
+    /// Waits until exactly this has become of the goals. Returns how long it took.
+    fn expect(&self, seconds: f32, fates: &[&str]) -> Duration {
+        let start = Instant::now();
         self.fates.wait(Duration::from_secs_f32(seconds), |all| all == fates);
         assert_eq!(self.fates.all(), fates, "within {seconds} s; said: {:?}", self.said.all());
+        start.elapsed()
     }
 
     /// The result of order 8, and parts of it before.
