@@ -62,47 +62,6 @@ impl Count {
     }
 }
 
-/// Word for what becomes of a goal.
-#[derive(Clone, Copy)]
-pub struct Word(&'static str);
-
-/// Puts all that becomes of goals on one port: two ports have no order, since a thread waits for each of them.
-#[node]
-pub struct Fate;
-
-#[node]
-impl Fate {
-    #[slot]
-    fn accepted(&mut self, word: Event<Word>) {
-        word.emit(Word("accepted"));
-    }
-
-    #[slot]
-    fn succeeded(&mut self, word: Event<Word>) {
-        word.emit(Word("succeeded"));
-    }
-
-    #[slot]
-    fn aborted(&mut self, word: Event<Word>) {
-        word.emit(Word("aborted"));
-    }
-
-    #[slot]
-    fn canceled(&mut self, word: Event<Word>) {
-        word.emit(Word("canceled"));
-    }
-
-    #[slot]
-    fn rejected(&mut self, word: Event<Word>) {
-        word.emit(Word("rejected"));
-    }
-
-    #[slot]
-    fn lost(&mut self, word: Event<Word>) {
-        word.emit(Word("lost"));
-    }
-}
-
 graph!("actions.afg");
 
 /// A program that runs beside ROS until it is dropped.
@@ -147,7 +106,7 @@ struct Asker {
     want: PortSender<FibonacciGoal>,
     stop: PortSender<()>,
     /// Words for what becomes of the goals, in its order.
-    fates: Collected<&'static str>,
+    fates: Collected<String>,
     feedback: Collected<Vec<i32>>,
     results: Collected<Vec<i32>>,
     said: Collected<String>,
@@ -173,7 +132,7 @@ impl Asker {
         goals.through(orders, reports).expect("an action");
         let (fates, feedback, results) = (Collected::new(), Collected::new(), Collected::new());
         let add = fates.collector();
-        collect(ports.event(|events| &mut events.fates), move |Word(word)| add(word));
+        collect(ports.event(|events| &mut events.fates), add);
         let add = feedback.collector();
         collect(ports.event(|events| &mut events.feedback), move |feedback| add(feedback.sequence));
         let add = results.collector();
