@@ -131,8 +131,7 @@ impl Asker {
         let goals = ros.send_goals::<Fibonacci>(action).timeout(timeout);
         goals.through(orders, reports).expect("an action");
         let (fates, feedback, results) = (Collected::new(), Collected::new(), Collected::new());
-        let add = fates.collector();
-        collect(ports.event(|events| &mut events.fates), add);
+        collect(ports.event(|events| &mut events.fates), fates.collector());
         let add = feedback.collector();
         collect(ports.event(|events| &mut events.feedback), move |feedback| add(feedback.sequence));
         let add = results.collector();

@@ -54,17 +54,24 @@ impl Builder<'_> {
 
     /// A port that every node has. It is added to the node when it is first used.
     pub fn standard_port(&mut self, owner: Owner, port: &Ident) -> Option<Candidate> {
-        let standard = Standard::ALL.into_iter().find(|s| s.name() == port.text)?;
+        let standard = Standard::ALL.into_iter().find(|s| s.name() == port.text && self.has_standard(owner, *s))?;
         let place = match owner {
             Owner::Node(node) => match standard.of_interrupt() {
                 Some(number) => WireEnd::Port(PortId { node: self.interrupt_of_node(node, port.span)?, port: number }),
                 None => WireEnd::Port(self.standard_end(node, standard)?),
             },
-            Owner::Scope(scope) if standard.is_shared() => self.shared_port(scope, standard, port.span),
-            Owner::Scope(_) => return None,
+            Owner::Scope(scope) => self.shared_port(scope, standard, port.span),
         };
         let (name, kind, ty) = (port.text.clone(), standard.kind(), standard.ty());
         Some(Candidate { name, kind, ty, place, parameter: false })
+    }
+
+    /// Returns `true` if a node or nested graph has this port.
+    pub fn has_standard(&self, owner: Owner, standard: Standard) -> bool {
+        match owner {
+            Owner::Node(node) => matches!(self.nodes[node].kind, NodeKind::Library(_)),
+            Owner::Scope(_) => standard.is_shared(),
+        }
     }
 
     fn standard_end(&mut self, node: NodeId, standard: Standard) -> Option<PortId> {

@@ -6,7 +6,7 @@ use super::{
     table::{Candidate, Owner, Symbol, Table, list},
 };
 use crate::{
-    graph::{NodeKind, Standard, WireEnd},
+    graph::{Standard, WireEnd},
     report::{Diagnostic, nearest_within},
     source::Span,
     syntax::tree::{Ident, PortKind, PortRef},
@@ -117,12 +117,8 @@ impl Builder<'_> {
             Some((at > 0, at + 1 < chain.ends.len()))
         });
         let (takes, sends) = place.unwrap_or((true, true));
-        let has = |standard: &Standard| match owner {
-            Owner::Node(node) => matches!(self.nodes[node].kind, NodeKind::Library(_)),
-            Owner::Scope(_) => standard.is_shared(),
-        };
-        let fits = |standard: &Standard| if standard.kind() == PortKind::Slot { takes } else { sends };
-        Standard::ALL.into_iter().filter(|standard| has(standard) && fits(standard)).collect()
+        let fits = |standard: &Standard| if standard.kind().sends() { sends } else { takes };
+        Standard::ALL.into_iter().filter(|standard| self.has_standard(owner, *standard) && fits(standard)).collect()
     }
 
     /// The places in source file `file` that use the port name: behind the name of a node, or inside the graph at

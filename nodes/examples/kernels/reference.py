@@ -60,10 +60,6 @@ def clusters(means):
 
 
 def act(kernel):
-    if kernel == "cloud voxels":
-        return voxels(points("cloud"))
-    if kernel == "cloud clusters":
-        return clusters(points("voxels"))
     name, _, word = kernel.rpartition(" ")
     if name == "canny":
         pixels = image(word)
@@ -95,6 +91,10 @@ def act(kernel):
     if kernel.startswith("bar code"):
         pixels = image({"a photo without one": "photo", "none in discs": "large", "Code 128": "code128"}[kernel[10:]])
         return lambda: zxingcpp.read_barcodes(pixels, FORMATS)
+    if kernel == "cloud voxels":
+        return voxels(points("cloud"))
+    if kernel == "cloud clusters":
+        return clusters(points("voxels"))
     raise ValueError(kernel)
 
 

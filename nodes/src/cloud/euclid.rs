@@ -1,6 +1,6 @@
 use super::{
     Cluster,
-    voxel::{Voxel, VoxelTable, Voxels},
+    voxel::{VoxelTable, Voxels},
 };
 use crate::math::sets::Sets;
 use apex_rt::{Out, node};
@@ -32,7 +32,7 @@ pub struct EuclideanClusters {
     /// Voxels by their columns along z: the last one of each.
     columns: VoxelTable,
     /// The voxel before each one in its column.
-    below: Vec<Option<u32>>,
+    previous: Vec<Option<u32>>,
     sets: Sets,
     numbers: Vec<u32>,
 }
@@ -43,12 +43,12 @@ impl EuclideanClusters {
         let out = clusters.get_mut();
         out.clear();
         self.columns.reset(voxels.voxels.len());
-        self.below.clear();
+        self.previous.clear();
         self.sets.clear();
         for i in 0..voxels.voxels.len() as u32 {
             self.sets.add();
             self.join(voxels, i);
-            self.below.push(self.columns.put(i, |number| column_of(&voxels.voxels[number as usize])));
+            self.previous.push(self.columns.put(i, |number| column_of(voxels, number)));
         }
         self.numbers.clear();
         self.numbers.resize(self.sets.len(), NONE);
@@ -74,7 +74,7 @@ impl EuclideanClusters {
         for dx in -level..=level {
             for dy in -level..=level {
                 let column = [x.saturating_add(dx), y.saturating_add(dy), 0];
-                let mut next = self.columns.find(column, |number| column_of(&voxels.voxels[number as usize]));
+                let mut next = self.columns.find(column, |number| column_of(voxels, number));
                 while let Some(other) = next {
                     let mean = &voxels.voxels[other as usize].mean;
                     let d: [f32; 3] =
@@ -82,7 +82,7 @@ impl EuclideanClusters {
                     if d.iter().map(|c| c * c).sum::<f32>() <= 1.0 {
                         self.sets.join(i, other);
                     }
-                    next = self.below[other as usize];
+                    next = self.previous[other as usize];
                 }
             }
         }
@@ -90,8 +90,8 @@ impl EuclideanClusters {
 }
 
 /// Column of a voxel along z.
-fn column_of(voxel: &Voxel) -> [i16; 3] {
-    let [x, y, _] = voxel.cell;
+fn column_of(voxels: &Voxels, number: u32) -> [i16; 3] {
+    let [x, y, _] = voxels.voxels[number as usize].cell;
     [x, y, 0]
 }
 
